@@ -1,12 +1,9 @@
 """The command `tftool help`, which prints what `--help` prints."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.app.main import main
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.declaration import Command
+from tftool.commands.shared.options import argument
 
 
 class HelpOptions(Command, shares=False):
@@ -16,7 +13,7 @@ class HelpOptions(Command, shares=False):
     tftool help echo
     """
 
-    name: Annotated[str | None, typer.Argument(metavar="[COMMAND]", help="What to explain.")] = None
+    name: str | None = argument("What to explain.", metavar="[COMMAND]")
 
 
 def run(options: HelpOptions) -> ExitStatus:

@@ -1,16 +1,13 @@
 """`tftool convert`: one rotation, or pose, in every notation."""
 
 import sys
-from typing import Annotated
-
-import typer
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.options import OUTPUT, Json, option
+from tftool.commands.shared.options import OUTPUT, Json, argument, flag, option
 from tftool.commands.shared.printer import write_json
 from tftool.drawing import notation_view as view
 from tftool.geometry.notation.notations import NAMED_FORMS
@@ -35,49 +32,29 @@ class ConvertOptions(
     ros2 run tf2_ros tf2_echo map odom | head -6 | tftool convert
     """
 
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[ROTATION]...",
-            help="Numbers or pasted text; - or nothing reads stdin.",
-            show_default=False,
-        ),
-    ] = None
-    form: Annotated[
-        str | None,
-        option(
-            f"What bare numbers are: {', '.join(NAMED_FORMS)}, or an "
-            "order of axes: s (fixed) or r (rotating) and three axes, as in sxyz or rzyx.",
-            "--as",
-            metavar="FORM",
-        ),
-    ] = None
-    degrees: Annotated[
-        bool, option("Angles are in degrees, in the input and in what --into prints.", "--degrees")
-    ] = False
-    then: Annotated[
-        list[str] | None,
-        option(
-            "Chain another one behind it: the pose of its child in the first one's parent. "
-            "Again for more.",
-            metavar="ROTATION",
-        ),
-    ] = None
-    inverse: Annotated[
-        bool, option("Turn the result round: the parent in the child.", "--inverse")
-    ] = False
-    target: Annotated[
-        str | None,
-        option(
-            "Print this form alone, in full precision: one of --as, matrix4, urdf or static.",
-            "--into",
-            metavar="FORM",
-            panel=OUTPUT,
-        ),
-    ] = None
-    all_orders: Annotated[
-        bool, option("Add all 24 orders of Euler angles.", "--all", panel=OUTPUT)
-    ] = False
+    words: list[str] | None = argument(
+        "Numbers or pasted text; - or nothing reads stdin.", metavar="[ROTATION]..."
+    )
+    form: str | None = option(
+        f"What bare numbers are: {', '.join(NAMED_FORMS)}, or an "
+        "order of axes: s (fixed) or r (rotating) and three axes, as in sxyz or rzyx.",
+        "--as",
+        metavar="FORM",
+    )
+    degrees: bool = flag("Angles are in degrees, in the input and in what --into prints.")
+    then: list[str] | None = option(
+        "Chain another one behind it: the pose of its child in the first one's parent. "
+        "Again for more.",
+        metavar="ROTATION",
+    )
+    inverse: bool = flag("Turn the result round: the parent in the child.")
+    target: str | None = option(
+        "Print this form alone, in full precision: one of --as, matrix4, urdf or static.",
+        "--into",
+        metavar="FORM",
+        panel=OUTPUT,
+    )
+    all_orders: bool = flag("Add all 24 orders of Euler angles.", "--all", panel=OUTPUT)
     for_programs: Json = False
 
 

@@ -8,13 +8,12 @@ import tempfile
 from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
-from typing import Annotated, Any, Final
-
-import typer
+from typing import Any, Final
 
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.declaration import Command
+from tftool.commands.shared.options import argument
 from tftool.opener import named
 from tftool.recordings.find import Kind
 
@@ -30,9 +29,9 @@ class McpOptions(Command, shares=False):
     tftool mcp ~/bags
     """
 
-    root: Annotated[
-        Path, typer.Argument(metavar="ROOT", help="Folder below which files may be asked about.")
-    ]
+    root: Path = argument(
+        "Folder below which files may be asked about.", default=..., metavar="ROOT"
+    )
 
 
 MOST_CHARACTERS: Final = 4000

@@ -9,15 +9,13 @@ import sys
 import tempfile
 from collections.abc import Collection, Sequence
 from pathlib import Path
-from typing import Annotated, Final
-
-import typer
+from typing import Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import count
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Json, option, refuse
+from tftool.commands.shared.options import Json, argument, flag, option, refuse
 from tftool.commands.shared.printer import write_json
 from tftool.messages.classes import INTERFACES
 from tftool.scenario.builtin import shipped
@@ -46,25 +44,20 @@ class NewOptions(Command, shares=False):
     tftool new my_world.yaml --scenario
     """
 
-    name: Annotated[
-        str,
-        typer.Argument(
-            metavar="PACKAGE", help="What to make: a package's name, or a path that ends in it."
-        ),
-    ]
-    example: Annotated[
-        str,
-        option(f"Which step of the tutorial: {', '.join(EXAMPLES)}.", "--example", metavar="STEP"),
-    ] = "follower"
-    exercise: Annotated[
-        bool, option("Leave the key lines of the step's nodes to you: TODO.", "--exercise")
-    ] = False
-    node_name: Annotated[
-        str, option("Make a package with this empty node instead.", metavar="NAME")
-    ] = ""
-    scenario: Annotated[
-        bool, option("Make a scenario of that name, and nothing else.", "--scenario")
-    ] = False
+    name: str = argument(
+        "What to make: a package's name, or a path that ends in it.", default=..., metavar="PACKAGE"
+    )
+    example: str = option(
+        f"Which step of the tutorial: {', '.join(EXAMPLES)}.",
+        "--example",
+        default="follower",
+        metavar="STEP",
+    )
+    exercise: bool = flag("Leave the key lines of the step's nodes to you: TODO.")
+    node_name: str = option(
+        "Make a package with this empty node instead.", default="", metavar="NAME"
+    )
+    scenario: bool = flag("Make a scenario of that name, and nothing else.")
     as_json: Json = False
 
 

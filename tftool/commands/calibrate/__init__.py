@@ -1,12 +1,9 @@
 """`tftool calibrate`: the mount of a sensor and its clock offset, from recorded motion."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import OUTPUT, Force, Json, option, output_file
+from tftool.commands.shared.options import OUTPUT, Force, Json, argument, flag, option, output_file
 
 MOUNT = "Mount"
 """Heading of the help."""
@@ -27,65 +24,36 @@ class CalibrateOptions(Command, shares=False, poses=True):
     tftool calibrate run.mcap est.tum --moving odom:base --urdf a.urdf -o b.urdf
     """
 
-    places: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="FROM [FROM]",
-            help="A recording or pose file with both motions, or one for each.",
-        ),
-    ]
-    moving: Annotated[
-        list[str] | None,
-        option(
-            "A motion: frames of tf, or a topic of Odometry or PoseStamped. Twice; not for a pose "
-            "file.",
-            metavar="FIXED:MOVING|TOPIC",
-        ),
-    ] = None
-    planar: Annotated[
-        bool, option("Ask for x, y and yaw alone; keep the rest of the mount.", "--planar")
-    ] = False
-    time_only: Annotated[bool, option("Measure the clock offset alone.", "--time-only")] = False
-    scale: Annotated[
-        bool, option("Estimate a scale of the first motion's translations.", "--scale")
-    ] = False
-    check: Annotated[
-        bool,
-        option("Compare the published mount; 1 where it is outside the interval.", "--check"),
-    ] = False
-    urdf: Annotated[
-        Path | None,
-        option("Description that has the mount.", "--urdf", metavar="FILE", panel=MOUNT),
-    ] = None
-    mounted: Annotated[
-        str | None,
-        option(
-            "Name of the second moving frame in tf or the description.",
-            metavar="NAME",
-            panel=MOUNT,
-        ),
-    ] = None
-    joint: Annotated[
-        str | None,
-        option(
-            "Joint whose origin is changed; the first fixed one on the way if not said.",
-            metavar="NAME",
-            panel=MOUNT,
-        ),
-    ] = None
-    seed: Annotated[
-        int, typer.Option(metavar="N", min=0, help="Seed of the numbers drawn for intervals.")
-    ] = 0
-    no_cache: Annotated[
-        bool, option("Read recordings anew, and keep no columns.", "--no-cache")
-    ] = False
-    output: Annotated[
-        Path | None,
-        output_file("Write the mount: .urdf, .launch.py, .launch.yaml, .launch.xml or .sh."),
-    ] = None
-    report: Annotated[
-        Path | None,
-        option("Write a page with curves: .html.", metavar="FILE", panel=OUTPUT),
-    ] = None
+    places: list[str] = argument(
+        "A recording or pose file with both motions, or one for each.",
+        default=...,
+        metavar="FROM [FROM]",
+    )
+    moving: list[str] | None = option(
+        "A motion: frames of tf, or a topic of Odometry or PoseStamped. Twice; not for a pose "
+        "file.",
+        metavar="FIXED:MOVING|TOPIC",
+    )
+    planar: bool = flag("Ask for x, y and yaw alone; keep the rest of the mount.")
+    time_only: bool = flag("Measure the clock offset alone.")
+    scale: bool = flag("Estimate a scale of the first motion's translations.")
+    check: bool = flag("Compare the published mount; 1 where it is outside the interval.")
+    urdf: Path | None = option(
+        "Description that has the mount.", "--urdf", metavar="FILE", panel=MOUNT
+    )
+    mounted: str | None = option(
+        "Name of the second moving frame in tf or the description.", metavar="NAME", panel=MOUNT
+    )
+    joint: str | None = option(
+        "Joint whose origin is changed; the first fixed one on the way if not said.",
+        metavar="NAME",
+        panel=MOUNT,
+    )
+    seed: int = option("Seed of the numbers drawn for intervals.", default=0, metavar="N", min=0)
+    no_cache: bool = flag("Read recordings anew, and keep no columns.")
+    output: Path | None = output_file(
+        "Write the mount: .urdf, .launch.py, .launch.yaml, .launch.xml or .sh."
+    )
+    report: Path | None = option("Write a page with curves: .html.", metavar="FILE", panel=OUTPUT)
     force: Force = False
     for_programs: Json = False

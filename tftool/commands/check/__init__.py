@@ -1,12 +1,9 @@
 """`tftool check`: play scenarios on simulated time and judge their expectations."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Json, Junit, option
+from tftool.commands.shared.options import Json, Junit, argument, flag, option
 
 
 class CheckOptions(Command, shares=False):
@@ -25,59 +22,37 @@ class CheckOptions(Command, shares=False):
     tftool check --as-ros pkg_tf
     """
 
-    scenarios: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="SCENARIO...",
-            help="Built-in scenarios by name, or scenario files: paths, globs, folders.",
-        ),
-    ] = None
-    programs: Annotated[
-        list[str] | None,
-        option(
-            "What follows 'tftool run': a program of yours in place of that node, or beside "
-            "all of them.",
-            "--run",
-            metavar="[NODE=]WORDS",
-        ),
-    ] = None
-    launched: Annotated[
-        str | None,
-        option(
-            "What follows 'tftool launch': a launch file in place of all nodes.",
-            "--launch",
-            metavar="WORDS",
-        ),
-    ] = None
-    packages: Annotated[
-        list[str] | None,
-        option(
-            "A package of yours: list what ROS 2 would not find of it, once it is built.",
-            "--as-ros",
-            metavar="PACKAGE",
-        ),
-    ] = None
-    force: Annotated[bool, option("Run them also where a real ROS 2 is sourced.", "--ros-free")] = (
-        False
+    scenarios: list[str] | None = argument(
+        "Built-in scenarios by name, or scenario files: paths, globs, folders.",
+        metavar="SCENARIO...",
     )
+    programs: list[str] | None = option(
+        "What follows 'tftool run': a program of yours in place of that node, or beside "
+        "all of them.",
+        "--run",
+        metavar="[NODE=]WORDS",
+    )
+    launched: str | None = option(
+        "What follows 'tftool launch': a launch file in place of all nodes.",
+        "--launch",
+        metavar="WORDS",
+    )
+    packages: list[str] | None = option(
+        "A package of yours: list what ROS 2 would not find of it, once it is built.",
+        "--as-ros",
+        metavar="PACKAGE",
+    )
+    force: bool = flag("Run them also where a real ROS 2 is sourced.", "--ros-free")
     junit: Junit = None
-    recordings: Annotated[
-        Path | None,
-        option(
-            "Keep a recording of each scenario in which something did not hold: NAME.mcap.",
-            "--record",
-            metavar="FOLDER",
-        ),
-    ] = None
-    strict: Annotated[
-        bool, option("A scenario with a warning, as of two parents, fails.", "--strict")
-    ] = False
-    verbose: Annotated[
-        bool,
-        option(
-            "Show what held, every line of the nodes' logs, and which folders are skipped.",
-            "--verbose",
-            "-v",
-        ),
-    ] = False
+    recordings: Path | None = option(
+        "Keep a recording of each scenario in which something did not hold: NAME.mcap.",
+        "--record",
+        metavar="FOLDER",
+    )
+    strict: bool = flag("A scenario with a warning, as of two parents, fails.")
+    verbose: bool = flag(
+        "Show what held, every line of the nodes' logs, and which folders are skipped.",
+        "--verbose",
+        "-v",
+    )
     for_programs: Json = False

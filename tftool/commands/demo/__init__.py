@@ -1,13 +1,19 @@
 """`tftool demo`: a scenario on the screen; without a terminal it is played and summarised."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Ascii, Json, Light, option, seconds_option, within
+from tftool.commands.shared.options import (
+    Ascii,
+    Json,
+    Light,
+    argument,
+    flag,
+    option,
+    seconds_option,
+    within,
+)
 
 
 class DemoOptions(Command, hosts_turtles=True, recordings=True):
@@ -24,42 +30,28 @@ class DemoOptions(Command, hosts_turtles=True, recordings=True):
     tftool demo time_travel --rate 2 --set delay=3
     """
 
-    scenario: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[FROM]",
-            help="Scenario to play, a built-in name or a file; or a recording to look at. "
-            "If not said: what runs here already, else turtles.",
-            show_default=False,
-        ),
-    ] = None
-    source_frame: Annotated[
-        str | None, option("Whom turtle2 follows: turtle1, carrot1, ...", metavar="FRAME")
-    ] = None
-    rate: Annotated[
-        float,
-        typer.Option(
-            metavar="TIMES", callback=within(0.001, 1000), help="How many times real time."
-        ),
-    ] = 1.0
-    lasting: Annotated[
-        Duration | None,
-        seconds_option("End after so many seconds of the world's time.", "--for", panel=None),
-    ] = None
-    settings: Annotated[
-        list[str] | None, option("Set any argument of the scenario.", "--set", metavar="NAME=VALUE")
-    ] = None
-    recording: Annotated[
-        Path | None,
-        option("Record the world of the demo to an .mcap file.", "--record", metavar="FILE"),
-    ] = None
-    still: Annotated[
-        bool,
-        option(
-            "Leave turtle1 alone: it does not draw by itself where no key is pressed.", "--still"
-        ),
-    ] = False
-    listing: Annotated[bool, option("List the built-in scenarios, and end.", "--list")] = False
+    scenario: str | None = argument(
+        "Scenario to play, a built-in name or a file; or a recording to look at. "
+        "If not said: what runs here already, else turtles.",
+        metavar="[FROM]",
+    )
+    source_frame: str | None = option(
+        "Whom turtle2 follows: turtle1, carrot1, ...", metavar="FRAME"
+    )
+    rate: float = option(
+        "How many times real time.", default=1.0, metavar="TIMES", callback=within(0.001, 1000)
+    )
+    lasting: Duration | None = seconds_option(
+        "End after so many seconds of the world's time.", "--for", panel=None
+    )
+    settings: list[str] | None = option(
+        "Set any argument of the scenario.", "--set", metavar="NAME=VALUE"
+    )
+    recording: Path | None = option(
+        "Record the world of the demo to an .mcap file.", "--record", metavar="FILE"
+    )
+    still: bool = flag("Leave turtle1 alone: it does not draw by itself where no key is pressed.")
+    listing: bool = flag("List the built-in scenarios, and end.", "--list")
     ascii_only: Ascii = False
     light: Light = False
     for_programs: Json = False

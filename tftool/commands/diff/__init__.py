@@ -1,9 +1,7 @@
 """`tftool diff`: what differs between two sets of frames."""
 
 from pathlib import Path
-from typing import Annotated, Literal
-
-import typer
+from typing import Literal
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -12,6 +10,8 @@ from tftool.commands.shared.options import (
     Json,
     Pairs,
     RunFor,
+    argument,
+    flag,
     not_negative,
     option,
     output_file,
@@ -39,87 +39,57 @@ class DiffOptions(Command, descriptions=True, urdf=True):
     tftool diff vicon.csv camera.csv --clock-offset
     """
 
-    first: Annotated[
-        str,
-        typer.Argument(
-            metavar="A",
-            help="A recording, a robot description, a scenario, a launch file or script of static "
-            "transforms, or the word 'session' for the one that runs.",
-        ),
-    ]
-    second: Annotated[str, typer.Argument(metavar="B", help="What it is compared with.")]
-    millimetres: Annotated[
-        float,
-        typer.Option(
-            "--mm", metavar="MM", callback=not_negative, help="How far a frame may lie elsewhere."
-        ),
-    ] = 1.0
-    degrees: Annotated[
-        float,
-        typer.Option(
-            "--deg", metavar="DEGREES", callback=not_negative, help="How far it may be turned."
-        ),
-    ] = 0.1
-    rate_percent: Annotated[
-        float | None,
-        typer.Option(
-            metavar="PERCENT",
-            callback=not_negative,
-            help="How much a rate may differ; rates do not count if not said.",
-        ),
-    ] = None
-    align: Annotated[
-        Literal["start"] | None,
-        option("Compare what moves from each one's own start, not by stamps.", metavar="start"),
-    ] = None
-    everything: Annotated[
-        bool, option("List links that do not differ, too.", "--all", panel=OUTPUT)
-    ] = False
-    ape: Annotated[
-        bool,
-        option("Measure the absolute pose error of trajectory B.", "--ape", panel=TRAJECTORIES),
-    ] = False
-    rpe: Annotated[
-        bool,
-        option("Measure its relative pose error.", "--rpe", panel=TRAJECTORIES),
-    ] = False
+    first: str = argument(
+        "A recording, a robot description, a scenario, a launch file or script of static "
+        "transforms, or the word 'session' for the one that runs.",
+        default=...,
+        metavar="A",
+    )
+    second: str = argument("What it is compared with.", default=..., metavar="B")
+    millimetres: float = option(
+        "How far a frame may lie elsewhere.",
+        "--mm",
+        default=1.0,
+        metavar="MM",
+        callback=not_negative,
+    )
+    degrees: float = option(
+        "How far it may be turned.", "--deg", default=0.1, metavar="DEGREES", callback=not_negative
+    )
+    rate_percent: float | None = option(
+        "How much a rate may differ; rates do not count if not said.",
+        metavar="PERCENT",
+        callback=not_negative,
+    )
+    align: Literal["start"] | None = option(
+        "Compare what moves from each one's own start, not by stamps.", metavar="start"
+    )
+    everything: bool = flag("List links that do not differ, too.", "--all", panel=OUTPUT)
+    ape: bool = flag("Measure the absolute pose error of trajectory B.", panel=TRAJECTORIES)
+    rpe: bool = flag("Measure its relative pose error.", panel=TRAJECTORIES)
     pairs: Pairs = None
-    clock_offset: Annotated[
-        bool,
-        option(
-            "Measure the offset between the clocks of two motions of one body, t_A = t_B + offset.",
-            "--clock-offset",
-            panel=TRAJECTORIES,
-        ),
-    ] = False
-    fit: Annotated[
-        Literal["none", "first", "se3", "sim3"],
-        option(
-            "Align B with A: by its first pose, rigidly (se3), or with a scale (sim3).",
-            panel=TRAJECTORIES,
-        ),
-    ] = "none"
-    match: Annotated[
-        Literal["nearest", "interpolate"],
-        option(
-            "Take A's nearest pose within 10 ms, or interpolate A at B's stamps.",
-            panel=TRAJECTORIES,
-        ),
-    ] = "nearest"
-    per: Annotated[
-        str,
-        option(
-            "Length over which --rpe is taken: frames (1), metres (10m) or degrees (5deg).",
-            metavar="LENGTH",
-            panel=TRAJECTORIES,
-        ),
-    ] = "1"
+    clock_offset: bool = flag(
+        "Measure the offset between the clocks of two motions of one body, t_A = t_B + offset.",
+        panel=TRAJECTORIES,
+    )
+    fit: Literal["none", "first", "se3", "sim3"] = option(
+        "Align B with A: by its first pose, rigidly (se3), or with a scale (sim3).",
+        default="none",
+        panel=TRAJECTORIES,
+    )
+    match: Literal["nearest", "interpolate"] = option(
+        "Take A's nearest pose within 10 ms, or interpolate A at B's stamps.",
+        default="nearest",
+        panel=TRAJECTORIES,
+    )
+    per: str = option(
+        "Length over which --rpe is taken: frames (1), metres (10m) or degrees (5deg).",
+        default="1",
+        metavar="LENGTH",
+        panel=TRAJECTORIES,
+    )
     lasting: RunFor = None
     for_programs: Json = False
-    markdown: Annotated[
-        bool, option("Print it for an issue on the web.", "--markdown", panel=OUTPUT)
-    ] = False
-    output: Annotated[
-        Path | None, output_file("Draw the errors of --ape and --rpe: .svg, .pdf or .png.")
-    ] = None
+    markdown: bool = flag("Print it for an issue on the web.", panel=OUTPUT)
+    output: Path | None = output_file("Draw the errors of --ape and --rpe: .svg, .pdf or .png.")
     force: Force = False

@@ -2,9 +2,6 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -16,6 +13,8 @@ from tftool.commands.shared.options import (
     Rows,
     RunFor,
     Scheduler,
+    argument,
+    flag,
     moment,
     option,
 )
@@ -46,78 +45,50 @@ class DoctorOptions(Command, looks_only=True, urdf=True):
     tftool doctor --explain split-tree
     """
 
-    places: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[FROM]...",
-            help="Whose frames: recordings (file, folder, glob) and scenarios; if not said, the "
-            "session that runs, else the turtles.",
-            show_default=False,
-        ),
-    ] = None
-    select: Annotated[
-        list[str] | None, option("Run only these checks or areas.", metavar="ID,...")
-    ] = None
-    ignore: Annotated[
-        list[str] | None, option("Leave these checks or areas out.", metavar="ID,...")
-    ] = None
-    fail_on: Annotated[FailOn, option("From what on the exit status is 1.")] = FailOn.warning
-    baseline: Annotated[
-        Path | None,
-        option("Fail by what this report of --json lacks alone.", metavar="OLD.json"),
-    ] = None
-    limits: Annotated[
-        list[str] | None,
-        option("Another threshold: gap.seconds=2.", "--limit", metavar="ID.NAME=VALUE"),
-    ] = None
+    places: list[str] | None = argument(
+        "Whose frames: recordings (file, folder, glob) and scenarios; if not said, the "
+        "session that runs, else the turtles.",
+        metavar="[FROM]...",
+    )
+    select: list[str] | None = option("Run only these checks or areas.", metavar="ID,...")
+    ignore: list[str] | None = option("Leave these checks or areas out.", metavar="ID,...")
+    fail_on: FailOn = option("From what on the exit status is 1.", default=FailOn.warning)
+    baseline: Path | None = option(
+        "Fail by what this report of --json lacks alone.", metavar="OLD.json"
+    )
+    limits: list[str] | None = option(
+        "Another threshold: gap.seconds=2.", "--limit", metavar="ID.NAME=VALUE"
+    )
     cache_time: CacheTime = None
-    fixed_frame: Annotated[
-        str, option("Where sensors are to be placed; odom, else map.", metavar="FRAME")
-    ] = ""
-    tf_topic: Annotated[
-        list[str] | None, option("Look at these transforms alone: /robot1/tf.", metavar="TOPIC")
-    ] = None
-    begin: Annotated[
-        At | None,
-        typer.Option(
-            "--from", metavar="MOMENT", parser=moment, help="Look at a recording from there on."
-        ),
-    ] = None
-    end: Annotated[
-        At | None,
-        typer.Option("--to", metavar="MOMENT", parser=moment, help="Look at it up to there."),
-    ] = None
+    fixed_frame: str = option(
+        "Where sensors are to be placed; odom, else map.", default="", metavar="FRAME"
+    )
+    tf_topic: list[str] | None = option(
+        "Look at these transforms alone: /robot1/tf.", metavar="TOPIC"
+    )
+    begin: At | None = option(
+        "Look at a recording from there on.", "--from", metavar="MOMENT", parser=moment
+    )
+    end: At | None = option("Look at it up to there.", "--to", metavar="MOMENT", parser=moment)
     lasting: RunFor = None
-    mounts: Annotated[
-        bool, option("Hold mounts against recorded motion, too: seconds more.", "--mounts")
-    ] = False
-    statistics: Annotated[
-        bool, option("Print rate, latency and gaps of everything, too.", "--statistics")
-    ] = False
-    steps: Annotated[
-        bool,
-        option("Print where a localiser or odometry steps: when, how far, the drift.", "--steps"),
-    ] = False
-    pair: Annotated[
-        str,
-        option(
-            "Steps of the edges between two frames; else of map to odom.", metavar="TARGET:SOURCE"
-        ),
-    ] = ""
-    verbose: Annotated[
-        bool, option("Print all evidence, and skipped checks.", "--verbose", "-v")
-    ] = False
+    mounts: bool = flag("Hold mounts against recorded motion, too: seconds more.")
+    statistics: bool = flag("Print rate, latency and gaps of everything, too.")
+    steps: bool = flag("Print where a localiser or odometry steps: when, how far, the drift.")
+    pair: str = option(
+        "Steps of the edges between two frames; else of map to odom.",
+        default="",
+        metavar="TARGET:SOURCE",
+    )
+    verbose: bool = flag("Print all evidence, and skipped checks.", "--verbose", "-v")
     for_programs: Json = False
-    markdown: Annotated[bool, option("Print it for an issue on the web.", "--markdown")] = False
+    markdown: bool = flag("Print it for an issue on the web.")
     junit: Junit = None
-    sarif: Annotated[
-        Path | None, option("Write SARIF for a code host.", "--sarif", metavar="FILE")
-    ] = None
+    sarif: Path | None = option("Write SARIF for a code host.", "--sarif", metavar="FILE")
     output: Rows = None
     processes: Jobs = 1
     resume: Resume = False
     scheduler: Scheduler = ""
-    explain: Annotated[
-        str, option("Tell all about one check, and stop.", "--explain", metavar="ID")
-    ] = ""
-    listed: Annotated[bool, option("List all checks, and stop.", "--list")] = False
+    explain: str = option(
+        "Tell all about one check, and stop.", "--explain", default="", metavar="ID"
+    )
+    listed: bool = flag("List all checks, and stop.", "--list")

@@ -1,9 +1,5 @@
 """`tftool echo`: one transform, printed repeatedly as tf2_echo does."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -15,8 +11,10 @@ from tftool.commands.shared.options import (
     Source,
     StampsOf,
     Target,
+    argument,
     decimals,
     finite,
+    flag,
     not_negative,
     option,
     seconds_option,
@@ -39,56 +37,37 @@ class EchoOptions(Command, looks_only=True, recordings=True, descriptions=True, 
 
     target: Target
     source: Source
-    place: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[FROM]",
-            help="Whose frames: a scenario (name or file), a recording (file, folder, glob) or a "
-            "robot description; if not said, the session that runs, else the turtles. A number "
-            "is a rate.",
-            show_default=False,
-        ),
-    ] = None
-    rate: Annotated[
-        float | None,
-        typer.Option(
-            "--rate",
-            "-r",
-            metavar="HZ",
-            rich_help_panel=WHEN,
-            callback=within(0.001, 1000),
-            help="How often; once a second if not said.",
-        ),
-    ] = None
-    once: Annotated[bool, option("Print one transform and stop.", "--once", panel=WHEN)] = False
-    count: Annotated[
-        int | None,
-        typer.Option(
-            min=1, metavar="N", rich_help_panel=WHEN, help="Print so many transforms and stop."
-        ),
-    ] = None
+    place: str | None = argument(
+        "Whose frames: a scenario (name or file), a recording (file, folder, glob) or a "
+        "robot description; if not said, the session that runs, else the turtles. A number "
+        "is a rate.",
+        metavar="[FROM]",
+    )
+    rate: float | None = option(
+        "How often; once a second if not said.",
+        "--rate",
+        "-r",
+        metavar="HZ",
+        panel=WHEN,
+        callback=within(0.001, 1000),
+    )
+    once: bool = flag("Print one transform and stop.", panel=WHEN)
+    count: int | None = option("Print so many transforms and stop.", min=1, metavar="N", panel=WHEN)
     at: AtOption = None
     stamps_of: StampsOf = None
-    offset: Annotated[
-        Duration | None,
-        seconds_option("Ask about a moment so far from now; -5 is five seconds ago.", check=finite),
-    ] = None
-    fixed_frame: Annotated[
-        str | None,
-        option(
-            "With --offset: take only SOURCE from that moment and TARGET from now, "
-            "by way of this frame, which stands still.",
-            metavar="FRAME",
-            panel=WHEN,
-        ),
-    ] = None
-    distance: Annotated[
-        bool, option("Add how far apart the two frames are, in metres.", "--distance", panel=OUTPUT)
-    ] = False
-    precision: Annotated[int, decimals("Decimals.")] = 3
-    timeout: Annotated[
-        Duration | None,
-        seconds_option("Give up waiting after so long (exit status 4).", check=not_negative),
-    ] = None
+    offset: Duration | None = seconds_option(
+        "Ask about a moment so far from now; -5 is five seconds ago.", check=finite
+    )
+    fixed_frame: str | None = option(
+        "With --offset: take only SOURCE from that moment and TARGET from now, "
+        "by way of this frame, which stands still.",
+        metavar="FRAME",
+        panel=WHEN,
+    )
+    distance: bool = flag("Add how far apart the two frames are, in metres.", panel=OUTPUT)
+    precision: int = decimals("Decimals.", default=3)
+    timeout: Duration | None = seconds_option(
+        "Give up waiting after so long (exit status 4).", check=not_negative
+    )
     for_programs: Json = False
     cache_time: CacheTime = None

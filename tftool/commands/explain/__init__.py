@@ -1,9 +1,5 @@
 """`tftool explain`: why one lookup succeeds or fails, link by link."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -37,28 +33,20 @@ class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=Tru
     source: Source
     place: From = None
     at: AtOption = None
-    message: Annotated[
-        str,
-        option(
-            "Ask for the stamp of a message of this topic, when it arrived: the first one, "
-            "or the nearest to --at or to the moment behind its @.",
-            metavar="TOPIC[@MOMENT]",
-        ),
-    ] = ""
-    asked_at: Annotated[
-        At | None,
-        moment_option(
-            "When it is asked, as log time; if not said, when the message of that stamp "
-            "arrived, else at the moment itself.",
-            panel=None,
-        ),
-    ] = None
+    message: str = option(
+        "Ask for the stamp of a message of this topic, when it arrived: the first one, "
+        "or the nearest to --at or to the moment behind its @.",
+        default="",
+        metavar="TOPIC[@MOMENT]",
+    )
+    asked_at: At | None = moment_option(
+        "When it is asked, as log time; if not said, when the message of that stamp "
+        "arrived, else at the moment itself.",
+        panel=None,
+    )
     cache_time: CacheTime = None
-    timeout: Annotated[
-        Duration,
-        typer.Option(
-            metavar="SECONDS", parser=duration(not_negative), help="How long the listener waits."
-        ),
-    ] = 0
+    timeout: Duration = option(
+        "How long the listener waits.", default=0, metavar="SECONDS", parser=duration(not_negative)
+    )
     lasting: RunFor = None
     for_programs: Json = False

@@ -1,9 +1,6 @@
 """`tftool export`: write frames to files of other tools."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -18,7 +15,9 @@ from tftool.commands.shared.options import (
     RunFor,
     StampsOf,
     ToOption,
+    argument,
     decimals,
+    flag,
     option,
     output_file,
 )
@@ -40,33 +39,22 @@ class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True
     tftool export robot -o frames.mcap --foxglove
     """
 
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[TARGET SOURCE] [FROM]",
-            help="A pair of frames and whose they are; one word alone is FROM, and its links are "
-            "written.",
-            show_default=False,
-        ),
-    ] = None
-    output: Annotated[
-        Path | None,
-        output_file(
-            f"Where to write it. Of pairs {suffixes_of(trajectories=True)}; of links "
-            f"{suffixes_of(trajectories=False)}."
-        ),
-    ] = None
-    form: Annotated[
-        Format | None,
-        option(
-            f"What to write: {', '.join(Format)}; if not said, what -o ends in. EuRoC is written "
-            "where it is said.",
-            "--format",
-            "-f",
-            metavar="FORMAT",
-            panel=OUTPUT,
-        ),
-    ] = None
+    words: list[str] | None = argument(
+        "A pair of frames and whose they are; one word alone is FROM, and its links are written.",
+        metavar="[TARGET SOURCE] [FROM]",
+    )
+    output: Path | None = output_file(
+        f"Where to write it. Of pairs {suffixes_of(trajectories=True)}; of links "
+        f"{suffixes_of(trajectories=False)}."
+    )
+    form: Format | None = option(
+        f"What to write: {', '.join(Format)}; if not said, what -o ends in. EuRoC is written "
+        "where it is said.",
+        "--format",
+        "-f",
+        metavar="FORMAT",
+        panel=OUTPUT,
+    )
     pairs: Pairs = None
     first: FromOption = None
     last: ToOption = None
@@ -75,28 +63,15 @@ class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True
     stamps_of: StampsOf = None
     at: AtOption = None
     lasting: RunFor = None
-    rpy: Annotated[
-        bool, option("Add roll, pitch and yaw to CSV and Parquet.", "--rpy", panel=OUTPUT)
-    ] = False
-    precision: Annotated[
-        int, decimals("Decimals; 17 writes each number as short as it can be read back.")
-    ] = 9
-    root: Annotated[
-        str | None, option("Of links, take those below this frame.", metavar="FRAME")
-    ] = None
-    with_moving: Annotated[
-        bool,
-        option(
-            "Put links that move into a URDF, as floating joints (robot_state_publisher "
-            "skips them); where they are at --at, else at last.",
-            "--with-moving",
-        ),
-    ] = False
-    foxglove: Annotated[
-        bool,
-        option(
-            "Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.", "--foxglove", panel=OUTPUT
-        ),
-    ] = False
+    rpy: bool = flag("Add roll, pitch and yaw to CSV and Parquet.", panel=OUTPUT)
+    precision: int = decimals(
+        "Decimals; 17 writes each number as short as it can be read back.", default=9
+    )
+    root: str | None = option("Of links, take those below this frame.", metavar="FRAME")
+    with_moving: bool = flag(
+        "Put links that move into a URDF, as floating joints (robot_state_publisher "
+        "skips them); where they are at --at, else at last."
+    )
+    foxglove: bool = flag("Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.", panel=OUTPUT)
     force: Force = False
     as_json: Json = False

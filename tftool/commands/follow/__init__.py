@@ -1,14 +1,11 @@
 """`tftool follow`: a turtle that follows a frame."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     CacheTime,
     RunFor,
+    argument,
     finite,
     not_negative,
     option,
@@ -28,71 +25,52 @@ class FollowOptions(Command):
     tftool follow turtle1 turtle2 --delay 5        where turtle1 was 5 s ago
     """
 
-    leader: Annotated[str, typer.Argument(metavar="[LEADER]", help="Frame to follow.")] = "turtle1"
-    follower: Annotated[
-        str, typer.Argument(metavar="[FOLLOWER]", help="Turtle to spawn and to steer.")
-    ] = "turtle2"
-    place: Annotated[
-        str | None,
-        typer.Argument(metavar="[FROM]", help="World to host: a scenario's name or file."),
-    ] = None
-    period: Annotated[
-        Duration, seconds_option("Time between two commands; 1 if not said.", panel=None)
-    ] = seconds(1)
-    delay: Annotated[
-        Duration,
-        seconds_option(
-            "Go where the leader was so long ago: time travel.",
-            check=not_negative,
-            panel=None,
-        ),
-    ] = 0
-    fixed_frame: Annotated[
-        str, option("Frame that stands still over the delay.", metavar="FRAME")
-    ] = "world"
-    kp_distance: Annotated[
-        float, typer.Option(callback=finite, metavar="GAIN", help="Speed per metre of distance.")
-    ] = 0.5
-    ki_distance: Annotated[
-        float, typer.Option(callback=finite, metavar="GAIN", help="Speed per metre and second.")
-    ] = 0.0
-    kd_distance: Annotated[
-        float, typer.Option(callback=finite, metavar="GAIN", help="Speed per metre a second.")
-    ] = 0.0
-    kp_bearing: Annotated[
-        float,
-        typer.Option(callback=finite, metavar="GAIN", help="Turn rate per radian of bearing."),
-    ] = 1.0
-    ki_bearing: Annotated[
-        float,
-        typer.Option(callback=finite, metavar="GAIN", help="Turn rate per radian and second."),
-    ] = 0.0
-    kd_bearing: Annotated[
-        float, typer.Option(callback=finite, metavar="GAIN", help="Turn rate per radian a second.")
-    ] = 0.0
-    integral_limit: Annotated[
-        float | None,
-        typer.Option(
-            callback=not_negative, metavar="LIMIT", help="Most that an integral adds to a command."
-        ),
-    ] = None
-    dead_band: Annotated[
-        float,
-        typer.Option(
-            metavar="METRES", callback=not_negative, help="Distance that counts as there."
-        ),
-    ] = 0.0
-    max_speed: Annotated[
-        float | None,
-        typer.Option(
-            metavar="M/S", callback=positive, help="Most it drives; no limit if not said."
-        ),
-    ] = None
-    stale_after: Annotated[
-        Duration | None,
-        seconds_option(
-            "Stop when the leader's newest transform is older; never, if not said.", panel=None
-        ),
-    ] = None
+    leader: str = argument("Frame to follow.", default="turtle1", metavar="[LEADER]")
+    follower: str = argument(
+        "Turtle to spawn and to steer.", default="turtle2", metavar="[FOLLOWER]"
+    )
+    place: str | None = argument("World to host: a scenario's name or file.", metavar="[FROM]")
+    period: Duration = seconds_option(
+        "Time between two commands; 1 if not said.", default=seconds(1), panel=None
+    )
+    delay: Duration = seconds_option(
+        "Go where the leader was so long ago: time travel.",
+        default=0,
+        check=not_negative,
+        panel=None,
+    )
+    fixed_frame: str = option(
+        "Frame that stands still over the delay.", default="world", metavar="FRAME"
+    )
+    kp_distance: float = option(
+        "Speed per metre of distance.", default=0.5, callback=finite, metavar="GAIN"
+    )
+    ki_distance: float = option(
+        "Speed per metre and second.", default=0.0, callback=finite, metavar="GAIN"
+    )
+    kd_distance: float = option(
+        "Speed per metre a second.", default=0.0, callback=finite, metavar="GAIN"
+    )
+    kp_bearing: float = option(
+        "Turn rate per radian of bearing.", default=1.0, callback=finite, metavar="GAIN"
+    )
+    ki_bearing: float = option(
+        "Turn rate per radian and second.", default=0.0, callback=finite, metavar="GAIN"
+    )
+    kd_bearing: float = option(
+        "Turn rate per radian a second.", default=0.0, callback=finite, metavar="GAIN"
+    )
+    integral_limit: float | None = option(
+        "Most that an integral adds to a command.", callback=not_negative, metavar="LIMIT"
+    )
+    dead_band: float = option(
+        "Distance that counts as there.", default=0.0, metavar="METRES", callback=not_negative
+    )
+    max_speed: float | None = option(
+        "Most it drives; no limit if not said.", metavar="M/S", callback=positive
+    )
+    stale_after: Duration | None = seconds_option(
+        "Stop when the leader's newest transform is older; never, if not said.", panel=None
+    )
     run_for: RunFor = None
     cache_time: CacheTime = None

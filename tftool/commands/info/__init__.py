@@ -1,11 +1,7 @@
 """`tftool info`: contents of a recording or robot description."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Jobs, Json, Resume, Rows, Scheduler
+from tftool.commands.shared.options import Jobs, Json, Resume, Rows, Scheduler, argument
 
 
 class InfoOptions(Command, recordings=True, descriptions=True, urdf=True):
@@ -24,14 +20,12 @@ class InfoOptions(Command, recordings=True, descriptions=True, urdf=True):
     tftool info 'runs/**/*.mcap' -j 8 -o runs.csv
     """
 
-    places: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="FROM...",
-            help="A recording (file, folder, glob), a robot description, or a launch file or "
-            "script of static transforms.",
-        ),
-    ]
+    places: list[str] = argument(
+        "A recording (file, folder, glob), a robot description, or a launch file or "
+        "script of static transforms.",
+        default=...,
+        metavar="FROM...",
+    )
     for_programs: Json = False
     output: Rows = None
     processes: Jobs = 1

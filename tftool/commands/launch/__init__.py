@@ -1,11 +1,14 @@
 """`tftool launch`: launch files without ROS."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import RosFree, RunFor, Simulated, SkippedFolders, option
+from tftool.commands.shared.options import (
+    RosFree,
+    RunFor,
+    Simulated,
+    SkippedFolders,
+    argument,
+    flag,
+)
 
 
 class LaunchOptions(Command):
@@ -19,16 +22,12 @@ class LaunchOptions(Command):
     tftool launch launch/turtle_following.launch.xml --show-args
     """
 
-    words: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="FILE|PACKAGE [FILE] [NAME:=VALUE]…",
-            help="A launch file, or a package and its launch file; then arguments.",
-        ),
-    ]
-    show_args: Annotated[
-        bool, option("Show what the file takes.", "-s", "--show-args", "--show-arguments")
-    ] = False
+    words: list[str] = argument(
+        "A launch file, or a package and its launch file; then arguments.",
+        default=...,
+        metavar="FILE|PACKAGE [FILE] [NAME:=VALUE]…",
+    )
+    show_args: bool = flag("Show what the file takes.", "-s", "--show-args", "--show-arguments")
     force: RosFree = False
     run_for: RunFor = None
     simulated: Simulated = False

@@ -1,12 +1,16 @@
 """`tftool monitor`: rate and delay of received transforms."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import OUTPUT, CacheTime, Json, RunFor, option, seconds_option
+from tftool.commands.shared.options import (
+    OUTPUT,
+    CacheTime,
+    Json,
+    RunFor,
+    argument,
+    flag,
+    seconds_option,
+)
 
 
 class MonitorOptions(Command, looks_only=True, recordings=True):
@@ -20,22 +24,18 @@ class MonitorOptions(Command, looks_only=True, recordings=True):
     tftool monitor robot --for 10 --json
     """
 
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[A B] [FROM]",
-            help="Two frames, for the chain between them; then whose frames: a scenario (name or "
-            "file) or a recording (file, folder, glob); if not said, the session that runs, else "
-            "the turtles.",
-            show_default=False,
-        ),
-    ] = None
+    words: list[str] | None = argument(
+        "Two frames, for the chain between them; then whose frames: a scenario (name or "
+        "file) or a recording (file, folder, glob); if not said, the session that runs, else "
+        "the turtles.",
+        metavar="[A B] [FROM]",
+    )
     run_for: RunFor = None
-    every: Annotated[
-        Duration | None, seconds_option("Time between two reports: 1 on a terminal, 10 elsewhere.")
-    ] = None
-    as_tf2: Annotated[
-        bool, option("Print tf2_monitor's own numbers, its flaws included.", "--tf2", panel=OUTPUT)
-    ] = False
+    every: Duration | None = seconds_option(
+        "Time between two reports: 1 on a terminal, 10 elsewhere."
+    )
+    as_tf2: bool = flag(
+        "Print tf2_monitor's own numbers, its flaws included.", "--tf2", panel=OUTPUT
+    )
     for_programs: Json = False
     cache_time: CacheTime = None

@@ -1,11 +1,9 @@
 """`tftool play`: a recording as a live session."""
 
-from typing import Annotated, Literal
-
-import typer
+from typing import Literal
 
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import RunFor, moment_option, option, within
+from tftool.commands.shared.options import RunFor, argument, flag, moment_option, option, within
 from tftool.frames.moment import At
 from tftool.world.link.link_options import REACHES
 
@@ -28,38 +26,28 @@ class PlayOptions(Command, recordings=True):
     tftool play run.bag --restamp now --all
     """
 
-    file: Annotated[
-        str, typer.Argument(metavar="RECORDING", help="What to play: a file, a folder, a glob.")
-    ]
-    rate: Annotated[
-        float,
-        typer.Option(
-            "--rate",
-            "-r",
-            metavar="TIMES",
-            callback=within(0.01, 100),
-            help="How many times real time.",
-        ),
-    ] = 1.0
-    begin: Annotated[
-        At | None, moment_option("Where to begin: seconds since the start, or a stamp.", "--from")
-    ] = None
-    until: Annotated[At | None, moment_option("Where to end, likewise.", "--to")] = None
-    loop: Annotated[bool, option("Start over at the end.", "--loop")] = False
-    paused: Annotated[bool, option("Begin standing still.", "--paused")] = False
-    restamp: Annotated[
-        Literal["now"] | None,
-        option(
-            "Give transforms stamps of the present, and publish no /clock.",
-            "--restamp",
-            metavar="now",
-        ),
-    ] = None
-    everything: Annotated[
-        bool,
-        option("Send every other topic too whose type is known, with its own stamps.", "--all"),
-    ] = False
-    force: Annotated[
-        bool, option(f"Over {ROBOTS}: play beside publishers of /tf that are there.", "--force")
-    ] = False
+    file: str = argument(
+        "What to play: a file, a folder, a glob.", default=..., metavar="RECORDING"
+    )
+    rate: float = option(
+        "How many times real time.",
+        "--rate",
+        "-r",
+        default=1.0,
+        metavar="TIMES",
+        callback=within(0.01, 100),
+    )
+    begin: At | None = moment_option(
+        "Where to begin: seconds since the start, or a stamp.", "--from"
+    )
+    until: At | None = moment_option("Where to end, likewise.", "--to")
+    loop: bool = flag("Start over at the end.")
+    paused: bool = flag("Begin standing still.")
+    restamp: Literal["now"] | None = option(
+        "Give transforms stamps of the present, and publish no /clock.", "--restamp", metavar="now"
+    )
+    everything: bool = flag(
+        "Send every other topic too whose type is known, with its own stamps.", "--all"
+    )
+    force: bool = flag(f"Over {ROBOTS}: play beside publishers of /tf that are there.")
     run_for: RunFor = None

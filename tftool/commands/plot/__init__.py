@@ -1,9 +1,6 @@
 """`tftool plot`: a pair of frames over time, in the terminal or as a picture."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.declaration import Command
@@ -20,6 +17,8 @@ from tftool.commands.shared.options import (
     RunFor,
     StampsOf,
     ToOption,
+    argument,
+    flag,
     option,
     output_file,
     seconds_option,
@@ -40,38 +39,29 @@ class PlotOptions(Command, looks_only=True, recordings=True):
     tftool plot run.mcap --pair map:base_link --pair map:laser -o both.pdf --dark
     """
 
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[TARGET SOURCE] [FROM]",
-            help="A pair of frames and whose they are; with --pair one word at most, FROM.",
-            show_default=False,
-        ),
-    ] = None
-    pairs: Pairs = None
-    output: Annotated[Path | None, output_file("Write a picture: .svg, .pdf or .png.")] = None
-    only: Annotated[
-        list[str] | None,
-        option(
-            "Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
-            "speed, turn-rate, or single ones.",
-            metavar="WHAT,...",
-        ),
-    ] = None
-    from_above: Annotated[bool, option("Draw the path from above, in place of time.", "--xy")] = (
-        False
+    words: list[str] | None = argument(
+        "A pair of frames and whose they are; with --pair one word at most, FROM.",
+        metavar="[TARGET SOURCE] [FROM]",
     )
+    pairs: Pairs = None
+    output: Path | None = output_file("Write a picture: .svg, .pdf or .png.")
+    only: list[str] | None = option(
+        "Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
+        "speed, turn-rate, or single ones.",
+        metavar="WHAT,...",
+    )
+    from_above: bool = flag("Draw the path from above, in place of time.", "--xy")
     first: FromOption = None
     last: ToOption = None
     every: Every = None
     rate: Rate = None
     stamps_of: StampsOf = None
-    window: Annotated[
-        Duration, seconds_option("How far back a live plot reaches; 20 if not said.")
-    ] = seconds(20)
+    window: Duration = seconds_option(
+        "How far back a live plot reaches; 20 if not said.", default=seconds(20)
+    )
     lasting: RunFor = None
     ascii_only: Ascii = False
     light: Light = False
-    dark: Annotated[bool, option("With -o: on a dark ground.", "--dark", panel=OUTPUT)] = False
+    dark: bool = flag("With -o: on a dark ground.", panel=OUTPUT)
     force: Force = False
     as_json: Json = False

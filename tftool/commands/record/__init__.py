@@ -1,13 +1,20 @@
 """`tftool record`: a session as a recording."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import OUTPUT, WHEN, Force, Json, RunFor, option, seconds_option
+from tftool.commands.shared.options import (
+    OUTPUT,
+    WHEN,
+    Force,
+    Json,
+    RunFor,
+    argument,
+    flag,
+    option,
+    seconds_option,
+)
 
 
 class RecordOptions(Command, looks_only=True):
@@ -21,47 +28,32 @@ class RecordOptions(Command, looks_only=True):
     tftool record -o before.mcap --ring 30 --on two-parents
     """
 
-    output: Annotated[
-        Path,
-        option(
-            "What to write: a name ending in .mcap, or without a suffix a folder.",
-            "--output",
-            "-o",
-            metavar="FILE",
-            panel=OUTPUT,
-        ),
-    ]
-    topics: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[TOPIC]...", help="Topics beside /tf and /tf_static.", show_default=False
-        ),
-    ] = None
-    everything: Annotated[bool, option("Record every topic.", "--all")] = False
-    place: Annotated[
-        str | None,
-        option("Host this scenario, and record what it does.", "--in", metavar="SCENARIO"),
-    ] = None
+    output: Path = option(
+        "What to write: a name ending in .mcap, or without a suffix a folder.",
+        "--output",
+        "-o",
+        default=...,
+        metavar="FILE",
+        panel=OUTPUT,
+    )
+    topics: list[str] | None = argument("Topics beside /tf and /tf_static.", metavar="[TOPIC]...")
+    everything: bool = flag("Record every topic.", "--all")
+    place: str | None = option(
+        "Host this scenario, and record what it does.", "--in", metavar="SCENARIO"
+    )
     run_for: RunFor = None
-    ring: Annotated[
-        Duration | None,
-        seconds_option("Keep only so much of the past, in memory, and write it in the end."),
-    ] = None
-    finding: Annotated[
-        str | None,
-        option(
-            "Write the last minute (--ring) when the doctor finds this, and stop.",
-            "--on",
-            metavar="FINDING",
-            panel=WHEN,
-        ),
-    ] = None
-    max_size: Annotated[
-        str | None,
-        option("Begin a new file from a size on: 500M, 2G.", metavar="SIZE", panel=OUTPUT),
-    ] = None
-    max_duration: Annotated[
-        Duration | None, seconds_option("Begin a new file after so long.", panel=OUTPUT)
-    ] = None
+    ring: Duration | None = seconds_option(
+        "Keep only so much of the past, in memory, and write it in the end."
+    )
+    finding: str | None = option(
+        "Write the last minute (--ring) when the doctor finds this, and stop.",
+        "--on",
+        metavar="FINDING",
+        panel=WHEN,
+    )
+    max_size: str | None = option(
+        "Begin a new file from a size on: 500M, 2G.", metavar="SIZE", panel=OUTPUT
+    )
+    max_duration: Duration | None = seconds_option("Begin a new file after so long.", panel=OUTPUT)
     force: Force = False
     for_programs: Json = False

@@ -1,9 +1,6 @@
 """`tftool robot`: a robot description as a live robot whose joints keys move."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -12,6 +9,8 @@ from tftool.commands.shared.options import (
     Light,
     Meshes,
     RunFor,
+    argument,
+    flag,
     option,
     output_file,
     within,
@@ -32,37 +31,27 @@ class RobotOptions(Command, descriptions=True):
     tftool robot arm.urdf --joint elbow=30deg -o arm.svg
     """
 
-    place: Annotated[
-        str, typer.Argument(metavar="FILE", help="A robot description: URDF or xacro.")
-    ]
-    link: Annotated[
-        str | None,
-        option("Link whose pose is shown; the farthest if not said.", "--link", metavar="LINK"),
-    ] = None
-    follow: Annotated[
-        bool, option("Move no joint; follow the /joint_states of others.", "--follow")
-    ] = False
-    no_screen: Annotated[bool, option("Publish until stopped, without sliders.", "--no-screen")] = (
-        False
+    place: str = argument("A robot description: URDF or xacro.", default=..., metavar="FILE")
+    link: str | None = option(
+        "Link whose pose is shown; the farthest if not said.", "--link", metavar="LINK"
     )
-    rate: Annotated[
-        float,
-        typer.Option(
-            "--rate",
-            "-r",
-            metavar="HZ",
-            callback=within(0.1, 1000),
-            help="How often frames are broadcast, and joint states published.",
-        ),
-    ] = 20.0
-    frame_prefix: Annotated[
-        str, option("What to put before every link: left/.", metavar="PREFIX")
-    ] = ""
+    follow: bool = flag("Move no joint; follow the /joint_states of others.")
+    no_screen: bool = flag("Publish until stopped, without sliders.")
+    rate: float = option(
+        "How often frames are broadcast, and joint states published.",
+        "--rate",
+        "-r",
+        default=20.0,
+        metavar="HZ",
+        callback=within(0.1, 1000),
+    )
+    frame_prefix: str = option(
+        "What to put before every link: left/.", default="", metavar="PREFIX"
+    )
     meshes: Meshes = None
-    output: Annotated[
-        Path | None,
-        output_file("Draw the robot into a file, .svg or .png, and publish nothing."),
-    ] = None
+    output: Path | None = output_file(
+        "Draw the robot into a file, .svg or .png, and publish nothing."
+    )
     force: Force = False
     run_for: RunFor = None
     ascii_only: Ascii = False

@@ -1,11 +1,7 @@
 """`tftool ros2`: the verbs of ROS 2's command line for our sessions."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Json, RunFor, option
+from tftool.commands.shared.options import Json, RunFor, argument, option
 
 
 class Ros2Options(
@@ -26,12 +22,11 @@ class Ros2Options(
     tftool ros2 topic pub turtle1/cmd_vel geometry_msgs/msg/Twist "linear: {x: 2}"
     """
 
-    words: Annotated[
-        list[str],
-        typer.Argument(metavar="COMMAND VERB …", help="The words behind ros2 with ROS."),
-    ]
-    place: Annotated[
-        str | None, option("World to host: a scenario's name or file.", "--in", metavar="SCENARIO")
-    ] = None
+    words: list[str] = argument(
+        "The words behind ros2 with ROS.", default=..., metavar="COMMAND VERB …"
+    )
+    place: str | None = option(
+        "World to host: a scenario's name or file.", "--in", metavar="SCENARIO"
+    )
     run_for: RunFor = None
     as_json: Json = False

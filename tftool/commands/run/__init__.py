@@ -1,11 +1,14 @@
 """`tftool run`: a user's own node, without ROS."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import RosFree, RunFor, Simulated, SkippedFolders, option
+from tftool.commands.shared.options import (
+    RosFree,
+    RunFor,
+    Simulated,
+    SkippedFolders,
+    argument,
+    option,
+)
 
 
 class RunOptions(
@@ -24,20 +27,14 @@ class RunOptions(
     tftool run --in robot --simulated --for 20 my_listener.py
     """
 
-    target: Annotated[
-        str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")
-    ]
-    rest: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
-            help="A package's executable; the node's own arguments; ROS 2's after --ros-args.",
-        ),
-    ] = None
-    place: Annotated[
-        str | None,
-        option("World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"),
-    ] = None
+    target: str = argument("A node's file, or a package.", default=..., metavar="FILE|PACKAGE")
+    rest: list[str] | None = argument(
+        "A package's executable; the node's own arguments; ROS 2's after --ros-args.",
+        metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
+    )
+    place: str | None = option(
+        "World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"
+    )
     force: RosFree = False
     run_for: RunFor = None
     simulated: Simulated = False

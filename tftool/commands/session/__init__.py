@@ -1,12 +1,8 @@
 """`tftool session`: who takes part, what they publish, how often, and since when."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Json, option, seconds_option
+from tftool.commands.shared.options import Json, argument, flag, seconds_option
 
 
 class SessionOptions(Command, looks_only=True):
@@ -21,23 +17,11 @@ class SessionOptions(Command, looks_only=True):
     tftool session ws://robot:8765
     """
 
-    place: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[FROM]",
-            help="Address of a robot's Foxglove server: ws://robot:8765.",
-            show_default=False,
-        ),
-    ] = None
-    listen_for: Annotated[
-        Duration,
-        seconds_option(
-            "How long to listen for rates; 1 if not said.",
-            "--for",
-            panel=None,
-        ),
-    ] = seconds(1)
-    verbose: Annotated[
-        bool, option("List the services of parameters and actions, too.", "--verbose", "-v")
-    ] = False
+    place: str | None = argument(
+        "Address of a robot's Foxglove server: ws://robot:8765.", metavar="[FROM]"
+    )
+    listen_for: Duration = seconds_option(
+        "How long to listen for rates; 1 if not said.", "--for", default=seconds(1), panel=None
+    )
+    verbose: bool = flag("List the services of parameters and actions, too.", "--verbose", "-v")
     for_programs: Json = False

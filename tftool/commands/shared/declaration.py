@@ -14,19 +14,17 @@ from importlib import import_module
 from pathlib import Path
 from typing import (
     TYPE_CHECKING,
-    Annotated,
     Any,
     ClassVar,
     NamedTuple,
-    dataclass_transform,
-    get_args,
 )
 
 import typer
+from typer.models import ParameterInfo
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
-from tftool.commands.shared.options import ROBOT, option
+from tftool.commands.shared.options import ROBOT, flag, option
 from tftool.world.link.link_options import LARGEST_DOMAIN, REACHES, reach_at
 from tftool.world.link.reach import Reach
 
@@ -37,139 +35,131 @@ if TYPE_CHECKING:
     pass
 
 
+def options_in(home: type) -> dict[str, tuple[Any, Any]]:
+    """Return type and declaration of each option that a class has as a field."""
+    found = {}
+    for name, kind in inspect.get_annotations(home).items():
+        value = getattr(home, name, inspect.Parameter.empty)
+        if kind is bool and isinstance(value, ParameterInfo) and not value.param_decls:
+            # typer's own name for a flag would have an opposite, --no-NAME.
+            value.param_decls = (f"--{name.replace('_', '-')}",)
+        found[name] = kind, value
+    return found
+
+
 def _declared(reach: type[Reach]) -> dict[str, Any]:
-    """Return a middleware's options in typer's form."""
+    """Return the type and the declaration of a middleware's options."""
     return {
-        name: Annotated[one.kind, option(one.text, one.flag, metavar=one.metavar)]
+        name: (
+            one.kind,
+            option(
+                one.text, one.flag, default=False if one.kind is bool else None, metavar=one.metavar
+            ),
+        )
         for name, one in reach.OPTIONS.items()
     }
 
 
 SESSION_OPTIONS: dict[str, Any] = {
-    "join": Annotated[
-        bool, option("Join the session that runs here; fail if none does.", "--join")
-    ],
-    "host": Annotated[bool, option("Host a world of its own, whatever runs here.", "--host")],
-    "domain": Annotated[
+    "join": (bool, flag("Join the session that runs here; fail if none does.", "--join")),
+    "host": (bool, flag("Host a world of its own, whatever runs here.", "--host")),
+    "domain": (
         int | None,
-        typer.Option(
+        option(
+            "Session to share; ROS_DOMAIN_ID, else 0, if not said.",
             "--domain",
             min=0,
             max=LARGEST_DOMAIN,
             metavar="N",
-            help="Session to share; ROS_DOMAIN_ID, else 0, if not said.",
         ),
-    ],
+    ),
     **_declared(REACHES[0]),
-    "read_only": Annotated[
-        bool, option("Only look: publish nothing, serve nothing.", "--read-only")
-    ],
+    "read_only": (bool, flag("Only look: publish nothing, serve nothing.", "--read-only")),
     **{name: kind for reach in REACHES[1:] for name, kind in _declared(reach).items()},
 }
 
 
-ROBOT_OPTIONS: dict[str, Any] = {
-    "joint": Annotated[
-        list[str] | None,
-        option(
-            "Position of a joint in rad or m (30deg too); again for more.",
-            "--joint",
-            metavar="NAME=VALUE",
-            panel=ROBOT,
-        ),
-    ],
-    "argument": Annotated[
-        list[str] | None,
-        option(
-            "A xacro argument; NAME:=VALUE alone does too. xacro evaluates expressions of the "
-            "file: expand none from strangers.",
-            "--argument",
-            metavar="NAME:=VALUE",
-            panel=ROBOT,
-        ),
-    ],
-}
-"""Options of commands whose FROM may be a robot description."""
+class _OfRobots:
+    """Options of commands whose FROM may be a robot description."""
+
+    joint: list[str] | None = option(
+        "Position of a joint in rad or m (30deg too); again for more.",
+        metavar="NAME=VALUE",
+        panel=ROBOT,
+    )
+    argument: list[str] | None = option(
+        "A xacro argument; NAME:=VALUE alone does too. xacro evaluates expressions of the "
+        "file: expand none from strangers.",
+        metavar="NAME:=VALUE",
+        panel=ROBOT,
+    )
+
+
+ROBOT_OPTIONS = options_in(_OfRobots)
 
 RECORDING = "Recordings"
 """Heading of the help under which their options are listed."""
 
-RECORDING_OPTIONS: dict[str, Any] = {
-    "with_odometry": Annotated[
-        bool,
-        option(
-            "Take Odometry and PoseStamped for transforms, of frames that tf lacks.",
-            "--with-odometry",
-            panel=RECORDING,
-        ),
-    ],
-    "tf_topic": Annotated[
-        list[str] | None,
-        option(
-            "Read these transforms alone, /r1/tf; again for more robots, whose equal frame names "
-            "get the namespace as prefix.",
-            "--tf-topic",
-            metavar="TOPIC",
-            panel=RECORDING,
-        ),
-    ],
-    "no_cache": Annotated[
-        bool,
-        option(
-            "Read all of it anew, and keep no columns for the next question.",
-            "--no-cache",
-            panel=RECORDING,
-        ),
-    ],
-}
-"""Options of commands whose FROM may be a recording."""
 
-URDF_OPTION: dict[str, Any] = {
-    "urdf": Annotated[
-        Path | None,
-        option(
-            "Description of the robot in a recording that has none inside.",
-            "--urdf",
-            metavar="FILE",
-            panel=ROBOT,
-        ),
-    ],
-}
-"""Option of commands whose FROM may be a recording that lacks the description of its robot."""
+class _OfRecordings:
+    """Options of commands whose FROM may be a recording."""
+
+    with_odometry: bool = flag(
+        "Take Odometry and PoseStamped for transforms, of frames that tf lacks.",
+        panel=RECORDING,
+    )
+    tf_topic: list[str] | None = option(
+        "Read these transforms alone, /r1/tf; again for more robots, whose equal frame names "
+        "get the namespace as prefix.",
+        metavar="TOPIC",
+        panel=RECORDING,
+    )
+    no_cache: bool = flag(
+        "Read all of it anew, and keep no columns for the next question.",
+        panel=RECORDING,
+    )
+
+
+RECORDING_OPTIONS = options_in(_OfRecordings)
+
+
+class _OfUndescribed:
+    """Option of commands whose FROM may be a recording that lacks the description of its robot."""
+
+    urdf: Path | None = option(
+        "Description of the robot in a recording that has none inside.",
+        metavar="FILE",
+        panel=ROBOT,
+    )
+
+
+URDF_OPTION = options_in(_OfUndescribed)
 
 
 POSES = "Pose files"
 """Heading of the help under which their options are listed."""
 
-POSE_OPTIONS: dict[str, Any] = {
-    "frames": Annotated[
-        str | None,
-        option(
-            "Names of parent and child in a pose file. Each of these options is for the file it "
-            "follows.",
-            "--frames",
-            metavar="PARENT:CHILD",
-            panel=POSES,
-        ),
-    ],
-    "pose_rate": Annotated[
-        float | None,
-        option("Poses in a second, where they have no stamps.", metavar="HZ", panel=POSES),
-    ],
-    "pose_format": Annotated[
-        str | None,
-        option("Format of the file, where its content fits two.", metavar="NAME", panel=POSES),
-    ],
-    "inverted": Annotated[
-        bool,
-        option("Take the inverse of each pose that is written.", "--inverted", panel=POSES),
-    ],
-    "axes": Annotated[
-        str | None,
-        option("Axes of the cameras: opencv or opengl.", metavar="NAME", panel=POSES),
-    ],
-}
-"""Options of commands whose FROM may be a pose file; `Command` puts them into effect."""
+
+class _OfPoseFiles:
+    """Options of commands whose FROM may be a pose file; `LaidOutCommand` puts them into effect."""
+
+    frames: str | None = option(
+        "Names of parent and child in a pose file. Each of these options is for the file it "
+        "follows.",
+        metavar="PARENT:CHILD",
+        panel=POSES,
+    )
+    pose_rate: float | None = option(
+        "Poses in a second, where they have no stamps.", metavar="HZ", panel=POSES
+    )
+    pose_format: str | None = option(
+        "Format of the file, where its content fits two.", metavar="NAME", panel=POSES
+    )
+    inverted: bool = flag("Take the inverse of each pose that is written.", panel=POSES)
+    axes: str | None = option("Axes of the cameras: opencv or opengl.", metavar="NAME", panel=POSES)
+
+
+POSE_OPTIONS = options_in(_OfPoseFiles)
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,7 +188,7 @@ class CommandKind:
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def options(self) -> dict[str, Any]:
-        """Return the options that every command of this kind has."""
+        """Return type and declaration of the options that every command of this kind has."""
         return {
             **(POSE_OPTIONS if self.poses or self.recordings or self.urdf else {}),
             **(ROBOT_OPTIONS if self.descriptions else {}),
@@ -220,9 +210,10 @@ class Invocation(NamedTuple):
     run: Callable[[Sequence[str]], int]
 
 
-@dataclass_transform(kw_only_default=True)
 class Command:
     """Base of commands: the fields of a derived class are its options, its docstring is the help.
+
+    The value of a field is its declaration, `option`, `flag` or `argument`; or its type holds that.
 
     Class keywords are attributes of `CommandKind`: `class EchoOptions(Command, looks_only=True)`.
     An object has the values that were given; `run` in the command's module takes it.
@@ -234,6 +225,9 @@ class Command:
         cls.kind = CommandKind(**kind)
 
     def __init__(self, **given: Any) -> None:
+        for name, value in vars(type(self)).items():
+            if isinstance(value, ParameterInfo):
+                given.setdefault(name, value.default)
         vars(self).update(given)
 
 
@@ -241,8 +235,8 @@ def typer_function(command: type[Command]) -> Callable[..., Any]:
     """Return the function that typer makes a command of: all options in, the exit status out."""
     home = command.__module__
     name = home.rpartition(".")[2]
-    own = inspect.get_annotations(command)
     added = command.kind.options()
+    own = options_in(command)
 
     def called(context: typer.Context, **words: Any) -> Any:
         if hasattr(sys.modules[home], "__path__"):
@@ -260,22 +254,14 @@ def typer_function(command: type[Command]) -> Callable[..., Any]:
         with read(name, command.kind, context, address=address, **given) as connection:
             return run(connection, command(**words))
 
-    parameters = [
-        *(_parameter(*one, getattr(command, one[0], inspect.Parameter.empty))
-          for one in own.items()),
-        *(_parameter(*one, False if get_args(one[1])[0] is bool else None)
-          for one in added.items()),
-    ]  # fmt: skip
-    context = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
-    called.__signature__ = inspect.Signature([context, *parameters])  # type: ignore[attr-defined]
-    called.__annotations__ = {"context": typer.Context, **own, **added}
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    parameters = [inspect.Parameter("context", keyword, annotation=typer.Context)]
+    for field_name, (kind, value) in {**own, **added}.items():
+        parameters.append(inspect.Parameter(field_name, keyword, default=value, annotation=kind))
+    called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    called.__annotations__ = {one.name: one.annotation for one in parameters}
     called.__doc__ = command.__doc__
     return called
-
-
-def _parameter(name: str, annotation: Any, default: Any) -> inspect.Parameter:
-    kind = inspect.Parameter.KEYWORD_ONLY
-    return inspect.Parameter(name, kind, default=default, annotation=annotation)
 
 
 def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> str | None:
@@ -294,7 +280,8 @@ def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> s
                 f"'{visible(found[0])}' is a robot's server, which is read-only, and 'tftool "
                 f"{name}' publishes or reads files: {_looking_commands()} work with it."
             )
-        if len(found) > 1 or not hasattr(command, parameter):
+        is_required = getattr(getattr(command, parameter, None), "default", None) is ...
+        if len(found) > 1 or is_required or not hasattr(command, parameter):
             raise UsageError(f"'{visible(found[0])}' is a FROM: give only one, as the last word.")
         words[parameter] = (
             [one for one in several if one not in found] if several is value else None

@@ -210,16 +210,35 @@ MANY = "Many recordings"
 """Headings of the help under which options are listed; "Options" is that of all others."""
 
 
-def option(words: str, *names: str, metavar: str | None = None, panel: str | None = None) -> Any:
-    """Return an option of a command.
+def option(
+    words: str,
+    *names: str,
+    default: Any = None,
+    metavar: str | None = None,
+    panel: str | None = None,
+    **more: Any,
+) -> Any:
+    """Return an option of a command, as the value of its field.
 
     Args:
         words: Text of the help.
-        names: Names of the option; made from its parameter if none is given.
+        names: Names of the option; made from its field if none is given.
+        default: Its value where it is not given; `...` if it must be, and within `Annotated`.
         metavar: Name of its value in the help.
         panel: The heading it is listed under; None for that of all others.
+        more: Further arguments of `typer.Option`.
     """
-    return typer.Option(*names, metavar=metavar, rich_help_panel=panel, help=words)
+    return typer.Option(default, *names, metavar=metavar, rich_help_panel=panel, help=words, **more)
+
+
+def flag(words: str, *names: str, panel: str | None = None) -> Any:
+    """Return an option without a value, which is True where it is given; see `option`."""
+    return option(words, *names, default=False, panel=panel)
+
+
+def argument(words: str, *, default: Any = None, metavar: str, **more: Any) -> Any:
+    """Return an argument of a command: a word without a name; see `option`."""
+    return typer.Argument(default, metavar=metavar, help=words, **more)
 
 
 def output_file(words: str) -> Any:
@@ -230,6 +249,7 @@ def output_file(words: str) -> Any:
 def seconds_option(
     words: str,
     *names: str,
+    default: Any = None,
     check: Callable[[float | None], float | None] = positive,
     panel: str | None = WHEN,
 ) -> Any:
@@ -239,30 +259,24 @@ def seconds_option(
 
     Args:
         words: Text of the help.
-        names: Names of the option; made from its parameter if none is given.
+        names: Names of the option; made from its field if none is given.
+        default: Its value where it is not given, in nanoseconds; see `option`.
         check: Check of the number.
         panel: The heading it is listed under; None for that of all others.
     """
-    return typer.Option(
-        *names,
-        metavar="SECONDS",
-        parser=duration(check),
-        rich_help_panel=panel,
-        show_default=False,
-        help=words,
-    )
+    more: dict[str, Any] = {"parser": duration(check), "show_default": False}
+    return option(words, *names, default=default, metavar="SECONDS", panel=panel, **more)
 
 
-def moment_option(words: str, *names: str, panel: str | None = WHEN) -> Any:
+def moment_option(words: str, *names: str, default: Any = None, panel: str | None = WHEN) -> Any:
     """Return an option that takes a time; `words` are its help."""
-    return typer.Option(*names, metavar="MOMENT", parser=moment, rich_help_panel=panel, help=words)
+    return option(words, *names, default=default, metavar="MOMENT", panel=panel, parser=moment)
 
 
-def decimals(words: str) -> Any:
+def decimals(words: str, *, default: int) -> Any:
     """Return the option `--precision N` of a command that prints numbers; `words` are its help."""
-    return typer.Option(
-        "--precision", "-p", min=0, max=17, metavar="N", rich_help_panel=OUTPUT, help=words
-    )
+    names = "--precision", "-p"
+    return option(words, *names, default=default, metavar="N", panel=OUTPUT, min=0, max=17)
 
 
 Target = Annotated[
@@ -288,26 +302,33 @@ AtOption = Annotated[
         "an ISO date and time).",
         "--at",
         "-t",
+        default=...,
     ),
 ]
 
 FromOption = Annotated[
     At | None,
     moment_option(
-        "Leave out everything before: seconds since the start of FROM, or a stamp.", "--from"
+        "Leave out everything before: seconds since the start of FROM, or a stamp.",
+        "--from",
+        default=...,
     ),
 ]
 
-ToOption = Annotated[At | None, moment_option("Leave out everything after; likewise.", "--to")]
+ToOption = Annotated[
+    At | None, moment_option("Leave out everything after; likewise.", "--to", default=...)
+]
 
 Every = Annotated[
     Duration | None,
-    seconds_option("Ask so often, in place of the stamps of the fastest link.", "--every"),
+    seconds_option(
+        "Ask so often, in place of the stamps of the fastest link.", "--every", default=...
+    ),
 ]
 
 Pairs = Annotated[
     list[str] | None,
-    option("A pair of frames. Again for more.", "--pair", metavar="TARGET:SOURCE"),
+    option("A pair of frames. Again for more.", "--pair", metavar="TARGET:SOURCE", default=...),
 ]
 
 StampsOf = Annotated[
@@ -317,6 +338,7 @@ StampsOf = Annotated[
         "--at-stamps-of",
         metavar="TOPIC",
         panel=WHEN,
+        default=...,
     ),
 ]
 
@@ -334,24 +356,29 @@ Rate = Annotated[
 
 CacheTime = Annotated[
     Duration | None,
-    seconds_option("How far back the buffer remembers; 10 unless the scenario says otherwise."),
+    seconds_option(
+        "How far back the buffer remembers; 10 unless the scenario says otherwise.", default=...
+    ),
 ]
 
-RunFor = Annotated[Duration | None, seconds_option("Stop after so long.", "--for")]
+RunFor = Annotated[Duration | None, seconds_option("Stop after so long.", "--for", default=...)]
 
-SkippedFolders = Annotated[bool, option("Say which folders are skipped.", "--verbose", "-v")]
+SkippedFolders = Annotated[
+    bool, option("Say which folders are skipped.", "--verbose", "-v", default=...)
+]
 
-RosFree = Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free")]
+RosFree = Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free", default=...)]
 
 Simulated = Annotated[
-    bool, option("On simulated time: at once, the same every time.", "--simulated")
+    bool, option("On simulated time: at once, the same every time.", "--simulated", default=...)
 ]
 
 Junit = Annotated[
-    Path | None, option("Write a JUnit report for a build server.", "--junit", metavar="FILE")
+    Path | None,
+    option("Write a JUnit report for a build server.", "--junit", metavar="FILE", default=...),
 ]
 
-Force = Annotated[bool, option("Replace existing files.", "--force", panel=OUTPUT)]
+Force = Annotated[bool, option("Replace existing files.", "--force", panel=OUTPUT, default=...)]
 
 Meshes = Annotated[
     list[Path] | None,
@@ -365,14 +392,16 @@ Meshes = Annotated[
     ),
 ]
 
-Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT)]
+Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT, default=...)]
 
 Ascii = Annotated[
-    bool, option("Draw with plain characters, for fonts that have no others.", "--ascii")
+    bool,
+    option("Draw with plain characters, for fonts that have no others.", "--ascii", default=...),
 ]
 
 Light = Annotated[
-    bool, option("For a terminal with a light ground; on a screen m changes it.", "--light")
+    bool,
+    option("For a terminal with a light ground; on a screen m changes it.", "--light", default=...),
 ]
 
 Rows = Annotated[
@@ -383,6 +412,7 @@ Rows = Annotated[
         "-o",
         metavar="FILE",
         panel=MANY,
+        default=...,
     ),
 ]
 Jobs = Annotated[
@@ -397,12 +427,15 @@ Jobs = Annotated[
         help="Work on so many recordings at once.",
     ),
 ]
-Resume = Annotated[bool, option("Pass over what the file already holds.", "--resume", panel=MANY)]
+Resume = Annotated[
+    bool, option("Pass over what the file already holds.", "--resume", panel=MANY, default=...)
+]
 Scheduler = Annotated[
     str,
     option(
         "Let a cluster of Dask workers do it that you trust: tcp://HOST:8786.",
         metavar="ADDRESS",
         panel=MANY,
+        default=...,
     ),
 ]

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import option
+from tftool.commands.shared.options import argument, flag, option
 
 Metres = Annotated[str | None, typer.Option(metavar="METRES")]
 Part = Annotated[str | None, typer.Option(metavar="NUMBER")]
@@ -26,10 +26,7 @@ class StaticOptions(
     tftool static 0 0 3 0 0 0 1 A B           x y z qx qy qz qw
     """
 
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[X Y Z YAW PITCH ROLL PARENT CHILD]", show_default=False),
-    ] = None
+    words: list[str] | None = argument("", metavar="[X Y Z YAW PITCH ROLL PARENT CHILD]")
     x: Metres = None
     y: Metres = None
     z: Metres = None
@@ -40,17 +37,8 @@ class StaticOptions(
     qy: Part = None
     qz: Part = None
     qw: Part = None
-    frame_id: Annotated[
-        str | None, option("Frame it is given in.", "--frame-id", metavar="PARENT")
-    ] = None
-    child_frame_id: Annotated[
-        str | None, option("Frame it places.", "--child-frame-id", metavar="CHILD")
-    ] = None
-    once: Annotated[
-        bool,
-        option(
-            "Publish, say what, and stop. Who is there keeps it; who comes later does "
-            "not hear of it.",
-            "--once",
-        ),
-    ] = False
+    frame_id: str | None = option("Frame it is given in.", "--frame-id", metavar="PARENT")
+    child_frame_id: str | None = option("Frame it places.", "--child-frame-id", metavar="CHILD")
+    once: bool = flag(
+        "Publish, say what, and stop. Who is there keeps it; who comes later does not hear of it."
+    )

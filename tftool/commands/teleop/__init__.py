@@ -1,11 +1,7 @@
 """`tftool teleop`: arrow keys drive a turtle."""
 
-from typing import Annotated
-
-import typer
-
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Ascii, Light, option
+from tftool.commands.shared.options import Ascii, Light, argument, option
 
 
 class TeleopOptions(Command, hosts_turtles=True):
@@ -19,14 +15,11 @@ class TeleopOptions(Command, hosts_turtles=True):
     tftool teleop --keys "up up left up"
     """
 
-    turtle: Annotated[str, typer.Argument(metavar="[TURTLE]", help="Whom to drive.")] = "turtle1"
-    keys: Annotated[
-        str | None,
-        option(
-            'Press these instead of reading any, one after the other: "up up left g".',
-            "--keys",
-            metavar="KEYS",
-        ),
-    ] = None
+    turtle: str = argument("Whom to drive.", default="turtle1", metavar="[TURTLE]")
+    keys: str | None = option(
+        'Press these instead of reading any, one after the other: "up up left g".',
+        "--keys",
+        metavar="KEYS",
+    )
     ascii_only: Ascii = False
     light: Light = False

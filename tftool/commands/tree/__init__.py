@@ -2,7 +2,6 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -13,6 +12,7 @@ from tftool.commands.shared.options import (
     From,
     Json,
     RunFor,
+    flag,
     option,
     output_file,
 )
@@ -47,30 +47,20 @@ class TreeOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     """
 
     place: From = None
-    form: Annotated[
-        TreeFormat | None,
-        option(
-            f"What to write: {', '.join(TreeFormat)}; if not said, what -o ends in.",
-            "--format",
-            "-f",
-            metavar="FORMAT",
-            panel=OUTPUT,
-        ),
-    ] = None
-    output: Annotated[Path | None, output_file("Where to write it; - is stdout.")] = None
+    form: TreeFormat | None = option(
+        f"What to write: {', '.join(TreeFormat)}; if not said, what -o ends in.",
+        "--format",
+        "-f",
+        metavar="FORMAT",
+        panel=OUTPUT,
+    )
+    output: Path | None = output_file("Where to write it; - is stdout.")
     force: Force = False
     as_json: Json = False
-    wide: Annotated[
-        bool,
-        option(
-            "All columns and whole names on a terminal too, however long the lines.",
-            "--wide",
-            panel=OUTPUT,
-        ),
-    ] = False
+    wide: bool = flag(
+        "All columns and whole names on a terminal too, however long the lines.", panel=OUTPUT
+    )
     at: AtOption = None
-    watch: Annotated[
-        bool, option("Show it as it changes; keys scroll, sort and filter.", "--watch", "-w")
-    ] = False
+    watch: bool = flag("Show it as it changes; keys scroll, sort and filter.", "--watch", "-w")
     run_for: RunFor = None
     cache_time: CacheTime = None

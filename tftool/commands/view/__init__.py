@@ -1,9 +1,6 @@
 """`tftool view`: the frames in 3-D, in a browser."""
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
@@ -12,6 +9,7 @@ from tftool.commands.shared.options import (
     From,
     Meshes,
     RunFor,
+    flag,
     option,
     output_file,
     within,
@@ -35,27 +33,21 @@ class ViewOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     """
 
     place: From = None
-    port: Annotated[
-        int,
-        typer.Option(
-            metavar="PORT",
-            min=0,
-            max=65535,
-            help="Where to serve the page; the next free one if it is taken.",
-        ),
-    ] = 8765
-    open_browser: Annotated[bool, option("Open the page in your browser.", "--open")] = False
+    port: int = option(
+        "Where to serve the page; the next free one if it is taken.",
+        default=8765,
+        metavar="PORT",
+        min=0,
+        max=65535,
+    )
+    open_browser: bool = flag("Open the page in your browser.", "--open")
     run_for: RunFor = None
-    rate: Annotated[
-        float,
-        typer.Option(
-            "--rate", "-r", metavar="HZ", callback=within(0.1, 120), help="Pictures a second."
-        ),
-    ] = 30.0
+    rate: float = option(
+        "Pictures a second.", "--rate", "-r", default=30.0, metavar="HZ", callback=within(0.1, 120)
+    )
     cache_time: CacheTime = None
     meshes: Meshes = None
-    output: Annotated[
-        Path | None,
-        output_file("Write the page with all of its data into one .html file, and serve nothing."),
-    ] = None
+    output: Path | None = output_file(
+        "Write the page with all of its data into one .html file, and serve nothing."
+    )
     force: Force = False
