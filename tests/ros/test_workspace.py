@@ -296,3 +296,32 @@ def test_what_tests_lie_around_is_theirs_but_for_tftool_itself(tmp_path, monkeyp
 
     assert isinstance(theirs.loader, importing._TestedLoader)
     assert not isinstance(ours.loader, importing._TestedLoader)
+
+
+def test_a_file_that_needs_no_package_of_the_workspace_reads_none(ros_runtime, tmp_path):
+    from tftool.ros.host import importing
+    from tftool.ros.host.workspace import Workspace
+
+    folder = tmp_path / "src" / "helpers"
+    (folder / "helpers").mkdir(parents=True)
+    (folder / "helpers" / "__init__.py").write_text("WORD = 'found'\n")
+    (folder / "setup.py").write_text("from setuptools import setup\nsetup(name='helpers')\n")
+    workspace = Workspace(tmp_path)
+    asked = []
+
+    def folders():
+        asked.append(True)
+        return workspace.module_folders()
+
+    importing.look_behind(folders)
+    file = tmp_path / "talk.py"
+    told = "rclpy.create_node('talk').get_logger().info({})\n"
+    file.write_text("import math\nimport rclpy\nrclpy.init()\n" + told.format("'up'"))
+    ros_runtime.start(file)
+    ros_runtime.sleep(1)
+    assert (ros_runtime.log("talk"), asked) == (["up"], [])
+
+    file.write_text("import helpers\nimport rclpy\nrclpy.init()\n" + told.format("helpers.WORD"))
+    ros_runtime.start(file)
+    ros_runtime.sleep(1)
+    assert (ros_runtime.log("talk"), asked) == (["up", "found"], [True])

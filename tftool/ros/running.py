@@ -122,8 +122,8 @@ def tell_unfound(workspace: Workspace, file: Path | None) -> str:
 
 def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> Path | None:
     """Return the file of a package's executable; None for other words, and for our own nodes."""
-    package = workspace.packages.get(target)
-    if package is None or not rest or is_file(target):
+    package = None if is_file(target) or not rest else workspace.packages.get(target)
+    if package is None:
         return None
     script = package.scripts.get(rest[0])
     if script is None:

@@ -27,6 +27,7 @@ from tftool.commands.teleop.command import run as drive
 from tftool.ros import running
 from tftool.ros.host import executables
 from tftool.ros.host.importing import ros_free
+from tftool.ros.host.workspace import is_file
 from tftool.ros.launch import packages
 from tftool.world.link.session_world import Session
 
@@ -164,7 +165,7 @@ def run(connection: Connection, options: RunOptions) -> int:
         notice(word)
     workspace = workspace_here(verbose=options.verbose)
     is_of_nodes = options.place is not None or options.simulated or options.run_for is not None
-    if options.target not in workspace.packages:
+    if not is_file(options.target) and options.target not in workspace.packages:
         status = _run_other(connection, options.target, words, refused=is_of_nodes)
         if status is not None:
             return status

@@ -342,7 +342,7 @@ def start(
         InputError: If its file cannot be read or is not valid Python.
     """
     # As where a workspace is sourced: each of its packages can import the others.
-    importing.look_behind(workspace.module_folders())
+    importing.look_behind(workspace.module_folders)
     if package is None:
         return _program(world, label, user_code.file_body(Path(executable)), argv, options, on_exit)
     check(workspace, package, executable)

@@ -21,6 +21,7 @@ from tftool.messages.classes import INTERFACES
 from tftool.ros.host import fibers, import_table
 from tftool.ros.host.error_text import missing_module, missing_name
 from tftool.ros.host.shims import IMPORTING, builtins_for_users
+from tftool.ros.host.workspace import TAKEN
 
 DISTRIBUTION = "jazzy"
 """The ROS 2 distribution whose behaviour programs meet here: what `ROS_DISTRO` says to them."""
@@ -69,11 +70,11 @@ class _StandInModule(ModuleType):
         if name in entries:
             with _LOADING:
                 return vars(self).setdefault(name, load(entries[name]))
+        if name.startswith("__") and name != "__all__":
+            raise AttributeError(name)
         known = [one for one in dir(self) if not one.startswith("_")]
         if name == "__all__":
             return known
-        if name.startswith("__"):
-            raise AttributeError(name)
         below = f"{self.__name__}.{name}"
         if name in self._modules():
             # Nodes write rclpy.time.Time() after no more than `import rclpy`.
@@ -149,6 +150,8 @@ class _Finder(MetaPathFinder):
 
     def __init__(self) -> None:
         self.roots: list[Path] = []
+        self.behind: list[Callable[[], Iterable[str]]] = []
+        """Return more roots, searched after the others; asked when an import needs them."""
         self.tested: Path | None = None
         """The folder of tests and of their subject; others load it."""
         self.on_import: dict[str, Callable[[], object]] = {}
@@ -169,6 +172,10 @@ class _Finder(MetaPathFinder):
             raise ModuleNotFoundError(missing_module(fullname), name=fullname)
         if self.tested is not None:
             return self._tested(fullname, path, target)
+        if package not in TAKEN:
+            while self.behind:
+                more = map(Path, self.behind.pop(0)())
+                self.roots += [root for root in more if root not in self.roots]
         if not self.roots:
             return None
         search = list(path) if path is not None else [str(root) for root in self.roots]
@@ -366,10 +373,10 @@ def look_in(root: Path) -> None:
         _finder.roots.insert(0, root)
 
 
-def look_behind(roots: Iterable[str]) -> None:
-    """Search users' modules in folders, after programs' own."""
+def look_behind(roots: Callable[[], Iterable[str]]) -> None:
+    """Search users' modules in some folders, after programs' own."""
     if _finder is not None:
-        _finder.roots += [root for root in map(Path, roots) if root not in _finder.roots]
+        _finder.behind.append(roots)
 
 
 def import_fresh(module: str, root: Path) -> ModuleType:

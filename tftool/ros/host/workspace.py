@@ -6,6 +6,7 @@ import sys
 import tempfile
 import weakref
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from itertools import chain
 from operator import attrgetter
 from pathlib import Path, PurePosixPath
@@ -64,7 +65,8 @@ SHARE = Path(__file__).resolve().parents[1] / "share"
 
 _SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"}
 _DEPTH = 5
-_TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", "pytest"}
+_KINDS = ("msg", "srv", "action")
+TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", "pytest"}
 """Python's own modules and ours: interfaces of a package with such a name would hide them."""
 
 
@@ -73,35 +75,50 @@ class Workspace:
 
     Attributes:
         start: The folder.
-        packages: The packages by name.
-        skipped: A sentence for each folder that was left out, and why.
     """
 
     def __init__(self, start: Path) -> None:
         """Search from `start`; unreadable packages are skipped."""
         self.start = start.resolve()
-        self.packages: dict[str, Package] = {}
-        self.skipped: list[str] = []
         self._shares: dict[str, ShareFolder] = {}
-        for root in self._roots():
-            for folder in (Path(one) for one, is_marked in _folders(root, _DEPTH) if is_marked):
-                try:
-                    package = read_package(folder)
-                except (InputError, OSError) as error:
-                    self._skip(folder, error)
-                    continue
-                if package is not None:
-                    self.packages.setdefault(package.name, package)
-        for package in self.packages.values():
+        self._marked = [
+            Path(folder)
+            for root in self._roots()
+            for folder, is_marked in _folders(root, _DEPTH)
+            if is_marked
+        ]
+        # Interfaces are known before a program imports any: those here take precedence over ours.
+        if any((folder / kind).is_dir() for folder in self._marked for kind in _KINDS):
+            _ = self._found
+
+    @property
+    def packages(self) -> dict[str, Package]:
+        """The packages by name, read when they are first asked for."""
+        return self._found[0]
+
+    @property
+    def skipped(self) -> list[str]:
+        """A sentence for each folder that was left out, and why."""
+        return list(dict.fromkeys(self._found[1]))
+
+    @cached_property
+    def _found(self) -> tuple[dict[str, Package], list[str]]:
+        packages: dict[str, Package] = {}
+        skipped = []
+        for folder in self._marked:
+            try:
+                package = read_package(folder)
+            except (InputError, OSError) as error:
+                skipped.append(f"'{folder}' is skipped: {error}")
+                continue
+            if package is not None:
+                packages.setdefault(package.name, package)
+        for package in packages.values():
             try:
                 _add_interfaces(package)
             except (InputError, OSError) as error:
-                self._skip(package.path, error)
-
-    def _skip(self, folder: Path, error: Exception) -> None:
-        sentence = f"'{folder}' is skipped: {error}"
-        if sentence not in self.skipped:
-            self.skipped.append(sentence)
+                skipped.append(f"'{package.path}' is skipped: {error}")
+        return packages, skipped
 
     def _roots(self) -> list[Path]:
         roots = [self.start]
@@ -130,7 +147,7 @@ class Workspace:
         folders = (
             str(module.parent)
             for module in modules
-            if module.name not in _TAKEN and (module / "__init__.py").is_file()
+            if module.name not in TAKEN and (module / "__init__.py").is_file()
         )
         return list(dict.fromkeys(folders))
 
@@ -253,13 +270,13 @@ def _is_folder(entry: "os.DirEntry[str]") -> bool:
 
 
 def _add_interfaces(package: Package) -> None:
-    if package.name in _TAKEN:
-        if any((package.path / kind).is_dir() for kind in ("msg", "srv", "action")):
+    if package.name in TAKEN:
+        if any((package.path / kind).is_dir() for kind in _KINDS):
             raise InputError(f"a package of interfaces cannot be named '{package.name}' as well")
         return
     texts = {
         (kind, file.stem): read_text(file)
-        for kind in ("msg", "srv", "action")
+        for kind in _KINDS
         for file in sorted((package.path / kind).glob(f"*.{kind}"))
     }
     if texts:

@@ -69,23 +69,22 @@ class TransformListener:
             lambda _, text: program.say("WARN", program.name, text),
         )
 
-        frames = self.buffer.frames
-
-        def insert(insert_one: Callable[..., bool], message: TransformMessage) -> None:
+        def insert(message: TransformMessage, *, static: bool) -> None:
             watch.read(world.clock.now())
             arrivals.note()
+            # Looked up each time: a program may give the listener another buffer.
+            frames = self.buffer.frames
+            insert_one = frames.set_transform_static if static else frames.set_transform
             for sample in message.transforms:
                 insert_one(sample, message.authority)
 
         for sample in world.static_transforms():
-            frames.set_transform_static(sample, AUTHORITY)
+            self.buffer.frames.set_transform_static(sample, AUTHORITY)
             arrivals.note()
         owner = self._member.authority
-        self._stops = [
-            world.tf_static.subscribe(partial(insert, frames.set_transform_static), owner)
-        ]
+        self._stops = [world.tf_static.subscribe(partial(insert, static=True), owner)]
         if not static_only:
-            self._stops.append(world.tf.subscribe(partial(insert, frames.set_transform), owner))
+            self._stops.append(world.tf.subscribe(partial(insert, static=False), owner))
         return arrivals
 
     def _stop(self) -> None:
