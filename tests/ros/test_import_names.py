@@ -19,7 +19,8 @@ from tftool.ros.host.importing import ros_free
         ("rclpy.client", "Client ServiceIntrospectionState"),
         ("std_msgs.msg._string", "String"),
         ("sensor_msgs.msg._point_cloud2", "PointCloud2"),
-        ("std_srvs.srv._set_bool", "SetBool"),
+        ("std_srvs.srv._set_bool", "SetBool SetBool_Request SetBool_Response"),
+        ("example_interfaces.action._fibonacci", "Fibonacci_Goal Fibonacci_Feedback"),
         ("launch.actions.execute_process", "ExecuteProcess"),
         ("launch.actions.declare_launch_argument", "DeclareLaunchArgument"),
         ("launch.substitutions.launch_configuration", "LaunchConfiguration"),
@@ -50,9 +51,12 @@ def test_names_that_are_re_exported_are_the_same_ones():
         import std_msgs.msg
         import tf2_ros
         from std_msgs.msg._string import String
+        from std_srvs.srv import Trigger
+        from std_srvs.srv._trigger import Trigger_Request
 
         assert tf2_ros.TransformStamped is geometry_msgs.msg.TransformStamped
         assert String is std_msgs.msg.String
+        assert Trigger_Request is Trigger.Request
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib.abc import Loader, MetaPathFinder
 from pathlib import Path
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 from typing import Any
 
 from tftool.base.errors import UsageError
@@ -89,13 +89,22 @@ class _StandInModule(ModuleType):
         raise AttributeError(sentence)
 
 
+_PARTS: Mapping[str, Sequence[str]] = MappingProxyType(
+    {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
+)
+"""Parts of an interface that its own module has by name: `Trigger_Request`."""
+
+
 def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
     """Return the names of a ROS 2 module, or of one of an interface package."""
     package, _, below = module.partition(".")
     if package not in INTERFACES.packages():
         return import_table.table()[module]
-    place = f"{package}/{below.partition('.')[0]}"
-    return {one: import_table.ImportedName(place, one) for one in _names_in(package, below)}
+    kind, _, own = below.partition(".")
+    names = _names_in(package, below)
+    if own:
+        names += [f"{one}_{part}" for one in names for part in _PARTS.get(kind, ())]
+    return {one: import_table.ImportedName(f"{package}/{kind}", one) for one in names}
 
 
 def _is_import_from(frame: Any) -> bool:
@@ -124,7 +133,9 @@ def load(imported: import_table.ImportedName) -> Any:
     """Return what an entry of the table names."""
     package, _, kind = imported.module.partition("/")
     if kind:
-        return INTERFACES.find(package, kind, imported.name)
+        name, _, part = imported.name.partition("_")
+        found = INTERFACES.find(package, kind, name)
+        return getattr(found, part) if part else found
     return getattr(importlib.import_module(f".{package}", "tftool.ros"), imported.name)
 
 
