@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, Final, Protocol
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from tftool.base.errors import InputError, MalformedMessage
 from tftool.buffer.sample import TransformStamped
@@ -12,15 +12,16 @@ from tftool.messages.classes import Message
 from tftool.messages.codec import Codec, codec
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel
-from tftool.recordings.decompression import best_compression
 from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
-from tftool.recordings.rolling_writer import RollingRecording
 from tftool.world.clock import Clock, pace_of
 from tftool.world.endpoints import PUBLISHER
 from tftool.world.link.seam import Arrived
 from tftool.world.link.session import Link
 from tftool.world.topics import Topic
 from tftool.world.world import TransformMessage, World
+
+if TYPE_CHECKING:
+    from tftool.recordings.rolling_writer import RollingRecording
 
 FRAMES: Final = ("tf", "tf_static")
 """Topics that are always recorded."""
@@ -226,13 +227,17 @@ class Recorder:
 
 
 @contextmanager
-def recorded(world: World, path: Path, *, force: bool = False) -> Iterator[RollingRecording]:
+def recorded(world: World, path: Path, *, force: bool = False) -> "Iterator[RollingRecording]":
     """Record all topics of this process's world while the block runs.
 
     Raises:
         UsageError: If something has that name and `force` is not given.
         InputError: If it cannot be written.
     """
+    # Writers bring numpy along, which a demonstration that is not recorded starts without.
+    from tftool.recordings.decompression import best_compression
+    from tftool.recordings.rolling_writer import RollingRecording
+
     rolling = RollingRecording(path, compression=best_compression(), force=force)
     recorder = Recorder(world, rolling, everything=True)
     try:
