@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
 
@@ -18,7 +18,14 @@ from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.container import MOST_STREAMS, Extras, File, MessageTable, Piece, Taken
+from tftool.recordings.container import (
+    MOST_STREAMS,
+    Extras,
+    File,
+    MessageHead,
+    MessageTable,
+    Piece,
+)
 from tftool.recordings.contract import Indexes, Stamps
 from tftool.recordings.decompression import Ahead, Packed, unpack, unpack_beginning
 
@@ -67,26 +74,6 @@ class WalkedMessages:
         return min(self.log_times, default=0), max(self.log_times, default=0)
 
 
-class MessageHead(NamedTuple):
-    """Header of a message record.
-
-    Attributes:
-        channel: Its channel's number.
-        log_time: When it was received, nanoseconds.
-        first: Offset of its payload.
-        last: Its end.
-        publish_time: When it was sent.
-        sequence: Its number at its publisher.
-    """
-
-    channel: int
-    log_time: int
-    first: int
-    last: int
-    publish_time: int
-    sequence: int = 0
-
-
 @dataclass(slots=True, eq=False)
 class Chunk:
     """One chunk of a file with its index; see `Block`.
@@ -126,7 +113,6 @@ class Chunk:
     counts: Mapping[int, int] | None = None
     whole: bool = False
     walked: WalkedMessages | None = None
-    _found: list[Taken] | None = None
     _is_examined: bool = False
 
     @property
@@ -143,22 +129,18 @@ class Chunk:
         """Return the bytes of its record and of its message indexes."""
         return Piece(self.reader.fileno(), self.position, self.behind - self.position)
 
-    def messages(self) -> list[Taken]:
+    def table(self) -> MessageTable:
         """Return its messages; of a damaged chunk those before the damage."""
-        if self._found is None:
-            self._found = self.reader.taken(self)
-        return self._found
-
-    def table(self) -> MessageTable | None:
-        """Return its messages as columns; None if each must be parsed separately."""
-        return self.reader.table(self) if self.whole and self.counts and self.sound() else None
+        by_index = self.whole and self.counts and self.sound()
+        found = self.reader.indexed_table(self) if by_index else None
+        return self.reader.walked_table(self) if found is None else found
 
     def sound(self) -> bool:
         """Whether its content is as written, as far as a checksum can show.
 
         The first calling thread finds it out; others must wait for its answer.
         """
-        if self._found is None and not self._is_examined:
+        if not self._is_examined:
             if self.is_packed:
                 self.reader.examined(self)
             elif self.crc and not self.cut:
@@ -338,32 +320,27 @@ class ChunkedReader(File):
             )
             chunk.whole = False
 
-    def taken(self, chunk: Chunk) -> list[Taken]:
-        """Return a chunk's messages with their bytes, and register the channels in its records."""
-        found: list[Taken] = []
+    def walked_table(self, chunk: Chunk) -> MessageTable:
+        """Walk through a chunk: return its messages, and register the channels in its records."""
+        heads: list[MessageHead] = []
         data = self.examined(chunk)
         if data is None:
             packed = self.at(chunk.place, chunk.packed)
             data = unpack_beginning(chunk.method, packed, chunk.size)
         try:
-            for channel, log_time, first, last, publish_time, sequence in self._heads(
-                data, learns=True
-            ):
-                payload = data[first:last]
-                moment = min(log_time, LAST_STAMP)
-                found.append(Taken(channel, moment, payload, publish_time, sequence))
+            heads.extend(self._heads(data, learns=True))
         except FAULTS as error:
             if not chunk.cut:
                 self.note_chunk(chunk, reason_of(error))
             chunk.whole = False
-        found = self.known(found)
-        counts = Counter(one.channel for one in found)
+        found = self.known(MessageTable.of(data, heads))
+        counts = Counter(found.channels.tolist())
         if counts != chunk.counts:
             chunk.whole = False
         chunk.counts = counts
         return found
 
-    def table(self, chunk: Chunk) -> MessageTable | None:
+    def indexed_table(self, chunk: Chunk) -> MessageTable | None:
         """Return a sound chunk's messages as columns; None if its indexes are incomplete."""
         data = np.frombuffer(self.unpacked(chunk), dtype=np.uint8)
         try:
@@ -404,12 +381,13 @@ class ChunkedReader(File):
         """Return log times, publish times and sequences of messages, by payload offset."""
         raise NotImplementedError
 
-    def known(self, messages: list[Taken]) -> list[Taken]:
+    def known(self, messages: MessageTable) -> MessageTable:
         """Return the messages whose channel is known."""
-        found = [one for one in messages if one.channel in self.channels]
-        if len(found) < len(messages):
-            self.note("Messages are left out: their topic is unknown.")
-        return found
+        is_known = np.isin(messages.channels, list(self.channels))
+        if is_known.all():
+            return messages
+        self.note("Messages are left out: their topic is unknown.")
+        return messages.chosen(np.flatnonzero(is_known))
 
     def _walk(self, chunk: Chunk, *, learns: bool) -> None:
         """Walk through a chunk's records and collect its messages.

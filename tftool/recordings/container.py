@@ -2,7 +2,7 @@
 
 import os
 import zlib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final, NamedTuple, Protocol
@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import InputError
-from tftool.base.stamps import Stamp
+from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
@@ -53,6 +53,26 @@ class Taken(NamedTuple):
     payload: bytes
     publish_time: Stamp
     sequence: int
+
+
+class MessageHead(NamedTuple):
+    """Header of a message record.
+
+    Attributes:
+        channel: Its channel's number.
+        log_time: When it was received, nanoseconds.
+        first: Offset of its payload.
+        last: Its end.
+        publish_time: When it was sent.
+        sequence: Its number at its publisher.
+    """
+
+    channel: int
+    log_time: int
+    first: int
+    last: int
+    publish_time: int
+    sequence: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,6 +120,22 @@ class MessageTable:
             self.payload(number),
             int(self.publish_times[number]),
             int(self.sequences[number]),
+        )
+
+    @classmethod
+    def of(cls, data: bytes, heads: Sequence[MessageHead]) -> "MessageTable":
+        """Return messages by their headers; `data` holds their payloads."""
+        rows = zip(*heads, strict=True) if heads else [()] * 6
+        channels, log_times, firsts, lasts, publish_times, sequences = rows
+        starts = np.array(firsts, dtype=np.int64)
+        return cls(
+            np.frombuffer(data, dtype=np.uint8),
+            np.array(channels, dtype=np.int64),
+            np.array([min(one, LAST_STAMP) for one in log_times], dtype=np.int64),
+            np.array(publish_times, dtype=np.uint64),
+            np.array(sequences, dtype=np.int64),
+            starts,
+            np.array(lasts, dtype=np.int64) - starts,
         )
 
     def chosen(self, which: Stamps) -> "MessageTable":
@@ -160,10 +196,7 @@ class Block(Protocol):
     def sound(self) -> bool:
         """Whether its content is as written, as far as a checksum can show."""
 
-    def table(self) -> MessageTable | None:
-        """Return its messages as columns; None if each must be parsed separately."""
-
-    def messages(self) -> list[Taken]:
+    def table(self) -> MessageTable:
         """Return its messages in order; of a damaged block those before the damage."""
 
 

@@ -11,7 +11,7 @@ from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.transform_rows import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
-from tftool.recordings.container import ContainerReader, Taken
+from tftool.recordings.container import ContainerReader, MessageHead, MessageTable, Taken
 from tftool.recordings.container_reader import LAYOUTS
 from tftool.recordings.containers import container_named
 from tftool.recordings.edit.changes import (
@@ -38,6 +38,10 @@ class _Static:
 def _row_of(sample: TransformStamped) -> TransformRow:
     numbers = (*sample.transform.translation, *sample.transform.rotation)
     return TransformRow(sample.stamp, sample.frame_id, sample.child_frame_id, numbers)
+
+
+def _one(channel: int, moment: Stamp, payload: bytes) -> MessageTable:
+    return MessageTable.of(payload, [MessageHead(channel, moment, 0, len(payload), moment)])
 
 
 class StaticHeads:
@@ -97,10 +101,10 @@ class StaticHeads:
                     known = [tape.channels[number] for number in block.counts]
                     if not any(map(carries_statics, known)):
                         continue
-                for message in block.messages():
-                    channel = tape.channels[message.channel]
-                    if carries_statics(channel):
-                        self._take(source, message, channel)
+                table = block.table()
+                for place, number in enumerate(table.channels.tolist()):
+                    if carries_statics(tape.channels[number]):
+                        self._take(source, table.message(place), tape.channels[number])
         counts, self._changer.counts = self._changer.counts, Counter()
         if edits.links or edits.statics_from:
             edited = []
@@ -156,8 +160,7 @@ class StaticHeads:
             rows = [one.row for one in group] + added
             added = []
             payload = encode_rows(LAYOUTS[channel.encoding], rows)
-            message = Taken(own, start, payload, start, 0)
-            output.write(source, message, channel, self._tapes[source])
+            output.write(source, _one(own, start, payload), self._tapes[source])
         if added:
             self._write_added(output, added, start)
         output.writer.flush()
@@ -177,4 +180,4 @@ class StaticHeads:
             channel = as_ros1(channel).channel
         payload = encode_rows(LAYOUTS[channel.encoding], rows)
         number = output.channel(channel)
-        output.append(number, Taken(number, start, payload, start, 0))
+        output.append(_one(number, start, payload))

@@ -1,6 +1,5 @@
 """Outputs of an edit: one file, or a folder of files."""
 
-import struct
 import zlib
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -16,7 +15,7 @@ from tftool.messages.schema import full_name
 from tftool.messages.transform_rows import walk
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of, offers_text
 from tftool.recordings.chunked import Chunk, ChunkedReader
-from tftool.recordings.container import Block, ContainerReader, MessageTable, Taken
+from tftool.recordings.container import Block, ContainerReader, MessageTable
 from tftool.recordings.container_reader import LAYOUTS
 from tftool.recordings.containers import container_named
 from tftool.recordings.contract import Stamps
@@ -27,7 +26,6 @@ from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.message_conversion import Conversion, as_ros1, as_ros2
 from tftool.recordings.schema_text import known_hash, ros2_definition
 
-_HEAD = struct.Struct("<qQQ")
 _HEADS = np.dtype([("log_time", "<i8"), ("publish_time", "<u8"), ("sequence", "<u8")])
 
 _UNREAD: Final = "is left out where it cannot be read"
@@ -195,22 +193,7 @@ class EditedFile:
 
     # Messages
 
-    def write(self, source: int, message: Taken, channel: Channel, tape: ContainerReader) -> bool:
-        """Append a message of an input; return whether the container accepts it."""
-        number = self._register(source, message.channel, channel, tape)
-        if number is None:
-            return False
-        conversion = self._conversions[source, message.channel]
-        assert conversion is not None
-        try:
-            payload = conversion.payload(message.payload)
-        except MalformedMessage as error:
-            self._note_refusal(channel.topic, _UNREAD, error)
-            return False
-        self.append(number, message._replace(payload=payload))
-        return True
-
-    def write_table(self, source: int, table: MessageTable, tape: ContainerReader) -> bool:
+    def write(self, source: int, table: MessageTable, tape: ContainerReader) -> bool:
         """Append messages of an input; return whether the container accepts any."""
         numbers = np.full(len(table), -1, dtype=np.int64)
         change = TableChange(table)
@@ -229,12 +212,7 @@ class EditedFile:
         table = change.finished()
         if not len(table):
             return False
-        if self._pack is not None or self._chunks is None or not self._chunks.write_table(table):
-            for row in range(len(table)):
-                message = table.message(row)
-                self.append(message.channel, message)
-            return True
-        self._note_table(table)
+        self.append(table)
         return True
 
     def _convert(
@@ -270,28 +248,19 @@ class EditedFile:
                 self._note_refusal(channel.topic, _UNREAD, error)
                 change.keep[row] = False
 
-    def _note_table(self, table: MessageTable) -> None:
-        """Record messages for the comparison."""
+    def append(self, table: MessageTable) -> None:
+        """Append messages unchanged, and record them for the comparison."""
         for number, count in Counter(table.channels.tolist()).items():
             self.counts[number] += count
         digest_table(self.digests, table, self.channels, self.container)
         self.start = min(self.start, int(table.log_times.min()))
         self.end = max(self.end, int(table.log_times.max()))
-
-    def append(self, number: int, message: Taken) -> None:
-        """Append a message unchanged."""
-        self.note(number, message)
-        payload = message.payload if self._pack is None else self._pack(message.payload)
-        self.writer.write(number, message.log_time, payload, message.publish_time, message.sequence)
-
-    def note(self, number: int, message: Taken) -> None:
-        """Record a message for the comparison."""
-        channel = self.channels[number]
-        key = channel.topic, channel.type
-        self.counts[number] += 1
-        self.digests[key] = digest(self.digests.get(key, 0), message, self.container)
-        self.start = min(self.start, message.log_time)
-        self.end = max(self.end, message.log_time)
+        if self._pack is None and self._chunks is not None and self._chunks.write_table(table):
+            return
+        for row in range(len(table)):
+            number, log_time, payload, publish_time, sequence = table.message(row)
+            packed = payload if self._pack is None else self._pack(payload)
+            self.writer.write(number, log_time, packed, publish_time, sequence)
 
     def can_copy(self, source: int, block: Block, tape: ContainerReader) -> bool:
         """Whether a block may be copied unchanged."""
@@ -344,22 +313,13 @@ class EditedFile:
         self.writer.finish()
 
 
-def digest(before: int, message: Taken, container: str) -> int:
-    """Update a checksum with one message, over the parts that the container stores."""
-    kept = container_named(container).keeps_sequences
-    head = _HEAD.pack(
-        message.log_time, message.publish_time if kept else 0, message.sequence if kept else 0
-    )
-    return zlib.crc32(message.payload, zlib.crc32(head, before))
-
-
 def digest_table(
     digests: dict[tuple[str, str], int],
     table: MessageTable,
     channels: Mapping[int, Channel],
     container: str,
 ) -> None:
-    """Update each topic's checksum with some messages; see `digest`."""
+    """Update each topic's checksum with some messages: the parts that the container stores."""
     numbers: dict[tuple[str, str], list[int]] = {}
     for number in table.owners:
         channel = channels[number]

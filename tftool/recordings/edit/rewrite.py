@@ -27,7 +27,7 @@ from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.database import EditedDatabase, Unsound
 from tftool.recordings.edit.heads import StaticHeads
 from tftool.recordings.edit.inputs import EditedInput, open_input, open_tape
-from tftool.recordings.edit.outputs import EditedFile, digest, digest_table
+from tftool.recordings.edit.outputs import EditedFile, digest_table
 from tftool.recordings.edit.plan import changer_for
 from tftool.recordings.recording import Recording, open_recording
 from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
@@ -198,18 +198,14 @@ class _Job:
         done = 0
         for tape in self._tapes:
             for block in tape.blocks():
-                table = self._table(block, tape)
-                if table is not None:
-                    after = self._changer.changed_table(table, tape.channels)
-                    self.report.messages += len(after)
-                    self.report.copied += after is table and isinstance(block, Chunk)
-                elif self._untouched(block, tape):
+                if self._stays_unseen(block, tape) and block.sound():
                     self.report.messages += sum((block.counts or {}).values())
-                    self.report.copied += 1
-                else:
-                    for message in block.messages():
-                        changed = self._changer.changed(message, tape.channels[message.channel])
-                        self.report.messages += changed is not None
+                    self.report.copied += self._in_one_part(block)
+                    continue
+                table = block.table()
+                after = self._changer.changed_table(table, tape.channels)
+                self.report.messages += len(after)
+                self.report.copied += after is table and self._in_one_part(block)
             done += tape.size
             self._tell(done)
         self._sum_up()
@@ -340,73 +336,44 @@ class _Job:
         return part / f"{self._path.name}_{number}{suffix}"
 
     def _write_block(self, source: int, tape: ContainerReader, block: Block, part: Path) -> None:
-        table = self._table(block, tape)
-        after, done = None, Counter[str]()
-        if table is not None:
+        stays = self._stays_unseen(block, tape) and block.sound()
+        table = after = None
+        done = Counter[str]()
+        if not stays:
             counts, self._changer.counts = self._changer.counts, done
+            table = block.table()
             after = self._changer.changed_table(table, tape.channels)
             self._changer.counts = counts
-        stays = after is table if table is not None else self._untouched(block, tape)
-        if stays and isinstance(block, Chunk) and self._may_copy(block):
+        if after is table and self._in_one_part(block) and self._may_copy(block):
+            assert isinstance(block, Chunk)
             output = self._output(self._part_of(source, block.start), part)
             if output.can_copy(source, block, tape):
                 output.copy(block)
                 return
         self._changer.counts.update(done)
-        if after is not None:
-            if not len(after):
-                return
-            output = self._output(self._part_of(source, int(after.log_times[0])), part)
-            if output.write_table(source, after, tape):
+        for number, rows in self._by_part(source, block.table() if after is None else after):
+            output = self._output(number, part)
+            if output.write(source, rows, tape):
                 output.closed_block(block)
+
+    def _by_part(self, source: int, table: MessageTable) -> Iterator[tuple[int, MessageTable]]:
+        """Yield the parts of the result that messages belong to, in order of the first ones."""
+        if not self._edits.split_every:
+            if len(table):
+                yield self._part_of(source, 0), table
             return
-        touched = set()
-        for message in block.messages():
-            changed = self._changer.changed(message, tape.channels[message.channel])
-            if changed is None:
-                continue
-            output = self._output(self._part_of(source, changed.log_time), part)
-            if output.write(source, changed, tape.channels[changed.channel], tape):
-                touched.add(output)
-        for output in touched:
-            output.closed_block(block)
+        parts = np.maximum(0, (table.log_times - self._start) // self._edits.split_every)
+        for number in dict.fromkeys(parts.tolist()):
+            yield number, table.chosen(np.flatnonzero(parts == number))
 
-    def _table(self, block: Block, tape: ContainerReader) -> MessageTable | None:
-        """Return a chunk's messages as columns, if they are examined and stay in one file."""
-        if self._edits.split_every:
-            return None
-        if tape.container == self._container and self._stays_unseen(block, tape):
-            return None
-        return block.table()
+    def _in_one_part(self, block: Block) -> bool:
+        """Whether a block is a sound chunk whose messages belong to one part of the result."""
+        is_one = self._part_of(0, block.start) == self._part_of(0, block.end)
+        return is_one and block.whole and bool(block.counts) and isinstance(block, Chunk)
 
-    def _may_copy(self, chunk: Chunk) -> bool:
+    def _may_copy(self, chunk: Block) -> bool:
         """Whether a chunk without changes may be copied."""
         return not self._edits.links or self._changer.keeps_all(chunk.start, chunk.end)
-
-    def _untouched(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block stays unchanged, found with or without decoding it."""
-        if not block.whole or not block.counts:
-            return False
-        if not self._changer.keeps_all(block.start, block.end):
-            window_only = not self._edits.links
-            if not window_only or not self._keeps_each(block, tape):
-                return False
-        if self._part_of(0, block.start) != self._part_of(0, block.end):
-            return False
-        changing = [n for n in block.counts if self._changer.touches(tape.channels[n])]
-        if changing and not self._keeps_each(block, tape):
-            return False
-        return block.sound()
-
-    def _keeps_each(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether all messages of a block stay unchanged."""
-        before = Counter(self._changer.counts)
-        for message in block.messages():
-            if self._changer.changed(message, tape.channels[message.channel]) is not message:
-                self._changer.counts = before
-                return False
-        self._changer.counts = before
-        return True
 
     # Parts
 
@@ -485,17 +452,10 @@ class _Job:
                     counts[channel.topic, channel.type] += count
                 continue
             table = block.table()
-            if table is not None:
-                for number, count in Counter(table.channels.tolist()).items():
-                    channel = tape.channels[number]
-                    counts[channel.topic, channel.type] += count
-                digest_table(found, table, tape.channels, output.container)
-                continue
-            for message in block.messages():
-                channel = tape.channels[message.channel]
-                key = channel.topic, channel.type
-                counts[key] += 1
-                found[key] = digest(found.get(key, 0), message, output.container)
+            for number, count in Counter(table.channels.tolist()).items():
+                channel = tape.channels[number]
+                counts[channel.topic, channel.type] += count
+            digest_table(found, table, tape.channels, output.container)
         wanted: Counter[tuple[str, str]] = Counter()
         for number, count in output.counts.items():
             channel = output.channels[number]

@@ -19,12 +19,18 @@ from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import (
     Chunk,
     ChunkedReader,
-    MessageHead,
     WalkedMessages,
     reason_of,
 )
 from tftool.recordings.columns import Batch, in_order, words_at
-from tftool.recordings.container import MOST_STREAMS, CopiedAttachment, Piece, Taken, check_told
+from tftool.recordings.container import (
+    MOST_STREAMS,
+    CopiedAttachment,
+    MessageHead,
+    MessageTable,
+    Piece,
+    check_told,
+)
 from tftool.recordings.containers import MCAP_MAGIC
 from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import Ahead
@@ -571,10 +577,7 @@ class Loose:
         """Return True: outside chunks there is no checksum."""
         return True
 
-    def table(self) -> None:
-        """Return None: these messages are read one by one."""
-
-    def messages(self) -> list[Taken]:
+    def table(self) -> MessageTable:
         """Read the messages."""
         reader, found = self._reader, self.found
         begin = found.starts[0] - IN_CHUNK
@@ -582,15 +585,14 @@ class Loose:
             data = reader.at(begin, found.starts[-1] + found.lengths[-1] - begin)
         except InputError as error:
             reader.note(f"A record at byte {begin} cannot be read ({error}).")
-            return []
-        messages = []
+            return MessageTable.of(b"", [])
+        heads = []
         for start, length in zip(found.starts, found.lengths, strict=True):
             first = start - begin
             channel, sequence, log_time, publish_time = MESSAGE_HEAD.unpack_from(data, first - 22)
-            payload = data[first : first + length]
-            moment = min(log_time, LAST_STAMP)
-            messages.append(Taken(channel, moment, payload, publish_time, sequence))
-        return reader.known(messages)
+            last = first + length
+            heads.append(MessageHead(channel, log_time, first, last, publish_time, sequence))
+        return reader.known(MessageTable.of(data, heads))
 
 
 def check_length(length: int) -> None:

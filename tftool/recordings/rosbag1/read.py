@@ -12,9 +12,9 @@ from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS
 from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, MessageHead, reason_of
+from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, reason_of
 from tftool.recordings.columns import Batch, in_order, words_at
-from tftool.recordings.container import Taken, check_told
+from tftool.recordings.container import MessageHead, MessageTable, check_told
 from tftool.recordings.containers import ROS1_MAGIC
 from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import Ahead, Packed
@@ -261,11 +261,11 @@ class Rosbag1(ChunkedReader):
         log_times = sec * NANOSECONDS + nanosec
         return log_times, log_times, np.zeros(len(starts), dtype=np.int64)
 
-    def taken(self, chunk: Chunk) -> list[Taken]:
+    def walked_table(self, chunk: Chunk) -> MessageTable:
         """Return a chunk's messages; only they show when the chunk begins and ends."""
-        found = super().taken(chunk)
-        chunk.start = min((one.log_time for one in found), default=0)
-        chunk.end = max((one.log_time for one in found), default=0)
+        found = super().walked_table(chunk)
+        chunk.start = int(found.log_times.min()) if len(found) else 0
+        chunk.end = int(found.log_times.max()) if len(found) else 0
         return found
 
     # Messages

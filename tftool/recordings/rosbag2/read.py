@@ -16,7 +16,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.messages.native_scan import SCAN
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.container import MOST_STREAMS, Extras, MessageTable, Taken
+from tftool.recordings.container import MOST_STREAMS, Extras, MessageTable
 from tftool.recordings.containers import ZSTD_MAGIC
 from tftool.recordings.contract import Progress
 from tftool.recordings.decompression import LARGEST, unpack_beginning
@@ -306,28 +306,21 @@ class Rows:
         """Return True: there is no checksum."""
         return True
 
-    def table(self) -> MessageTable | None:
-        """Return its messages as columns; None if each was compressed by itself."""
-        batch = self._batch
-        if self._unpacks:
-            return None
-        channels, moments = batch.senders.astype(np.int64), batch.log_times
-        none = np.zeros(len(batch), dtype=np.int64)
-        return MessageTable(
-            batch.buffer, channels, moments, moments, none, batch.starts, batch.lengths
-        )
-
-    def messages(self) -> list[Taken]:
+    def table(self) -> MessageTable:
         """Return its messages."""
-        batch = self._batch
-        found = []
-        for number in range(len(batch)):
-            payload = batch.payload(number)
-            if self._unpacks and payload.startswith(ZSTD_MAGIC):
-                payload = unpack_beginning("zstd", payload, LARGEST)
-            log_time = int(batch.log_times[number])
-            found.append(Taken(int(batch.senders[number]), log_time, payload, log_time, 0))
-        return found
+        batch, moments = self._batch, self._batch.log_times
+        data, starts, lengths = batch.buffer, batch.starts, batch.lengths
+        if self._unpacks:
+            pieces = [batch.payload(number) for number in range(len(batch))]
+            pieces = [
+                unpack_beginning("zstd", one, LARGEST) if one.startswith(ZSTD_MAGIC) else one
+                for one in pieces
+            ]
+            lengths = np.fromiter(map(len, pieces), dtype=np.int64, count=len(pieces))
+            data, starts = np.frombuffer(b"".join(pieces), np.uint8), np.cumsum(lengths) - lengths
+        none = np.zeros(len(batch), dtype=np.int64)
+        channels = batch.senders.astype(np.int64)
+        return MessageTable(data, channels, moments, moments, none, starts, lengths)
 
 
 def _connected(uri: str) -> sqlite3.Connection:
