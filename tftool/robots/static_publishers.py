@@ -12,9 +12,6 @@ from pathlib import Path
 from typing import Any, Final
 from xml.parsers import expat
 
-import yaml
-
-from tftool.base import yaml_guard
 from tftool.base.errors import InputError, UsageError
 from tftool.base.named_files import read_named
 from tftool.base.stamps import Stamp
@@ -170,6 +167,11 @@ def _of_xml(text: str, name: str) -> Iterator[Publisher]:
 
 
 def _of_yaml(text: str, name: str) -> Iterator[Publisher]:
+    # Not at the top: `tftool info` imports this room for every recording.
+    import yaml
+
+    from tftool.base import yaml_guard
+
     try:
         root = yaml_guard.compose(text)
     except yaml.YAMLError as error:

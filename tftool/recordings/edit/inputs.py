@@ -11,7 +11,8 @@ from tftool.base.errors import InputError, UsageError
 from tftool.recordings.container import ContainerReader
 from tftool.recordings.find import Found, Kind, container_in, find, kind_of_file, refusal
 from tftool.recordings.poses.pose_container import open_poses
-from tftool.recordings.rosbag2.folder import files_of_folder, read_metadata, unpack_file
+from tftool.recordings.rosbag2.folder import files_of_folder, unpack_file
+from tftool.recordings.rosbag2.folder_writer import read_metadata
 from tftool.recordings.rosbag2.read import Sqlite
 
 

@@ -8,14 +8,11 @@ import shutil
 import tempfile
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import yaml
 
-from tftool.base import yaml_guard
 from tftool.base.errors import InputError
-from tftool.base.named_files import open_regular
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
 from tftool.recordings.container import MOST_STREAMS, Container
@@ -31,10 +28,8 @@ from tftool.recordings.find import (
     kind_of_file,
     refusal,
 )
-from tftool.recordings.poses.pose_container import open_poses
 
 _PARTS: Final = (*(Kind(one.words) for one in CONTAINERS if one.storage), Kind.ZSTD)
-_LARGEST_METADATA: Final = 1 << 24
 _LARGEST_UNPACKED: Final = 1 << 34
 _STEP: Final = 1 << 20
 
@@ -53,6 +48,9 @@ def open_found(found: Found) -> Container:
     if found.kind is Kind.SEVERAL:
         return _joined(found.paths, [], by_time=True)
     if found.kind is Kind.POSES:
+        # As with yaml below: what few recordings need, start-up of all others does not import.
+        from tftool.recordings.poses.pose_container import open_poses
+
         return open_poses(found)
     return _open_file(found.paths[0])
 
@@ -140,6 +138,8 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read as they are.")
         return []
+    from tftool.recordings.rosbag2.folder_writer import read_metadata
+
     try:
         names = read_metadata(folder)["relative_file_paths"]
         return [Path(str(name)).name for name in names][:10_000]
@@ -148,30 +148,6 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
         first = why.splitlines()[0]
         damage.append(f"Its {METADATA} cannot be read ({first}): the files are read as they are.")
         return []
-
-
-def read_metadata(folder: Path) -> dict[str, Any]:
-    """Read a folder's metadata.yaml.
-
-    Raises:
-        OSError: If there is none, or it may not be read.
-        ValueError: If it is too large, or no YAML.
-        KeyError: If it does not describe a recording.
-        TypeError: Likewise.
-    """
-    path = folder / METADATA
-    if path.stat().st_size > _LARGEST_METADATA:
-        raise ValueError("it is too large")
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    try:
-        with open_regular(path) as file:
-            document: Any = yaml_guard.load(file.read().decode(), loader)
-    except (yaml.YAMLError, RecursionError) as error:
-        raise ValueError(str(error) or type(error).__name__) from error
-    found = document["rosbag2_bagfile_information"]
-    if not isinstance(found, dict):
-        raise TypeError("it does not describe a recording")
-    return found
 
 
 def _is_part(path: Path) -> bool:

@@ -9,9 +9,12 @@ from typing import Any, Final
 import yaml
 
 from tftool.base import yaml_guard
+from tftool.base.named_files import open_regular
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel, ContainerWriter, offers_text, restyled
 from tftool.recordings.find import METADATA
+
+_LARGEST_METADATA: Final = 1 << 24
 
 VERSION: Final = 9
 """Of the metadata where nothing says otherwise."""
@@ -105,6 +108,30 @@ def _listed(topics: Mapping[Channel, int], version: int) -> list[dict[str, Any]]
             metadata["type_description_hash"] = channel.extra("topic_type_hash")
         listed[key] = {"topic_metadata": metadata, "message_count": count}
     return list(listed.values())
+
+
+def read_metadata(folder: Path) -> dict[str, Any]:
+    """Read a folder's metadata.yaml.
+
+    Raises:
+        OSError: If there is none, or it may not be read.
+        ValueError: If it is too large, or no YAML.
+        KeyError: If it does not describe a recording.
+        TypeError: Likewise.
+    """
+    path = folder / METADATA
+    if path.stat().st_size > _LARGEST_METADATA:
+        raise ValueError("it is too large")
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        with open_regular(path) as file:
+            document: Any = yaml_guard.load(file.read().decode(), loader)
+    except (yaml.YAMLError, RecursionError) as error:
+        raise ValueError(str(error) or type(error).__name__) from error
+    found = document["rosbag2_bagfile_information"]
+    if not isinstance(found, dict):
+        raise TypeError("it does not describe a recording")
+    return found
 
 
 def write_metadata(folder: Path, text: str) -> None:
