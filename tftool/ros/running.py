@@ -209,8 +209,7 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
 class Ending:
     """The end of a run of users' programs."""
 
-    def __init__(self, world: World) -> None:
-        self.world = world
+    def __init__(self) -> None:
         self.program: Program | None = None
         self.over: asyncio.Event = asyncio.Event()
 

@@ -90,7 +90,7 @@ def run(connection: Connection, options: Ros2Options) -> int:
     world.log.listen(
         lambda record: tell_record(record) if record.level in ("WARN", "ERROR") else None, "console"
     )
-    ending = running.Ending(world)
+    ending = running.Ending()
 
     async def work() -> None:
         Program(world, world.free_name("ros2"), user_code.whole(body), argv=words, on_exit=ending)
@@ -129,7 +129,7 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
         packages.use(workspace)
         session = open_empty_session(connection)
         world = session.world
-        ending = running.Ending(world)
+        ending = running.Ending()
 
         async def work() -> None:
             body = user_code.whole(partial(run_tests, path, arguments))

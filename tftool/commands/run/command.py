@@ -189,16 +189,15 @@ def run(connection: Connection, options: RunOptions) -> int:
             finder.on_import |= dict.fromkeys(running.TURTLE_PACKAGES, turtles.host_from_program)
             if session.is_hosted:
                 world.watch(turtles.host_for_topics)
-        ending: list[running.Ending] = []
+        ending = running.Ending()
 
         async def work() -> None:
-            ending.append(running.Ending(world))
             if on_demand and options.target in running.TURTLE_PACKAGES:
                 turtles.host()
-            running.start_program(world, workspace, options.target, words, on_exit=ending[0])
-            await running.until(world, ending[0].over, options.run_for)
+            running.start_program(world, workspace, options.target, words, on_exit=ending)
+            await running.until(world, ending.over, options.run_for)
 
         session.run(work())
         for sentence in running.advice(world) if options.simulated else ():
             notice(visible(sentence))
-        return ending[0].judge()
+        return ending.judge()
