@@ -515,13 +515,12 @@ class _Drawing:
 
     def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
         """Return guides and name of one frame in `room` cells."""
-        lead = self._lead(branch, more)
+        lead = "" if self.is_flat else self.guides.lead(branch, self.most, more)
         name = self.names[branch.info.frame]
         shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)
         self.is_cut = self.is_cut or shown != name
-        return (
-            Text().append(lead, style="dim").append(shown, style=_name_style(branch.info, marked))
-        )
+        style = "yellow" if marked else _style(branch.info)
+        return Text().append(lead, style="dim").append(shown, style=style)
 
     def longest(self, guides: Guides) -> int:
         """Return the width in cells of the longest name with its guides."""
@@ -533,17 +532,6 @@ class _Drawing:
             ),
             default=LEAST_NAME,
         )
-
-    def _lead(self, branch: Branch, more: str) -> str:
-        return "" if self.is_flat else self.guides.lead(branch, self.most, more)
-
-
-def _name_style(info: FrameInfo, marked: bool) -> str:
-    if marked:
-        return "yellow"
-    if info.parent is None:
-        return "bold"
-    return "cyan" if info.is_static else ""
 
 
 def _age_style(info: FrameInfo) -> str:

@@ -14,6 +14,7 @@ from tftool.base.fixed_width import fitted, padded, plain
 from tftool.base.stamps import as_seconds, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.drawing import theme
+from tftool.drawing.drawn_forest import ASCII, UNICODE, branches, grow
 from tftool.drawing.line_plot import PAIR_LABELS, PlotSpan, pair_plot
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.screens.terminal.scene import Scene, SceneMoment
@@ -29,27 +30,12 @@ class Row(NamedTuple):
 
 
 def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
-    """Return the rows of all trees, one after the other.
-
-    Frames in a loop, which have no root, are last.
-    """
-    through, last, down, blank = (
-        ("|- ", "`- ", "|  ", "   ") if ascii_only else ("├─ ", "└─ ", "│  ", "   ")
-    )
-    found: list[Row] = []
-    # A stack and not a recursion: a tree may be as deep as there are frames.
-    waiting = [(root, "", "") for root in reversed(snapshot.roots())]
-    while waiting:
-        name, before, guide = waiting.pop()
-        found.append(Row(before + guide, snapshot.frame(name)))
-        below = before + ("" if not guide else blank if guide == last else down)
-        children = snapshot.children(name)
-        waiting += [
-            (child, below, last if child == children[-1] else through)
-            for child in reversed(children)
-        ]
-    found += [Row("", snapshot.frame(name)) for name in snapshot.loops()]
-    return found
+    """Return the rows of all trees, one after the other; frames in a loop are last."""
+    guides = (ASCII if ascii_only else UNICODE)[1]
+    return [
+        Row(guides.lead(one) if one.info.root is not None else "", one.info)
+        for one in branches(grow(snapshot))
+    ]
 
 
 def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:

@@ -262,20 +262,23 @@ class RobotApp(PanelApp):
         turn = f"rpy {roll:.4f} {pitch:.4f} {yaw:.4f} rad"
         if height < 4:
             return [heading, Text(f"{place}   {turn}")]
-        return [heading, Text(place), Text(turn), self._joint(width), *self._others(width)][:height]
+        lines = [heading, Text(place), Text(turn), self._joint(width), *self._others(width)]
+        if len(lines) > height > 6:
+            lines[height - 1 :] = [Text(f"{len(lines) - height + 1} more", "dim")]
+        return lines[:height]
 
     def _others(self, width: int) -> list[Text]:
         """Return where every link is, a line each below a heading."""
         look, root = self.look, self.prefix + self.sliders.robot.root
-        name_width = max(8, width - 30)
-        lines = [Text(), Text(f"{'':{name_width}}         x         y         z", "dim")]
+        name_width = max(8, width - 24)
+        lines = [Text(), Text(f"{'':{name_width}}       x       y       z", "dim")]
         for link in self._links:
             try:
                 place = self.world.buffer.lookup_transform(root, self.prefix + link)
             except TransformException:
                 continue
             name = padded(self.prefix + link, name_width, more=look.more)
-            numbers = "".join(f" {value:9.3f}" for value in place.transform.translation)
+            numbers = "".join(f"{round(one, 3) + 0.0:8.3f}" for one in place.transform.translation)
             color = look.palette.accent if link == self.link else look.of_name(self.prefix + link)
             lines.append(Text.assemble((name, look.ink(color)), numbers))
         return lines
