@@ -26,7 +26,6 @@ from tftool.robots.robot_model import load_urdf
 
 
 def _tell(report: EditReport, output: Path, *, dry_run: bool, for_programs: bool) -> None:
-
     if for_programs:
         document = {
             "output": str(output),
@@ -70,7 +69,6 @@ def _moments(
 
 
 def _link(option: str, text: str) -> LinkName:
-
     parent, colon, child = text.partition(":")
     if not colon or not parent or not child:
         raise UsageError(f"{option} takes PARENT:CHILD, such as base_link:laser, not '{text}'.")
@@ -78,7 +76,6 @@ def _link(option: str, text: str) -> LinkName:
 
 
 def _renamed(text: str) -> tuple[str, str]:
-
     old, equals, new = text.partition("=")
     if not equals or not old or not new:
         raise UsageError(f"--rename takes OLD=NEW, such as laser=lidar, not '{text}'.")
@@ -109,7 +106,6 @@ def _frame(option: str, text: str) -> str:
 
 
 def _pose(text: str) -> "tuple[LinkName, tuple[float, ...]]":
-
     name, _, listed = text.partition("=")
     link = _link("--set", name)
     numbers = []
@@ -136,7 +132,6 @@ def _pose(text: str) -> "tuple[LinkName, tuple[float, ...]]":
 
 
 def _reparented(text: str) -> "tuple[LinkName, str]":
-
     name, equals, new = text.partition("=")
     link = _link("--reparent", name)
     if not equals or not new:

@@ -5,7 +5,6 @@ import os
 import shutil
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from tftool.base.errors import UsageError
@@ -199,72 +198,64 @@ def _span(
     return first, last
 
 
-@dataclass(frozen=True, slots=True)
-class _Playing:
-    """A recording to play, and its options; the fields are those of `Player`."""
-
-    recording: Recording
-    timeline: Timeline
-    span: tuple[Stamp, Stamp]
-    rate: float
-    is_paused: bool
-    is_looping: bool
-    is_restamped: bool
-    sends_all: bool
-    duration: Duration | None
-    marks: Sequence[PlaybackMark] = ()
-
-    async def play(self, pace: Clock, link: Link | None) -> None:
-        """Play the recording and share it as a session."""
-        world = World(pace if self.is_restamped else FollowedClock(max(self.span[0], 1)))
-        with shared(link, world):
-            player = self._player(world, pace, link)
-            display = Display(player, pace, self.marks)
-            stop_telling = world.log.listen(display.tell, "console")
-            try:
-                with keyboard(lambda key: press(player, key, self.marks)) as display.has_keys:
-                    helper = self._until_over(world, pace, display)
-                    await beside(live(world), helper)
-            finally:
-                display.clear()
-                stop_telling()
-
-    def _player(self, world: World, pace: Clock, link: Link | None) -> Player:
-
-        return Player(
+async def _play(
+    options: PlayOptions,
+    recording: Recording,
+    timeline: Timeline,
+    span: tuple[Stamp, Stamp],
+    marks: Sequence[PlaybackMark],
+    pace: Clock,
+    link: Link | None,
+) -> None:
+    """Play a recording and share it as a session."""
+    is_restamped = options.restamp is not None
+    world = World(pace if is_restamped else FollowedClock(max(span[0], 1)))
+    with shared(link, world):
+        player = Player(
             world,
             "player",
-            timeline=self.timeline,
+            timeline=timeline,
             pace=pace,
-            span=self.span,
-            rate=self.rate,
-            is_paused=self.is_paused,
-            is_looping=self.is_looping,
-            is_restamped=self.is_restamped,
-            feed=self._feed(link) if self.sends_all else None,
+            span=span,
+            rate=options.rate,
+            is_paused=options.paused,
+            is_looping=options.loop,
+            is_restamped=is_restamped,
+            feed=_feed(recording, timeline, link) if options.everything else None,
         )
-
-    def _feed(self, link: Link | None) -> TopicFeed | None:
-
-        if link is None:
-            notice("--all has no effect here: no other process can join this world.")
-            return None
-        feed = TopicFeed(link, self.recording.source, self.timeline.clock, "player")
-        for sentence in feed.left_out:
-            notice(visible(sentence))
-        return feed
-
-    async def _until_over(self, world: World, pace: Clock, display: Display) -> None:
-        """Show the playback position until it is over; then end the world."""
-        showing = asyncio.ensure_future(display.keep())
+        display = Display(player, pace, marks)
+        stop_telling = world.log.listen(display.tell, "console")
         try:
-            if self.duration is None:
-                await showing
-            else:
-                await pace.sleep(self.duration)
-                world.stop()
+            with keyboard(lambda key: press(player, key, marks)) as display.has_keys:
+                await beside(live(world), _until_over(world, pace, display, options.run_for))
         finally:
-            showing.cancel()
+            display.clear()
+            stop_telling()
+
+
+def _feed(recording: Recording, timeline: Timeline, link: Link | None) -> TopicFeed | None:
+    if link is None:
+        notice("--all has no effect here: no other process can join this world.")
+        return None
+    feed = TopicFeed(link, recording.source, timeline.clock, "player")
+    for sentence in feed.left_out:
+        notice(visible(sentence))
+    return feed
+
+
+async def _until_over(
+    world: World, pace: Clock, display: Display, duration: Duration | None
+) -> None:
+    """Show the playback position until it is over; then end the world."""
+    showing = asyncio.ensure_future(display.keep())
+    try:
+        if duration is None:
+            await showing
+        else:
+            await pace.sleep(duration)
+            world.stop()
+    finally:
+        showing.cancel()
 
 
 def _marks(recording: Recording, start: Stamp) -> list[PlaybackMark]:
@@ -297,22 +288,11 @@ def run(connection: Connection, options: PlayOptions) -> ExitStatus:
     assert isinstance(recording, Recording)
     timeline = Timeline(recording.source, recording.transforms)
     span = _span(recording, timeline, options.begin, options.until)
-    playing = _Playing(
-        recording,
-        timeline,
-        span,
-        options.rate,
-        is_paused=options.paused,
-        is_looping=options.loop,
-        is_restamped=options.restamp is not None,
-        sends_all=options.everything,
-        duration=options.run_for,
-        marks=_marks(recording, span[0]),
-    )
+    marks = _marks(recording, span[0])
     # Last of all: while it has not been decided who hosts, other processes wait.
     link = join_or_host(connection, options.file).link
     if link is not None and connection.reach.is_robots and not options.force:
         _refuse_to_mix(link)
     pace = connection.providers.wall_clock()
-    run_loop(pace, playing.play(pace, link))
+    run_loop(pace, _play(options, recording, timeline, span, marks, pace, link))
     return ExitStatus.DONE

@@ -201,7 +201,6 @@ def _as_json(output: Path, running: RecordingRun) -> str:
 
 
 def _summed_up(rolling: RollingRecording) -> str:
-
     many = f" in {len(rolling.files)} files" if len(rolling.files) > 1 else ""
     return (
         f"{visible(str(rolling.path))}: {count(rolling.messages, 'message')}, "
@@ -240,7 +239,6 @@ def _refuse_places(topics: Sequence[str]) -> None:
 
 
 def _check_finding(name: str) -> None:
-
     if name not in CHECKS:
         near = near_names(name, CHECKS, 3)
         hint = (

@@ -55,7 +55,6 @@ def _no_link(described: Robot, link: str) -> str:
 
 
 def _tell(described: Robot, follow: bool) -> None:
-
     moving = sum(joint.moves for joint in described.joints.values())
     whose = "the /joint_states of others say" if follow else "--joint says"
     sys.stdout.write(

@@ -34,7 +34,6 @@ def publish(connection: Connection, said: StaticArguments, *, spin: bool) -> Non
 
 
 async def _published(session: Session, said: StaticArguments, spin: bool) -> None:
-
     world = session.world
     name = f"static_transform_publisher_{os.getpid()}"
     sample = TransformStamped(world.clock.now(), said.parent, said.child, said.transform)

@@ -16,7 +16,6 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import short_size
-from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice, tell_news
@@ -57,24 +56,16 @@ from tftool.world.world import World
 _MOST_TOLD = 5
 
 
-def _write(
-    connection: Connection,
-    place: str | None,
-    output: Path,
-    run_for: Duration | None,
-    meshes: Sequence[Path],
-    force: bool,
-    open_browser: bool,
-) -> ExitStatus:
+def _write(connection: Connection, options: ViewOptions, output: Path) -> ExitStatus:
     """Write the page and its data into one file."""
     if output.suffix.lower() not in (".html", ".htm"):
         raise UsageError(f"'{output}' has no known suffix: end it in .html.")
-    refuse_existing(output, force=force)
-    data = _page_data(connection, place, run_for, meshes)
+    refuse_existing(output, force=options.force)
+    data = _page_data(connection, options)
     if not data.buffer.frames():
         raise InputError(f"{visible(data.name)} has no frames: there is nothing to show.")
     bar = Bar("Packing")
-    with interruptible(), whole_file(output, force=force) as file:
+    with interruptible(), whole_file(output, force=options.force) as file:
         try:
             page = standalone_page(data, progress=bar)
         finally:
@@ -91,15 +82,14 @@ def _write(
         )
     if size > MOST_BYTES:
         notice("For a smaller file, cut out a part with 'tftool edit --from --to'.")
-    if open_browser and not webbrowser.open(output.resolve().as_uri()):
+    if options.open_browser and not webbrowser.open(output.resolve().as_uri()):
         notice("No browser could be started: open the file yourself.")
     return ExitStatus.DONE
 
 
-def _page_data(
-    connection: Connection, place: str | None, run_for: Duration | None, meshes: Sequence[Path]
-) -> StandaloneData:
+def _page_data(connection: Connection, options: ViewOptions) -> StandaloneData:
     """Return everything that a page without a server shows, from a file or a session."""
+    meshes = options.meshes or []
     published: list[ShownRobot] = []
     displays: list[LiveDisplays] = []
 
@@ -107,7 +97,7 @@ def _page_data(
         _hear_description(world, published.append, meshes)
         displays.append(LiveDisplays(world, IN_A_FILE))
 
-    frames = open_from(connection, place, run_for, until=WHOLE, watch=listen)
+    frames = open_from(connection, options.place, options.run_for, until=WHOLE, watch=listen)
     # 0 would mean the latest; what only holds at all times has no other moment.
     start, end = frames.span
     start = max(1, start)
@@ -187,7 +177,6 @@ def _hear_description(
 
 
 def _tell_missing(shown: ShownRobot) -> None:
-
     missing = shown.missing
     for sentence in missing[:_MOST_TOLD]:
         notice(f"A box is drawn for a mesh: {visible(sentence)}.")
@@ -267,15 +256,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
     if options.output is not None:
         if options.cache_time is not None:
             raise UsageError("A file contains all transforms: leave out --cache-time.")
-        return _write(
-            connection,
-            options.place,
-            options.output,
-            options.run_for,
-            options.meshes or [],
-            options.force,
-            options.open_browser,
-        )
+        return _write(connection, options, options.output)
     if options.force:
         raise UsageError("--force goes with -o FILE.")
     # Here, as a file needs no server, and websockets takes a moment to import.
@@ -286,10 +267,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
         PageServer, port=options.port, rate=options.rate, tell=notice, secret=page_secret()
     )
     if found is not None and (found.kind.is_recording or found.kind is Kind.STATICS):
-        frames = open_from(connection, options.place, cache_time=options.cache_time)
-        _show_frames(
-            connection, frames, serve, options.run_for, options.meshes or [], options.open_browser
-        )
+        _show_frames(connection, options, serve)
         return ExitStatus.DONE
     shown = None
     if found is not None and found.kind is Kind.DESCRIPTION:
@@ -309,26 +287,22 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
 
 
 def _show_frames(
-    connection: Connection,
-    frames: Frames,
-    serve: Callable[..., PageServer],
-    run_for: Duration | None,
-    meshes: Sequence[Path],
-    open_browser: bool,
+    connection: Connection, options: ViewOptions, serve: Callable[..., PageServer]
 ) -> None:
     """Show a complete source from its beginning, paused."""
+    frames = open_from(connection, options.place, cache_time=options.cache_time)
     shown_frames = at_rest(connection, frames)
     clock, start = shown_frames.clock, max(frames.span[0], 1)
     page = serve(shown_frames, name=frames.title, begin=first_look(frames) or start)
     if frames.recording is not None:
         page.show_tracks(partial(tracks_named, frames.recording.name))
-    if (shown := _robot_of(connection, frames, meshes)) is not None:
+    if (shown := _robot_of(connection, frames, options.meshes or [])) is not None:
         page.show_robot(shown)
         _tell_missing(shown)
 
     async def show() -> None:
         await clock.sleep_until(max(frames.span[1], 1), Phase.WATCH)
-        waiting = lasting(clock, run_for)
-        await _show(page, frames.title, waiting, open_browser)
+        waiting = lasting(clock, options.run_for)
+        await _show(page, frames.title, waiting, options.open_browser)
 
     run_on(clock, show())
