@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
+from functools import wraps
 from itertools import islice
 from pathlib import Path
 from typing import Any, Final
@@ -68,7 +69,6 @@ def run(options: McpOptions) -> ExitStatus:
 
     def answered(question: Callable[..., str]) -> Callable[..., str]:
         """Convert our errors to the protocol's error answers."""
-        from functools import wraps
 
         @wraps(question)
         def answer(**words: Any) -> str:

@@ -16,6 +16,7 @@ from tftool.base.escaping import visible
 from tftool.commands.shared.declaration import CommandKind, Invocation
 from tftool.commands.shared.notices import notice
 from tftool.frames.source_options import DescriptionOptions, RecordingOptions
+from tftool.opener import refuse_beside_address
 from tftool.world.link.link_options import REACHES, Options, domain_here, reach_at, read_reach
 from tftool.world.link.reach import Reach
 
@@ -273,8 +274,6 @@ def read(
         raise UsageError("--read-only publishes nothing, so it cannot --host a session.")
     far = None
     if address is not None:
-        from tftool.opener import refuse_beside_address
-
         far = reach_at(address)
         refuse_beside_address(address, domain, {**reach, "host": host})
     invocation: Invocation | None = None if context is None else context.obj

@@ -27,6 +27,7 @@ from tftool.commands.shared.open_from import NO_SESSION
 from tftool.opener import kind_in_words, named, refuse_options_of_files, scenario_named
 from tftool.recordings.find import Kind
 from tftool.world.clock import Clock, SimClock
+from tftool.world.link.graph import SERVER, hosts
 from tftool.world.link.session_world import Session, joined_session, lived, session_name, shared
 from tftool.world.world import World
 
@@ -334,7 +335,5 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
 
 def _has_host(link: "Link") -> bool:
     """Whether a session runs here: one of ours, or turtles of a launch file or of ROS."""
-    from tftool.world.link.graph import SERVER, hosts
-
     # A host that has only just begun has no turtles yet, and will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))

@@ -10,15 +10,17 @@ from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.frames.frames import Frames
 from tftool.screens.still_frames import StillFrames
+from tftool.world.clock import run
 from tftool.world.log import Log
+from tftool.world.nodes.remote_turtles import FarTurtles
+from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtlesim import Turtlesim
 
 if TYPE_CHECKING:
     from tftool.drawing.solids import Solids
     from tftool.screens.terminal.scene import Scene
     from tftool.screens.terminal.screen_options import Setting
     from tftool.world.nodes.turtle_drivers import IdleDrawing
-    from tftool.world.nodes.turtle_teleop import Teleop
-    from tftool.world.nodes.turtlesim import Turtlesim
     from tftool.world.world import World
 
 SETTLED = seconds(1)
@@ -45,8 +47,6 @@ def at_rest(connection: Connection, frames: Frames) -> StillFrames:
 
 def simulator_of(world: "World") -> "Turtlesim | None":
     """Return a world's turtle simulator, if it has one."""
-    from tftool.world.nodes.turtlesim import Turtlesim
-
     return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
 
 
@@ -56,8 +56,6 @@ def driver_of(world: "World", turtle: str) -> "Teleop":
     Raises:
         UsageError: If that cannot be a turtle's name.
     """
-    from tftool.world.nodes.turtle_teleop import Teleop
-
     for node in world.nodes:
         if isinstance(node, Teleop) and node.turtle == turtle:
             return node
@@ -69,7 +67,6 @@ def driver_of(world: "World", turtle: str) -> "Teleop":
 def scene_of(world: "World") -> "Scene":
     """Return the scene of a world, with the turtles of its simulator or of another process."""
     from tftool.screens.terminal.scene import Scene
-    from tftool.world.nodes.remote_turtles import FarTurtles
 
     scene = Scene(world, simulator_of(world) or FarTurtles(world))
 
@@ -139,7 +136,6 @@ def run_app(
     from tftool.screens.terminal.screen_options import setting_from
     from tftool.screens.terminal.turtle_app import TurtleApp
     from tftool.screens.terminal.world_app import show
-    from tftool.world.clock import run
 
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting, idle)

@@ -1,4 +1,4 @@
-"""Ctrl-Z: the shell gets the terminal as it was, and `fg` restores the drawing."""
+"""The terminal of commands without a full-screen app: Ctrl-Z, keys, and redrawn pictures."""
 
 import asyncio
 import os
@@ -8,14 +8,13 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-    from rich.live import Live
+from rich.console import Console, RenderableType
+from rich.live import Live
 
-    from tftool.world.clock import Clock
-
+from tftool.world.clock import Clock
+from tftool.world.stopper import leave_screen
 
 _layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
 """What leaves the terminal and what takes it again, outermost first."""
@@ -172,26 +171,19 @@ class Redrawing:
     Nothing is drawn, and the cursor is not moved, until the first picture.
     """
 
-    def __init__(self, clock: "Clock") -> None:
+    def __init__(self, clock: Clock) -> None:
         """Prepare to draw.
 
         Args:
             clock: When it is killed, the terminal gets its cursor back.
         """
-        from rich.console import Console
-
-        from tftool.commands.shared.terminal import left_while_stopped
-        from tftool.world.stopper import leave_screen
-
         self.console: Console = Console()
         self._live: Live | None = None
         self._undo = clock.when_killed.add(leave_screen, "screen")
         self._stopping = left_while_stopped(self._leave, lambda: None)
 
-    def show(self, picture: "RenderableType") -> None:
+    def show(self, picture: RenderableType) -> None:
         """Draw in place of the last picture."""
-        from rich.live import Live
-
         if self._live is None:
             # stderr that goes to a file goes on to the file.
             self._live = Live(
