@@ -3,7 +3,7 @@
 import gc
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from difflib import SequenceMatcher
 from inspect import cleandoc
 from itertools import pairwise
@@ -145,7 +145,7 @@ class LaidOutCommand(TyperCommand):
 
     def __init__(self, name: str | None, **words: Any) -> None:
         super().__init__(name, **words)
-        if any(_is_of_session(param) for param in self.params):
+        if any(param.name in SESSION_OPTIONS for param in self.params):
             self.params.append(_help_session())
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
@@ -231,17 +231,11 @@ def _title(param: Any) -> str:
     """Return the heading under which a parameter is listed."""
     if param.param_type_name == "argument":
         return "Arguments"
-    if _is_of_session(param):
-        return SESSION
     if param.name in ("help", _SESSION):
         return "Help"
+    if param.name in SESSION_OPTIONS:
+        return SESSION
     return getattr(param, "rich_help_panel", None) or "Options"
-
-
-def _is_of_session(param: Any) -> bool:
-    if param.name in ("help", _SESSION):
-        return False
-    return param.name in SESSION_OPTIONS
 
 
 def _help_session() -> Any:
@@ -252,15 +246,11 @@ def _help_session() -> Any:
             ctx.meta[_SESSION] = True
             ctx.get_help()
 
-    return _option(show, ["--help-session"], f"Show this and the options of {SESSION.lower()}.")
-
-
-def _option(callback: Callable[..., None], names: Sequence[str], text: str) -> Any:
     return TyperOption(
-        param_decls=[*names, _SESSION],
+        param_decls=["--help-session", _SESSION],
         is_flag=True,
         expose_value=False,
         is_eager=True,
-        callback=callback,
-        help=text,
+        callback=show,
+        help=f"Show this and the options of {SESSION.lower()}.",
     )

@@ -16,7 +16,7 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Stamp
 from tftool.commands.demo import DemoOptions
-from tftool.commands.shared.connection import HOME, Connection
+from tftool.commands.shared.connection import HOME, Connection, open_from
 from tftool.commands.shared.hosting import JoinDecision, join_or_host
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.on_screen import (
@@ -27,7 +27,6 @@ from tftool.commands.shared.on_screen import (
     screen_lacks,
     simulator_of,
 )
-from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.printer import write, write_json
 from tftool.drawing.solids import solids_of

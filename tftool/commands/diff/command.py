@@ -8,9 +8,8 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration
 from tftool.commands.diff import DiffOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import WHOLE, Connection, listen_from, open_from
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.open_from import WHOLE, listen_from, open_from
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width, write_json

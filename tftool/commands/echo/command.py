@@ -11,9 +11,8 @@ from tftool.base.stamps import Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.echo import EchoOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import name_frames, notice, rivalries
-from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse, within
 from tftool.commands.shared.pairs import IDENTITY, FramePair, refuse_file_as_frame
 from tftool.drawing import echo_view as view

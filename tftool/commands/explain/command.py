@@ -7,10 +7,9 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import LATEST, seconds
 from tftool.commands.explain import ExplainOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.evidence_sources import evidence_from
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import moment
 from tftool.commands.shared.pairs import refuse_file_as_frame
 from tftool.commands.shared.printer import write, write_json

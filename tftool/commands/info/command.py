@@ -8,9 +8,8 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import count
 from tftool.commands.info import InfoOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import complain, notice
-from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import recording_view
 from tftool.frames.notes import odometry_notes

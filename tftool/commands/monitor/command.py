@@ -19,10 +19,9 @@ from tftool.commands.monitor.traffic_monitor import (
     TrafficReport,
     watch_session,
 )
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import name_frames
-from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.pairs import FramePair
 from tftool.commands.shared.terminal import can_redraw
 from tftool.frames.frames import Frames

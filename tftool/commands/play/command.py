@@ -12,10 +12,9 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.play import PlayOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.hosting import join_or_host
 from tftool.commands.shared.notices import is_news, notice, tell_record
-from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.terminal import keyboard
 from tftool.doctor.evidence import evidence_of_recording
 from tftool.doctor.findings import Severity

@@ -15,9 +15,8 @@ from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import count
 from tftool.base.stamps import Stamp
 from tftool.commands.plot import PlotOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import WHOLE, Connection, open_from
 from tftool.commands.shared.notices import name_frames, notice
-from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import is_chosen, moments_of, pairs_and_place
 from tftool.commands.shared.printer import write_json

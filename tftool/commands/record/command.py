@@ -19,10 +19,9 @@ from tftool.base.near_names import near_names
 from tftool.base.short_numbers import count, short_size
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.record import RecordOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import NO_SESSION, Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.open_from import NO_SESSION
 from tftool.commands.shared.progress_bars import interruptible
 from tftool.doctor.evidence import evidence_of_log
 from tftool.doctor.judge import CHECKS, judge

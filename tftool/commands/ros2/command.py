@@ -10,10 +10,9 @@ import yaml
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.commands.ros2 import Ros2Options
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import NO_SESSION, Connection
 from tftool.commands.shared.hosting import open_empty_session, open_session
 from tftool.commands.shared.notices import tell_record
-from tftool.commands.shared.open_from import NO_SESSION
 from tftool.commands.shared.programs import workspace_here
 from tftool.ros import ros2 as ros2_command
 from tftool.ros import running

@@ -10,7 +10,7 @@ from typer.models import Context
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.commands.run import RunOptions
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import NO_SESSION, Connection
 from tftool.commands.shared.declaration import Invocation
 from tftool.commands.shared.hosting import (
     open_empty_session,
@@ -19,7 +19,6 @@ from tftool.commands.shared.hosting import (
     tell_where_to_look,
 )
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.open_from import NO_SESSION
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.commands.teleop import TeleopOptions

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import Duration
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import WHOLE, Connection, open_from
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.doctor.evidence import Evidence, Scope, evidence_of_frames
 from tftool.frames.frames import Frames
 from tftool.frames.source_options import DescriptionOptions

@@ -21,9 +21,8 @@ from typing import TYPE_CHECKING
 from tftool.base.errors import LinkError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import Duration, Stamp, seconds
-from tftool.commands.shared.connection import HOME, Connection, Mode
+from tftool.commands.shared.connection import HOME, NO_SESSION, Connection, Mode
 from tftool.commands.shared.notices import notice, tell_news
-from tftool.commands.shared.open_from import NO_SESSION
 from tftool.opener import kind_in_words, named, refuse_options_of_files, scenario_named
 from tftool.recordings.find import Kind
 from tftool.world.clock import Clock, SimClock

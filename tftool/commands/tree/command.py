@@ -13,9 +13,8 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import count
 from tftool.buffer.sample import Snapshot
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import notice, rivalries
-from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.printer import write_file
 from tftool.commands.tree import TreeFormat, TreeOptions

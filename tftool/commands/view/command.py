@@ -16,11 +16,10 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import short_size
-from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.connection import WHOLE, Connection, open_from
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice, tell_news
 from tftool.commands.shared.on_screen import at_rest, driver_of, simulator_of
-from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.commands.view import ViewOptions
 from tftool.frames.export.trajectory_files import whole_file
