@@ -113,6 +113,22 @@ def test_statics_in_more_messages_than_a_player_keeps_are_a_note():
     assert ids(made, notes=True) == []
     made.static("base_link", "imu", at=0.2)
     assert found(made, "latched-overwrite").frames == ("laser",)
+    # ROS 1's player keeps one for each publisher, and here there is one at most.
+    early = replace(robot_with_two_mounts().evidence(), kind="ROS 1 bag")
+    (note,) = judge(early).findings
+    assert (note.id, note.frames) == ("latched-overwrite", ("laser",))
+
+
+def robot_with_two_mounts() -> Robot:
+    made = robot()
+    made.static("base_link", "imu", at=0.2)
+    return made
+
+
+def test_a_frame_that_a_localiser_publishes_is_looked_for_there():
+    made = robot()
+    made.hears("/goal", "map", kind="geometry_msgs/PoseStamped")
+    assert "a localiser" in found(made, "unknown-frame").fixes[0].text
 
 
 def test_odometry_that_comes_too_late_for_the_laser():

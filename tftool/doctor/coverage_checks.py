@@ -354,8 +354,8 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "latched-overwrite",
     Severity.NOTE,
-    rule="the last static message of a publisher lacks some children; where publishers are "
-    "unknown, as in rosbag2, the last {kept:g} messages do",
+    rule="the last static message of a publisher lacks some children; in rosbag2, which knows no "
+    "publishers, the last {kept:g} messages do",
     headline="statics are in {messages} messages",
     detail="{told} {lost}",
     consequence="a player keeps only so many for late listeners",
@@ -372,6 +372,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
     """Statics are in several messages, and playback keeps only the last."""
     transforms = model.evidence.transforms
+    kept = 1 if model.evidence.kind == "ROS 1 bag" else int(limits["kept"])
     held: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
     for edge in transforms.edges:
         for message in np.unique(edge.messages).tolist() if edge.static else ():
@@ -380,7 +381,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
             held[node][message].add(edge.child)
     for node, messages in held.items():
         order = sorted(messages, key=lambda one: (int(transforms.log_times[one]), one))
-        lasts = order[-1 if node else -int(limits["kept"]) :]
+        lasts = order[-1 if node else -kept :]
         lost = sorted(set().union(*messages.values()).difference(*(messages[n] for n in lasts)))
         if lost:
             yield Hit(
@@ -391,7 +392,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
                     "messages": len(messages),
                     "lost": lost,
                     "kept": sum(len(messages[number]) for number in lasts),
-                    "told": "the last lacks" if node else f"the last {len(lasts)} lack",
+                    "told": "the last lacks" if len(lasts) == 1 else f"the last {len(lasts)} lack",
                 },
                 alone=True,
             )

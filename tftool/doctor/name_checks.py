@@ -125,14 +125,9 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
     if join is not None:
         # Evidence for the frame itself comes before a name that is near.
         return (join.fix, *fixes) if join.why else (*fixes, join.fix)
-    if fixes:
-        return tuple(fixes)
-    return (
-        Fix(
-            "set frame_id of the publisher to the name in tf, or start what should publish the "
-            "frame (a driver, robot_state_publisher, a localiser)"
-        ),
-    )
+    source = "a localiser" if last_part(name) == "map" else "a driver, robot_state_publisher"
+    text = "set frame_id of the publisher to the name in tf, or start what should publish the frame"
+    return tuple(fixes) or (Fix(f"{text} ({source})"),)
 
 
 @check(
