@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
-from tftool.doctor.findings import Area, Fix, Hit, Severity
+from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.stamp_stream import Heard, Track
 
 Run: TypeAlias = Callable[[Model, Limits], Iterator[Hit]]
 
@@ -111,6 +112,24 @@ def _summary(run: Run) -> str:
 
 def _lowered(text: str) -> str:
     return text[:1].lower() + text[1:]
+
+
+def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hit:
+    """Return a hit about one edge or topic, from its first item on.
+
+    Args:
+        stream: What it is about.
+        facts: Its facts; the name of the edge or topic is added.
+        **given: Other attributes of `Hit`, in place of those that the stream gives.
+    """
+    if isinstance(stream, Track):
+        own = {"edges": (stream.edge,), "publishers": stream.nodes}
+        facts = {"edge": stream.name, **facts}
+    else:
+        own = {"topics": (stream.topic,), "frames": (stream.frame,)}
+        facts = {"topic": stream.topic, **facts}
+    counted = {"since": int(stream.logs[0]), "count": len(stream.stamps)}
+    return Hit(facts=facts, **{**own, **counted, **given})
 
 
 def threads(*threads: str) -> tuple[str, ...]:

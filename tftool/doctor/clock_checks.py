@@ -2,12 +2,11 @@
 
 from collections import defaultdict
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
-from tftool.doctor.check import checks_of, threads
+from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, unsorted_share
@@ -117,15 +116,6 @@ def _name(stream: "Track | Heard") -> str:
     return stream.name if isinstance(stream, Track) else stream.topic
 
 
-def _hit(stream: "Track | Heard", facts: dict[str, Fact], **given: Any) -> Hit:
-    """Return a hit about an edge or a topic; `given` are other attributes of `Hit`."""
-    given = {"since": int(stream.logs[0]), "count": len(stream.stamps), **given}
-    facts = {"what": _name(stream), **facts}
-    if isinstance(stream, Track):
-        return Hit(edges=(stream.edge,), publishers=stream.nodes, facts=facts, **given)
-    return Hit(topics=(stream.topic,), frames=(stream.frame,), facts=facts, **given)
-
-
 @check(
     "shifted-clock",
     Severity.NOTE,
@@ -224,14 +214,7 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
         if abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
     ]
     told = f"; so are {several(also)}: their computer's clock is ahead" if also else ""
-    return Hit(
-        edges=(track.edge,),
-        publishers=track.nodes,
-        since=int(track.logs[0]),
-        count=len(track.stamps),
-        severity=severity,
-        facts={"edge": track.name, "ahead": ahead, "also": also, "clock": told},
-    )
+    return hit_of(track, {"ahead": ahead, "also": also, "clock": told}, severity=severity)
 
 
 @check(
@@ -270,13 +253,14 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         worst = int(np.abs(off).argmax())
         place = int(places[worst])
         facts: dict[str, Fact] = {
+            "what": _name(one),
             "count": len(places),
             "of": len(one.stamps),
             "stamp": int(one.stamps[place]),
             "off": abs(int(off[worst])),
             "side": "ahead of" if off[worst] > 0 else "behind",
         }
-        yield _hit(one, facts, since=int(one.logs[place]), count=len(places))
+        yield hit_of(one, facts, since=int(one.logs[place]), count=len(places))
 
 
 @check(
@@ -318,13 +302,15 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             least = max(least, track.period)
         if len(track.stamps) > 1 and track.median_latency > least:
             severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
-            yield _hit(track, {"late": track.median_latency}, severity=severity)
+            yield hit_of(
+                track, {"what": track.name, "late": track.median_latency}, severity=severity
+            )
     for heard in model.heard:
         # A latched message is old by intention, and where nothing moves an old one is as good.
         if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS:
-            yield _hit(heard, {"late": heard.median_latency})
+            yield hit_of(heard, {"what": heard.topic, "late": heard.median_latency})
 
 
 @check(
@@ -475,12 +461,11 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         zeros = np.flatnonzero(track.stamps == 0)
         if len(zeros):
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
+            yield hit_of(
+                track,
+                {"count": len(zeros), "of": len(track.stamps)},
                 since=int(track.logs[zeros[0]]),
                 count=len(zeros),
-                facts={"edge": track.name, "count": len(zeros), "of": len(track.stamps)},
             )
 
 
@@ -509,10 +494,14 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         if frozen is None:
             continue
         stamp, count, lasted = frozen
-        facts: dict[str, Fact] = {"count": count, "stamp": stamp, "lasted": lasted}
+        facts: dict[str, Fact] = {
+            "what": _name(one),
+            "count": count,
+            "stamp": stamp,
+            "lasted": lasted,
+        }
         if isinstance(one, Track):
             facts |= {
-                "edge": one.name,
                 "name": "t",
                 "so": "lookups at any other time refuse: the buffer holds only that stamp",
             }
@@ -524,7 +513,7 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 "so": "each is placed where its frame was at that time, and refused once the cache "
                 "has forgotten it",
             }
-        yield _hit(one, facts, count=count, alone="edge" not in facts)
+        yield hit_of(one, facts, count=count, alone=isinstance(one, Heard))
 
 
 def _frozen(stream: "Track | Heard", limits: Limits) -> tuple[int, int, int] | None:
@@ -590,12 +579,11 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         alike = (track.apart(some, others) < 1e-6) & (track.turned(some, others) < 1e-4)
         count = int(np.count_nonzero(alike))
         if count > limits["samples"] and count > limits["share"] * len(places):
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
+            yield hit_of(
+                track,
+                {"count": count, "of": len(places)},
                 since=int(track.logs[some[alike]].min()),
                 count=count,
-                facts={"edge": track.name, "count": count, "of": len(places)},
             )
 
 
@@ -723,9 +711,4 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         count = unsorted_share(track.stamps)
         if count > limits["samples"] and count > limits["share"] * len(track.stamps):
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                count=count,
-                facts={"edge": track.name, "count": count, "of": len(track.stamps)},
-            )
+            yield hit_of(track, {"count": count, "of": len(track.stamps)}, since=None, count=count)

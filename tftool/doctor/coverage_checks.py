@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
-from tftool.doctor.check import checks_of, threads
+from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
@@ -81,19 +81,17 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         # What all ends at once, as a session does that its host leaves, is no link's own fault.
         if latest - last <= least:
             continue
-        yield Hit(
-            edges=(track.edge,),
-            publishers=track.nodes,
-            since=last,
-            until=model.end,
-            count=1,
-            facts={
-                "edge": track.name,
+        yield hit_of(
+            track,
+            {
                 "last": int(track.stamps.max()),
                 "before": before,
                 "period": track.period,
                 "below": sorted(model.below(track.child)),
             },
+            since=last,
+            until=model.end,
+            count=1,
         )
 
 
@@ -157,15 +155,9 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         on_change = bool(mean) and float(regular.std()) / mean > limits["variation"]
         stamps = track.stamps
         missing = int(np.count_nonzero((stamps > begin) & (stamps < end)))
-        yield Hit(
-            edges=(track.edge,),
-            publishers=track.nodes,
-            since=begin,
-            until=end,
-            count=len(found),
-            severity=Severity.NOTE if on_change else Severity.WARNING,
-            facts={
-                "edge": track.name,
+        yield hit_of(
+            track,
+            {
                 "begin": begin,
                 "end": end,
                 "length": end - begin,
@@ -175,6 +167,10 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
                 "unusable": missing,
                 "why": f"; {missing} samples in it are unusable (NaN)" if missing else "",
             },
+            since=begin,
+            until=end,
+            count=len(found),
+            severity=Severity.NOTE if on_change else Severity.WARNING,
         )
 
 
@@ -197,13 +193,7 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame with one sample only."""
     for track in model.dynamic:
         if len(track.stamps) == 1 and len(track.by_stamp) == 1:
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                topics=track.topics,
-                since=int(track.logs[0]),
-                facts={"edge": track.name, "stamp": int(track.stamps[0])},
-            )
+            yield hit_of(track, {"stamp": int(track.stamps[0])}, topics=track.topics, count=1)
 
 
 @check(
@@ -337,17 +327,15 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
         missed = [(heard, count) for heard, count in missed if count]
         late = max((first - int(heard.logs[0]) for heard, _ in missed), default=0)
         if late > limits["seconds"] * NANOSECONDS:
-            yield Hit(
-                edges=(track.edge,),
-                topics=tuple(sorted({heard.topic for heard, _ in missed})),
-                publishers=track.nodes,
-                since=first,
-                count=sum(count for _, count in missed),
-                facts={
-                    "edge": track.name,
+            yield hit_of(
+                track,
+                {
                     "late": late,
                     "missed": [f"{heard.topic} ({count} messages)" for heard, count in missed],
                 },
+                since=first,
+                topics=tuple(sorted({heard.topic for heard, _ in missed})),
+                count=sum(count for _, count in missed),
             )
 
 
@@ -519,15 +507,9 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
         else:
             continue
         link = waits.link
-        yield Hit(
-            edges=(link.edge,),
-            frames=(heard.frame, fixed),
-            topics=(heard.topic,),
-            publishers=link.nodes,
-            since=int(heard.logs[0]),
-            count=int(np.count_nonzero(waits.waits > 0)),
-            severity=severity,
-            facts={
+        yield hit_of(
+            link,
+            {
                 "topic": heard.topic,
                 "fixed": fixed,
                 "refused": refused,
@@ -543,6 +525,11 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
                 "path": [list(track.edge) for track in waits.links],
                 "gap": _only_in_holes(waits, limits["seconds"]),
             },
+            since=int(heard.logs[0]),
+            frames=(heard.frame, fixed),
+            topics=(heard.topic,),
+            count=int(np.count_nonzero(waits.waits > 0)),
+            severity=severity,
             fixes=_cures(heard, waits, limits["seconds"]),
             alone=True,
         )
@@ -649,18 +636,15 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         if float(np.percentile(latency, 95)) > model.settings.cache_time:
             worst = int(latency.max())
-            yield Hit(
-                topics=(heard.topic,),
-                frames=(heard.frame,),
-                since=int(heard.logs[0]),
-                count=int(np.count_nonzero(latency > model.settings.cache_time)),
-                facts={
-                    "topic": heard.topic,
+            yield hit_of(
+                heard,
+                {
                     "late": int(np.median(latency)),
                     "worst": worst,
                     "cache": model.settings.cache_time,
                     "needed": math.ceil(worst / NANOSECONDS) + 1,
                 },
+                count=int(np.count_nonzero(latency > model.settings.cache_time)),
             )
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.doctor.check import checks_of, threads
+from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.geometry.quaternions import angle_between
@@ -193,19 +193,17 @@ def urdf_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
         qx, qy, qz, qw = unit(track.rotations[place]).tolist()
         turned = angle_between((qx, qy, qz, qw), joint.origin.rotation)
         if apart > limits["metres"] or turned > np.radians(limits["degrees"]):
-            yield Hit(
-                edges=(track.edge,),
-                frames=(track.child,),
-                publishers=track.nodes,
-                since=int(track.logs[0]),
-                facts={
-                    "edge": track.name,
+            yield hit_of(
+                track,
+                {
                     "joint": joint.name,
                     "apart": apart,
                     "turned": turned,
                     "says": _numbers(joint.origin.translation),
                     "has": _numbers(track.translations[place].tolist()),
                 },
+                frames=(track.child,),
+                count=1,
             )
 
 

@@ -23,10 +23,9 @@ from tftool.doctor import shape_checks as shape
 from tftool.doctor import value_checks as values
 from tftool.doctor.check import NEEDS, Check
 from tftool.doctor.evidence import Evidence, described_by, evidence_of
-from tftool.doctor.evidence_lines import evidence_lines
 from tftool.doctor.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
 from tftool.doctor.model import Limits, Model, Settings
-from tftool.doctor.wording import filled, several
+from tftool.doctor.wording import evidence_lines, filled, several
 
 if TYPE_CHECKING:
     from tftool.frames.frames import Frames

@@ -5,7 +5,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 from tftool.base.near_names import near_names
-from tftool.doctor.check import checks_of, threads
+from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import proposed_frame, quoted
 from tftool.doctor.model import Limits, Model
@@ -180,19 +180,18 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
         twice = [name for name in track.edge if name.startswith("/")]
         if not twice and not track.slashed:
             continue
-        yield Hit(
-            edges=(track.edge,),
-            topics=track.topics,
-            publishers=track.nodes,
-            count=track.slashed,
-            severity=Severity.ERROR if twice else Severity.NOTE,
-            facts={
-                "edge": track.name,
+        yield hit_of(
+            track,
+            {
                 "count": track.slashed,
                 "found": "two leading slashes: no query can reach it"
                 if twice
                 else "a leading slash, which tf2 strips",
             },
+            since=None,
+            topics=track.topics,
+            count=track.slashed,
+            severity=Severity.ERROR if twice else Severity.NOTE,
         )
 
 

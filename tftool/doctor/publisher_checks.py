@@ -8,20 +8,29 @@ from dataclasses import replace
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
-from tftool.doctor.check import checks_of, threads
+from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import quoted
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.motion_errors import RADIAN, motion_errors
 from tftool.doctor.stamp_stream import JOINT_STATES, Places, Track, family, last_part, rate
 from tftool.doctor.wording import span
 from tftool.geometry.quaternions import angle_between
-from tftool.geometry.rigid_arrays import Floats, unit
+from tftool.geometry.rigid_arrays import (
+    Floats,
+    angles_between,
+    conjugate,
+    multiply,
+    rotation_vectors,
+    unit,
+)
 
 check = checks_of(Area.PUBLISHERS)
 
 MOST_FOLLOWED = 20_000
 """Samples of one edge that are followed one by one; more are a beginning that tells enough."""
+
+_RADIAN = 0.5
+"""Metres that a radian counts for where one number stands for a distance and an angle."""
 
 
 @check(
@@ -228,12 +237,12 @@ def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     ):
         return None
     times = track.stamps[places] / NANOSECONDS
-    jumps = apart + RADIAN * track.turned(places[1:], places[:-1])
+    jumps = apart + _RADIAN * track.turned(places[1:], places[:-1])
     # Who never leaves its own track needs no following.
     leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
     if np.count_nonzero(leaves) < limits["changes"]:
         return None
-    together = motion_errors(track, places)
+    together = _motion_errors(track, places)
     # Two publishers of one rate alternate strictly, however far each turns in a period.
     for owners in (_follow(track, places, limits), np.arange(len(places)) % 2):
         owned = _alternating(track, places, owners, together, limits)
@@ -265,7 +274,7 @@ def _alternating(
         return None
     alone = np.full(len(places), np.nan)
     for owner in enough.tolist():
-        alone[owners == owner] = motion_errors(track, places[owners == owner])
+        alone[owners == owner] = _motion_errors(track, places[owners == owner])
     judged = turns[np.isfinite(together[turns]) & np.isfinite(alone[turns])]
     if len(judged) < max(limits["samples"], 1):
         return None
@@ -276,6 +285,44 @@ def _alternating(
     mine, theirs = places[owners == first], places[owners == second]
     near = np.clip(np.searchsorted(track.stamps[theirs], track.stamps[mine]), 0, len(theirs) - 1)
     return mine, theirs[near]
+
+
+def _motion_errors(track: Track, places: Places) -> Floats:
+    """Return each sample's distance from its prediction by the two before it.
+
+    The rotation between two samples may be a whole turn more or less, as for a fast wheel: the best
+    of the three values is used.
+
+    Args:
+        track: The samples.
+        places: Rows of the track in the order of their stamps, shape (n,).
+
+    Returns:
+        Metres, a radian as `_RADIAN` of them, shape (n,); NaN for the first two, and where two
+        stamps are equal.
+    """
+    errors = np.full(len(places), np.nan)
+    if len(places) < 3:
+        return errors
+    times = track.stamps[places] / NANOSECONDS
+    steps = np.diff(times)
+    with np.errstate(all="ignore"):
+        ratio = np.where(steps[:-1] > 0.0, steps[1:] / steps[:-1], np.nan)
+    where, turned = track.translations[places], unit(track.rotations[places])
+    led = where[1:-1] + (where[1:-1] - where[:-2]) * ratio[:, None]
+    missed = np.sqrt(np.einsum("ij,ij->i", where[2:] - led, where[2:] - led))
+    first = rotation_vectors(multiply(conjugate(turned[:-2]), turned[1:-1]))
+    angles = np.sqrt(np.einsum("ij,ij->i", first, first))
+    axes = first / np.where(angles > 0.0, angles, 1.0)[:, None]
+    best = np.full(len(angles), np.inf)
+    for turns in (-1, 0, 1):
+        half = 0.5 * (angles + 2.0 * np.pi * turns) * ratio
+        led_turn = np.column_stack((axes * np.sin(half)[:, None], np.cos(half)))
+        # What does not turn at all has no axis for a whole turn.
+        led_turn = np.where((angles > 0.0)[:, None], led_turn, (0.0, 0.0, 0.0, 1.0))
+        best = np.fmin(best, angles_between(multiply(turned[1:-1], led_turn), turned[2:]))
+    errors[2:] = missed + _RADIAN * best
+    return errors
 
 
 def _follow(track: Track, places: Places, limits: Limits) -> Places:
@@ -302,7 +349,7 @@ def _follow(track: Track, places: Places, limits: Limits) -> Places:
 
 def _pose_distance(a: list[float], b: list[float]) -> float:
     away = math.dist(a[:3], b[:3])
-    return away + RADIAN * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
+    return away + _RADIAN * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
 
 
 def _conflict(
@@ -485,18 +532,16 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]
         first = np.full(len(kept), kept[0])
         yield (
             len(kept),
-            Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                since=int(track.logs[changes[0]]),
-                until=int(track.logs[changes[-1]]),
-                count=len(changes),
-                facts={
-                    "edge": track.name,
+            hit_of(
+                track,
+                {
                     "values": len(kept),
                     "moved": float(track.apart(np.array(kept), first).max()),
                     "turned": float(track.turned(np.array(kept), first).max()),
                 },
+                since=int(track.logs[changes[0]]),
+                until=int(track.logs[changes[-1]]),
+                count=len(changes),
             ),
         )
 
@@ -555,17 +600,15 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         if not any(above.moves for above in model.above(track.parent)):
             continue  # it stood still with all that carries it
-        yield Hit(
-            edges=(track.edge,),
-            publishers=track.nodes,
-            count=len(track.stamps),
-            confidence=Confidence.POSSIBLE,
-            facts={
-                "edge": track.name,
+        yield hit_of(
+            track,
+            {
                 "rate": rate(track),
                 "period": track.period,
                 "lasts": int(track.sorted_stamps[-1] - track.sorted_stamps[0]),
             },
+            since=None,
+            confidence=Confidence.POSSIBLE,
         )
 
 

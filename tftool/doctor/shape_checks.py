@@ -3,7 +3,7 @@
 from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
 
-from tftool.doctor.check import REP105, checks_of, threads
+from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import BASES, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
@@ -216,14 +216,11 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame is its own parent."""
     for track in model.nameless:
         if track.parent and track.parent == track.child:
-            yield Hit(
-                edges=(track.edge,),
+            yield hit_of(
+                track,
+                {"frame": track.child, "count": len(track.stamps)},
                 frames=(track.child,),
                 topics=track.topics,
-                publishers=track.nodes,
-                since=int(track.logs[0]),
-                count=len(track.stamps),
-                facts={"frame": track.child, "count": len(track.stamps)},
             )
 
 
@@ -250,18 +247,15 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             # A single TransformStamped is a message like others: tf2 does not listen to it.
             is_tf = any(kinds.get(topic) != "TransformStamped" for topic in track.topics)
             which = "parent" if not track.parent else "child"
-            yield Hit(
-                edges=(track.edge,),
-                topics=track.topics,
-                publishers=track.nodes,
-                since=int(track.logs[0]),
-                count=len(track.stamps),
-                severity=Severity.ERROR if is_tf else Severity.WARNING,
-                facts={
+            yield hit_of(
+                track,
+                {
                     "what": f"a transform on {', '.join(track.topics)}",
                     "detail": f"its {which} is empty; the other is {track.parent or track.child!r}",
                     "count": len(track.stamps),
                 },
+                topics=track.topics,
+                severity=Severity.ERROR if is_tf else Severity.WARNING,
             )
     for heard in model.heard:
         if heard.frame or not (

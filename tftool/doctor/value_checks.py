@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, Stamp
-from tftool.doctor.check import REP103, REP105, checks_of, threads
+from tftool.doctor.check import REP103, REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import BASES, base_of
 from tftool.doctor.model import Limits, Model
@@ -45,20 +45,18 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
         if len(bad):
             numbers = (*track.translations[bad[0]].tolist(), *track.rotations[bad[0]].tolist())
             has_nan = any(number != number for number in numbers)
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                since=int(track.logs[bad[0]]),
-                until=int(track.logs[bad[-1]]),
-                count=len(bad),
-                facts={
-                    "edge": track.name,
+            yield hit_of(
+                track,
+                {
                     "count": len(bad),
                     "of": len(track.stamps),
                     "first": int(track.stamps[bad[0]]),
                     "numbers": " ".join(f"{number:g}" for number in numbers),
                     "fate": "tf2 drops them" if has_nan else "tf2 takes them",
                 },
+                since=int(track.logs[bad[0]]),
+                until=int(track.logs[bad[-1]]),
+                count=len(bad),
             )
 
 
@@ -97,15 +95,9 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
         for bad, severity in ((zero, Severity.ERROR), (loose, Severity.WARNING)):
             if len(bad):
                 numbers = " ".join(f"{number:g}" for number in track.rotations[bad[0]].tolist())
-                yield Hit(
-                    edges=(track.edge,),
-                    publishers=track.nodes,
-                    since=int(track.logs[bad[0]]),
-                    until=int(track.logs[bad[-1]]),
-                    count=len(bad),
-                    severity=severity,
-                    facts={
-                        "edge": track.name,
+                yield hit_of(
+                    track,
+                    {
                         "count": len(bad),
                         "of": len(track.stamps),
                         "numbers": numbers,
@@ -114,6 +106,10 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
                         if severity is Severity.ERROR
                         else "ROS 1 drops them, ROS 2 normalises them",
                     },
+                    since=int(track.logs[bad[0]]),
+                    until=int(track.logs[bad[-1]]),
+                    count=len(bad),
+                    severity=severity,
                 )
 
 
@@ -182,14 +178,9 @@ def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
         if not moved[worst]:
             worst = int(jumps[np.argmax(turned[jumps])])
         is_odometry = last_part(track.parent).startswith("odom")
-        yield Hit(
-            edges=(track.edge,),
-            publishers=track.nodes,
-            since=int(track.logs[others[jumps[0]]]),
-            until=int(track.logs[others[jumps[-1]]]),
-            count=len(jumps),
-            facts={
-                "edge": track.name,
+        yield hit_of(
+            track,
+            {
                 "jump": float(apart[worst]),
                 "turn": float(turned[worst]),
                 "far": metres(float(apart[worst]))
@@ -201,6 +192,9 @@ def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
                 "count": len(jumps),
                 "also": "; REP-105 wants this transform continuous" if is_odometry else "",
             },
+            since=int(track.logs[others[jumps[0]]]),
+            until=int(track.logs[others[jumps[-1]]]),
+            count=len(jumps),
         )
 
 
@@ -250,12 +244,13 @@ def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
         qx, qy, qz, qw = unit(track.rotations[place]).tolist()
         off = float(np.degrees(angle_between((qx, qy, qz, qw), _OPTICAL)))
         if off > limits["degrees"]:
-            yield Hit(
-                edges=(track.edge,),
+            yield hit_of(
+                track,
+                {"child": track.child, "off": off},
+                since=None,
                 frames=(track.child,),
-                publishers=track.nodes,
                 confidence=Confidence.LIKELY,
-                facts={"edge": track.name, "child": track.child, "off": off},
+                count=1,
             )
 
 
@@ -293,16 +288,14 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
             continue  # its y looks down: an optical frame by another name
         is_body = axes is not None and axes[1][2] > _UPRIGHT
         joint = 'add a fixed joint with rpy="-1.5708 0 -1.5708", and name its frame in the driver'
-        yield Hit(
-            topics=(heard.topic,),
-            frames=(heard.frame,),
-            count=len(heard.stamps),
-            confidence=Confidence.CERTAIN if is_body else Confidence.POSSIBLE,
-            facts={
-                "topic": heard.topic,
+        yield hit_of(
+            heard,
+            {
                 "frame": heard.frame,
                 "axes": ", whose z looks up as a body's does" if is_body else "",
             },
+            since=None,
+            confidence=Confidence.CERTAIN if is_body else Confidence.POSSIBLE,
             fixes=(
                 Fix(
                     joint
@@ -382,19 +375,17 @@ def _is_same_base(model: Model, told: Track) -> bool:
 def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
     above = model.parents.get(told.child)
     hangs = f"in tf {told.child} hangs from {above.parent}" if above else "in tf it has no parent"
-    return Hit(
-        edges=(told.edge,),
-        frames=told.edge,
-        topics=told.topics,
-        publishers=told.nodes,
-        count=len(told.stamps),
-        severity=Severity.NOTE,
-        facts={
+    return hit_of(
+        told,
+        {
             "topic": topic,
-            "edge": told.name,
             "differs": "and tf connect other frames:",
             "found": f"{topic} says {told.name}; {hangs}",
         },
+        since=None,
+        frames=told.edge,
+        topics=told.topics,
+        severity=Severity.NOTE,
         fixes=(
             Fix(
                 "compare the child_frame_id of the messages with the base frame of tf: one "
@@ -467,12 +458,7 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         away = float(np.linalg.norm(track.translations[track.last]))
         if away > limits["metres"]:
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                confidence=Confidence.POSSIBLE,
-                facts={"edge": track.name, "away": away},
-            )
+            yield hit_of(track, {"away": away}, since=None, confidence=Confidence.POSSIBLE, count=1)
 
 
 @check(
@@ -491,12 +477,7 @@ def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:
         if any(word in track.child.lower() for word in ("imu", "flip", "optical")):
             continue
         if _is_half_turn(track):
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                confidence=Confidence.POSSIBLE,
-                facts={"edge": track.name},
-            )
+            yield hit_of(track, {}, since=None, confidence=Confidence.POSSIBLE, count=1)
 
 
 def _is_half_turn(track: Track) -> bool:

@@ -18,12 +18,11 @@ from tftool.base.report import Judgement, Report
 from tftool.base.short_numbers import count
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.doctor.check import Check
-from tftool.doctor.evidence_lines import MOST_NAMED
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
 from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
-from tftool.doctor.wording import filled, span
+from tftool.doctor.wording import MOST_IN_LINE, filled, span
 from tftool.drawing import report_view as judgements
 
 SCHEMA = "tftool.doctor/2"
@@ -91,7 +90,7 @@ def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
     if hidden:
         shown.append(f"and {hidden} more (--verbose shows them)")
     lines += [Padding(Text(text), (0, 0, 0, 7)) for text in shown]
-    if verbose and len(finding.edges) > MOST_NAMED:
+    if verbose and len(finding.edges) > MOST_IN_LINE:
         # A line of evidence may be about many of them, which it does not name.
         edges = ", ".join(f"{child} in {parent}" for parent, child in finding.edges)
         lines.append(Padding(Text(visible(f"transforms: {edges}")), (0, 0, 0, 7)))
