@@ -12,7 +12,7 @@ import time
 SIZES = ((80, 24), (120, 40), (200, 60))
 # It draws from 5 s on; the start of both runs, and that of the drawing, cancels out.
 SHORT, LONG = 8.0, 20.0
-ALLOWED = 25.0
+ALLOWED = 15.0
 
 
 def cost(columns: int, rows: int, duration: float) -> float:

@@ -56,6 +56,17 @@ def test_findings_are_marks_on_a_longer_bar():
     assert "!" in plain
 
 
+@pytest.mark.parametrize("ascii_only", [False, True])
+def test_the_head_is_seen_on_a_bar_full_of_findings(ascii_only):
+    whole = PlaybackMark(0, seconds(20), "stops", is_error=True)
+    playing = Playback(seconds(5), seconds(20), marks=[whole])
+
+    bar = line(playing, 80, with_keys=False, ascii_only=ascii_only).split()[-1]
+
+    assert bar.strip("!▲") in "|●"
+    assert bar.index(bar.strip("!▲")) == pytest.approx(0.25 * len(bar), abs=1)
+
+
 def test_the_next_finding_and_those_just_passed():
     assert after([GAP, STEP], 0) == seconds(5)
     assert after([GAP, STEP], seconds(5)) == seconds(15)

@@ -94,6 +94,9 @@ def line(
             )
             sign = ("!", "?")[not mark.is_error] if ascii_only else "▲△"[not mark.is_error]
             bar[first : last + 1] = sign * (last + 1 - first)
+        if playback.marks:
+            # A finding may take all of the bar: where playback is, is seen above it.
+            bar[min(room - 1, full)] = "|" if ascii_only else "●"
         text += f"  {''.join(bar)}"
     return f"{text}  {keys}".rstrip()[: max(width, 0)]
 
@@ -110,21 +113,6 @@ def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
 
 def _keys(room: int, ascii_only: bool) -> str:
     """Return as many keys with their explanations as fit; `q` always, if there is room for one."""
-    first, last = KEYS[:-1], KEYS[-1]
-    for count in range(len(first), -1, -1):
-        text = "  ".join(
-            f"{_key(key, ascii_only)} {word}" for key, word in _shown(first, count, last)
-        )
-        if len(text) <= room:
-            return text
-    return ""
-
-
-def _shown(
-    first: Sequence[tuple[str, str]], count: int, last: tuple[str, str]
-) -> Sequence[tuple[str, str]]:
-    return (*first[:count], last)
-
-
-def _key(key: str, ascii_only: bool) -> str:
-    return _ASCII.get(key, key) if ascii_only else key
+    *first, last = [f"{_ASCII.get(key, key) if ascii_only else key} {word}" for key, word in KEYS]
+    texts = ("  ".join([*first[:count], last]) for count in range(len(first), -1, -1))
+    return next((text for text in texts if len(text) <= room), "")
