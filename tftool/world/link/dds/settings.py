@@ -91,10 +91,12 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
     interfaces: list[str] = []
     peers: list[str] = []
     for place in places:
+        # An address of our own names the interface to use, one of another machine where to go.
         (interfaces if _is_own(place) else peers).append(_checked(place))
     confined = _confined(variables)
     static = tuple(one.strip() for one in variables.get("ROS_STATIC_PEERS", "").split(";"))
     static = tuple(one for one in static if one)
+    # It counts only without --dds-on, and where no variable keeps ROS 2 to this machine.
     config = variables.get("CYCLONEDDS_URI", "").strip()
     outward = [one for one in (*interfaces, *peers) if not _is_loopback(one)]
     if confined and outward:
@@ -106,6 +108,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
         told = "CYCLONEDDS_URI is set: DDS goes where that configuration says, not to "
         return Network(config=config, told=(f"{told}the loopback alone.",))
     told = ""
+    # ROS_STATIC_PEERS alone takes nothing to the network: only --dds-on does.
     if interfaces or peers:
         peers += [_checked(one) for one in static if one not in peers and not confined]
     elif any(not _is_loopback(one) for one in static):
@@ -246,9 +249,11 @@ def _listening() -> dict[int, int]:
                 lines = file.read().splitlines()[1:]
         except OSError:
             continue
+        # The second column is the local address, both of its parts in hexadecimal.
         ports |= {int(line.split()[1].rpartition(":")[2], 16) for line in lines}
     found: dict[int, int] = {}
     for port in ports:
+        # RTPS's own rule: domains are 250 ports apart from 7400 on, participants two from 10 on.
         number, rest = divmod(port - 7400, 250)
         # A participant has two ports, one behind the other. Above lie ports for anything.
         if number in range(101) and rest >= 10 and rest % 2 == 0 and port + 1 in ports:
