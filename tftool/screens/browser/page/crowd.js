@@ -1,29 +1,47 @@
 // @ts-check
-// Many small things as one mesh. A processor that plays graphics card pays for every instance as
-// for a picture of its own, and for every corner; put together here from tetrahedra, hundreds of
-// frames are drawn at once.
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshBasicMaterial } from "three";
+// Many small things as one mesh, put together for every picture. A processor that plays graphics card
+// pays for every instance as for a picture of its own, and for every corner: among many frames, each
+// thing is a tetrahedron.
+import {
+  BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DynamicDrawUsage, Mesh, MeshBasicMaterial, OctahedronGeometry,
+} from "three";
+import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 
-const CORNERS = 4;
-const SIDES = [0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2]; // seen from outside, counterclockwise
-const SHADES = [0.9, 1, 0.82, 0.66]; // of the corners
-const LEAST = 1024;
+const LEAST = 4096; // corners that have room
+const DARK = 0.62; // what the light does not reach
 
-/** Corners of a spike that goes a metre along y, and is so thick where it begins. */
-function spike(thick) {
-  const [half, high] = [-thick / 2, (thick * Math.sqrt(3)) / 2];
-  return [[0, 1, 0], [thick, 0, 0], [half, 0, -high], [half, 0, high]];
+/** @typedef {{ places: number[], normals: number[], index: number[] }} Thing */
+
+/** @param {BufferGeometry} geometry @returns {Thing} */
+function thing(geometry) {
+  const { attributes, index } = mergeVertices(geometry.deleteAttribute("uv"));
+  return { places: [...attributes.position.array], normals: [...attributes.normal.array], index: [...(index?.array ?? [])] };
 }
 
-/** The shapes a frame is drawn with: along x, y and z, where it is, the way to its parent. */
-export const SPIKES = {
-  x: spike(1.4).map(([x, y, z]) => [y, -x, z]).flat(),
-  y: spike(1.4).flat(),
-  z: spike(1.4).map(([x, y, z]) => [x, -z, y]).flat(),
-  hub: spike(1).map(([x, y, z]) => [x, y * 1.3 - 0.3, z]).flat(),
-  shaft: spike(1.4).flat(),
-  head: spike(1).flat(),
-};
+/** A spike that goes a metre along y, and is so thick where it begins. */
+function spike(thick) {
+  const [half, high] = [-thick / 2, (thick * Math.sqrt(3)) / 2];
+  const corners = [0, 1, 0, thick, 0, 0, half, 0, -high, half, 0, high];
+  const made = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(corners), 3));
+  const outward = corners.map((value, at) => (at < 3 ? value : value / thick));
+  made.setAttribute("normal", new BufferAttribute(new Float32Array(outward), 3));
+  return made.setIndex([0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2]); // seen from outside, counterclockwise
+}
+
+const rod = (sides, open = false) => new CylinderGeometry(1, 1, 1, sides, 1, open).translate(0, 0.5, 0);
+
+/** What a frame is drawn with, along x, y and z, where it is, and the way to its parent; and the same of few corners. */
+export const [FINE, COARSE] = [
+  { rod: () => rod(8), hub: new OctahedronGeometry(1, 1), shaft: rod(6, true), head: new ConeGeometry(1, 1, 10).translate(0, 0.5, 0) },
+  { rod: () => spike(1.4), hub: spike(1).scale(1, 1.3, 1).translate(0, -0.3, 0), shaft: spike(1.4), head: spike(1) },
+].map(({ rod, hub, shaft, head }) => ({
+  x: thing(rod().rotateZ(-Math.PI / 2)),
+  y: thing(rod()),
+  z: thing(rod().rotateX(Math.PI / 2)),
+  hub: thing(hub),
+  shaft: thing(shaft),
+  head: thing(head),
+}));
 
 export class Crowd {
   constructor() {
@@ -31,69 +49,71 @@ export class Crowd {
     const material = new MeshBasicMaterial({ vertexColors: true, transparent: true });
     this.mesh = new Mesh(new BufferGeometry(), material);
     this.mesh.frustumCulled = false;
-    this.room = 0; // shapes that fit
-    this.count = 0;
     this.places = new Float32Array(0);
     this.colors = new Uint8Array(0);
+    this.index = new Uint32Array(0);
+    this.corners = this.sides = 0; // that are used
     this.begin();
   }
 
   begin() {
-    this.count = 0;
+    this.corners = this.sides = 0;
     this.mesh.visible = false;
   }
 
   /**
-   * Add a shape, given by its four corners, moved by a matrix.
-   * @param {number[]} corners
+   * Add a thing, moved by a matrix.
+   * @param {Thing} thing
    * @param {import("three").Matrix4} matrix
-   * @param {number} red @param {number} green @param {number} blue @param {number} alpha
+   * @param {import("three").Vector3} light where it comes from, as seen from the thing
+   * @param {number[]} color red, green, blue and alpha
    */
-  add(corners, { elements: m }, red, green, blue, alpha) {
-    if (this.count === this.room) this.grow();
-    const { places, colors } = this;
-    let place = 3 * CORNERS * this.count;
-    let paint = 4 * CORNERS * this.count++;
-    for (let corner = 0; corner < CORNERS; corner++) {
-      const x = corners[3 * corner];
-      const y = corners[3 * corner + 1];
-      const z = corners[3 * corner + 2];
-      places[place++] = m[0] * x + m[4] * y + m[8] * z + m[12];
-      places[place++] = m[1] * x + m[5] * y + m[9] * z + m[13];
-      places[place++] = m[2] * x + m[6] * y + m[10] * z + m[14];
-      const shade = 255 * SHADES[corner];
-      colors[paint++] = red * shade;
-      colors[paint++] = green * shade;
-      colors[paint++] = blue * shade;
-      colors[paint++] = 255 * alpha;
+  add({ places: own, normals, index }, { elements: m }, light, [red, green, blue, alpha]) {
+    if (3 * this.corners + own.length > this.places.length || this.sides + index.length > this.index.length) this.grow();
+    const { places, colors, corners } = this;
+    for (const corner of index) this.index[this.sides++] = corners + corner;
+    for (let at = 0; at < own.length; at += 3) {
+      const [x, y, z] = [own[at], own[at + 1], own[at + 2]];
+      const lit = normals[at] * light.x + normals[at + 1] * light.y + normals[at + 2] * light.z;
+      const shade = 255 * (DARK + (1 - DARK) * Math.max(0, lit));
+      const place = 3 * this.corners;
+      places[place] = m[0] * x + m[4] * y + m[8] * z + m[12];
+      places[place + 1] = m[1] * x + m[5] * y + m[9] * z + m[13];
+      places[place + 2] = m[2] * x + m[6] * y + m[10] * z + m[14];
+      const paint = 4 * this.corners++;
+      colors[paint] = red * shade;
+      colors[paint + 1] = green * shade;
+      colors[paint + 2] = blue * shade;
+      colors[paint + 3] = 255 * alpha;
     }
   }
 
   end() {
     const { geometry } = this.mesh;
-    this.mesh.visible = this.count > 0;
-    if (!this.count) return;
-    geometry.setDrawRange(0, SIDES.length * this.count);
-    for (const [name, size] of [["position", 3], ["color", 4]]) {
-      const attribute = /** @type {BufferAttribute} */ (geometry.attributes[name]);
+    this.mesh.visible = this.sides > 0;
+    if (!this.sides) return;
+    geometry.setDrawRange(0, this.sides);
+    const counts = { position: 3 * this.corners, color: 4 * this.corners, index: this.sides };
+    for (const [name, count] of Object.entries(counts)) {
+      const attribute = /** @type {BufferAttribute} */ (name === "index" ? geometry.index : geometry.attributes[name]);
       attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, Number(size) * CORNERS * this.count);
+      attribute.addUpdateRange(0, count);
       attribute.needsUpdate = true;
     }
   }
 
+  /** Make room for twice as much. */
   grow() {
-    this.room = Math.max(LEAST, 2 * this.room);
-    const [places, colors] = [new Float32Array(3 * CORNERS * this.room), new Uint8Array(4 * CORNERS * this.room)];
-    places.set(this.places);
-    colors.set(this.colors);
-    [this.places, this.colors] = [places, colors];
-    const index = new Uint32Array(SIDES.length * this.room);
-    for (let at = 0; at < index.length; at++) index[at] = SIDES[at % SIDES.length] + CORNERS * Math.floor(at / SIDES.length);
+    const room = Math.max(LEAST, (2 * this.places.length) / 3);
+    const wider = (before, made) => (made.set(before), made);
+    this.places = wider(this.places, new Float32Array(3 * room));
+    this.colors = wider(this.colors, new Uint8Array(4 * room));
+    this.index = wider(this.index, new Uint32Array(6 * room));
+    const geometry = new BufferGeometry();
+    geometry.setIndex(new BufferAttribute(this.index, 1).setUsage(DynamicDrawUsage));
+    geometry.setAttribute("position", new BufferAttribute(this.places, 3).setUsage(DynamicDrawUsage));
+    geometry.setAttribute("color", new BufferAttribute(this.colors, 4, true).setUsage(DynamicDrawUsage));
     this.mesh.geometry.dispose();
-    this.mesh.geometry = new BufferGeometry();
-    this.mesh.geometry.setIndex(new BufferAttribute(index, 1));
-    this.mesh.geometry.setAttribute("position", new BufferAttribute(places, 3).setUsage(DynamicDrawUsage));
-    this.mesh.geometry.setAttribute("color", new BufferAttribute(colors, 4, true).setUsage(DynamicDrawUsage));
+    this.mesh.geometry = geometry;
   }
 }

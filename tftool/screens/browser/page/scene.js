@@ -2,14 +2,7 @@
 // The picture: three.js for what has depth, two flat canvases for trails, names and the chain.
 import {
   Color,
-  ConeGeometry,
-  CylinderGeometry,
-  DynamicDrawUsage,
-  InstancedBufferAttribute,
-  InstancedMesh,
   Matrix4,
-  MeshBasicMaterial,
-  OctahedronGeometry,
   PerspectiveCamera,
   Quaternion,
   Scene,
@@ -19,7 +12,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { distanceFor } from "./bounds.js";
 import { FLAT, fitFlat, flatCamera, panOnly } from "./cameras.js";
-import { Crowd, SPIKES } from "./crowd.js";
+import { COARSE, Crowd, FINE } from "./crowd.js";
 import { Ground, LAYER as GROUND } from "./ground.js";
 import { arrange, MANY, overlap, standAt } from "./labels.js";
 import { isTurtle } from "./opening.js";
@@ -28,10 +21,14 @@ import { THEMES } from "./themes.js";
 import { Turtles } from "./turtles.js";
 
 const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
-const SHAFT = "#cfbf57";
-const HEAD = "#ff3d94";
+const LAMP = [-0.28, 0.34, 0.9]; // the way to the light, as seen from the camera
+const tone = (color) => new Color(color).toArray();
+const PAINTS = {
+  x: tone(AXES[0]), y: tone(AXES[1]), z: tone(AXES[2]), hub: tone("#e9edf3"), shaft: tone("#cfbf57"), head: tone("#ff3d94"),
+};
 const OVER_ALL = 100; // render order, beyond that of turtles
 const FEW = 60; // frames that are drawn in full even without a graphics card
+const MOST_FINE = 400; // and with one
 const FONT = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 const LINE = 22; // pixels, of a name with its halo
 const ROOMY = 0.84; // of the picture that the frames' origins fill: names and axes reach beyond
@@ -56,25 +53,6 @@ function drawsInSoftware() {
  */
 function flat(canvas) {
   return /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-}
-
-function fading(mesh) {
-  // three has no opacity per instance; one number more per instance gives it. Light comes from
-  // where one looks from and is worked out per corner: lamps, per pixel, cost several times that.
-  mesh.material.onBeforeCompile = (shader) => {
-    shader.vertexShader = `attribute float fade;\nvarying float vFade;\nvarying float vShade;\n${shader.vertexShader.replace(
-      "#include <begin_vertex>",
-      `#include <begin_vertex>
-      vFade = fade;
-      vec3 outward = mat3(viewMatrix) * normalize(mat3(instanceMatrix) * normal);
-      vShade = 0.62 + 0.38 * max(0.0, dot(outward, vec3(-0.28, 0.34, 0.9)));`,
-    )}`;
-    shader.fragmentShader = `varying float vFade;\nvarying float vShade;\n${shader.fragmentShader.replace(
-      "#include <opaque_fragment>",
-      "diffuseColor.a *= vFade;\nif (diffuseColor.a < 0.01) discard;\noutgoingLight *= vShade;\n#include <opaque_fragment>",
-    )}`;
-  };
-  return mesh;
 }
 
 export class Stage {
@@ -130,9 +108,6 @@ export class Stage {
     this.stood = new Map(); // where names stood in the picture before
     this.gone = ARRANGED_EVERY; // pictures since names found their places
     this.theme = THEMES.dark;
-    this.capacity = 0;
-    /** @type {any[]} */
-    this.meshes = [];
     this.point = new Vector3();
     /** @type {number[][]} */
     this.reserved = []; // where no name stands
@@ -299,112 +274,54 @@ export class Stage {
     this.controls[this.view].update();
   }
 
-  grow(count) {
-    if (this.meshes.length && count <= this.capacity) return;
-    this.capacity = Math.max(64, 2 ** Math.ceil(Math.log2(count)));
-    for (const mesh of this.meshes) {
-      this.scene.remove(mesh);
-      mesh.geometry.dispose();
-      mesh.material.dispose();
-      mesh.dispose();
-    }
-    const rod = () => new CylinderGeometry(1, 1, 1, 8).translate(0, 0.5, 0);
-    const make = (geometry, color) => {
-      const material = new MeshBasicMaterial({ transparent: true });
-      const mesh = fading(new InstancedMesh(geometry, material, this.capacity));
-      geometry.setAttribute("fade", new InstancedBufferAttribute(new Float32Array(this.capacity), 1).setUsage(DynamicDrawUsage));
-      mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * this.capacity), 3).setUsage(DynamicDrawUsage);
-      mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-      mesh.frustumCulled = false;
-      mesh.userData.color = new Color(color);
-      this.scene.add(mesh);
-      return mesh;
-    };
-    this.meshes = [
-      make(rod().rotateZ(-Math.PI / 2), AXES[0]),
-      make(rod(), AXES[1]),
-      make(rod().rotateX(Math.PI / 2), AXES[2]),
-      make(new OctahedronGeometry(1, 1), "#e9edf3"),
-      make(new CylinderGeometry(1, 1, 1, 6, 1, true).translate(0, 0.5, 0), SHAFT),
-      make(new ConeGeometry(1, 1, 10).translate(0, 0.5, 0), HEAD),
-    ];
-    Object.values(SPIKES).forEach((corners, at) => (this.meshes[at].userData.corners = corners));
-  }
-
   /** Draw. `frames`: [{pose, parent pose or null, grey, alpha}, …]; `look`: what is switched on. */
   draw(frames, look) {
     this.resize();
-    this.grow(frames.length);
     if (frames.length) {
       this.extent = Math.max(1, ...frames.map(({ pose }) => Math.max(Math.abs(pose[0]), Math.abs(pose[1]))));
     }
     this.ground.draw(look.grid, look.level, this.seen(), this.theme.grid);
     this.drawTurtles(frames);
-    const [xs, ys, zs, hubs, shafts, heads] = this.meshes;
+    const things = frames.length > (this.plain ? FEW : MOST_FINE) ? COARSE : FINE;
     const length = 0.2 * look.scale;
     const radius = 0.02 * look.scale * 0.75;
-    let axes = 0;
-    let arrows = 0;
-    const matrix = new Matrix4();
-    const where = new Vector3();
-    const turn = new Quaternion();
-    const size = new Vector3();
+    const [matrix, where, size, way, light] = [new Matrix4(), new Vector3(), new Vector3(), new Vector3(), new Vector3()];
+    const [turn, back] = [new Quaternion(), new Quaternion()];
     const up = new Vector3(0, 1, 0);
-    const way = new Vector3();
-    const together = this.plain && frames.length > FEW;
+    const lamp = new Vector3(...LAMP).applyQuaternion(this.camera.quaternion);
     this.crowd.begin();
-    const put = (mesh, index, frame) => {
-      const { color, corners } = mesh.userData;
-      const blend = (own) => own + (GREY - own) * frame.grey;
-      if (together) {
-        this.crowd.add(corners, matrix, blend(color.r), blend(color.g), blend(color.b), frame.alpha * frame.dim);
-        return;
-      }
-      mesh.setMatrixAt(index, matrix);
-      mesh.instanceColor.setXYZ(index, blend(color.r), blend(color.g), blend(color.b));
-      mesh.geometry.attributes.fade.setX(index, frame.alpha * frame.dim);
-    };
-    for (const frame of frames) {
-      if (frame.alpha <= 0) continue;
-      const { pose, parent } = frame;
+    for (const { pose, parent, grey, alpha, dim } of frames) {
+      if (alpha <= 0) continue;
+      const put = (thing, color, across, along, deep) => {
+        const [red, green, blue] = color.map((own) => own + (GREY - own) * grey);
+        this.crowd.add(thing, matrix.compose(where, turn, size.set(across, along, deep)), light, [red, green, blue, alpha * dim]);
+      };
       if (look.axes) {
         where.fromArray(pose, 0);
         turn.fromArray(pose, 3);
-        put(xs, axes, (matrix.compose(where, turn, size.set(length, radius, radius)), frame));
-        put(ys, axes, (matrix.compose(where, turn, size.set(radius, length, radius)), frame));
-        put(zs, axes, (matrix.compose(where, turn, size.set(radius, radius, length)), frame));
-        put(hubs, axes, (matrix.compose(where, turn, size.set(radius * 1.35, radius * 1.35, radius * 1.35)), frame));
-        axes++;
+        light.copy(lamp).applyQuaternion(back.copy(turn).invert());
+        put(things.x, PAINTS.x, length, radius, radius);
+        put(things.y, PAINTS.y, radius, length, radius);
+        put(things.z, PAINTS.z, radius, radius, length);
+        put(things.hub, PAINTS.hub, radius * 1.35, radius * 1.35, radius * 1.35);
       }
-      if (look.arrows && parent) {
-        way.set(parent[0] - pose[0], parent[1] - pose[1], parent[2] - pose[2]);
-        const distance = way.length();
-        if (distance > 0.001) {
-          const tip = distance < 0.1 * look.scale ? 0.1 * look.scale * distance : 0.1 * look.scale;
-          const rod = Math.max(0, distance - tip);
-          turn.setFromUnitVectors(up, way.normalize());
-          where.fromArray(pose, 0);
-          put(shafts, arrows, (matrix.compose(where, turn, size.set(0.009 * look.scale, rod, 0.009 * look.scale)), frame));
-          where.addScaledVector(way, rod);
-          put(heads, arrows, (matrix.compose(where, turn, size.set(0.034 * look.scale, tip, 0.034 * look.scale)), frame));
-          arrows++;
-        }
-      }
+      if (!look.arrows || !parent) continue;
+      where.fromArray(pose, 0);
+      way.set(parent[0] - pose[0], parent[1] - pose[1], parent[2] - pose[2]);
+      const distance = way.length();
+      if (distance <= 0.001) continue;
+      const tip = 0.1 * look.scale * (distance < 0.1 * look.scale ? distance : 1);
+      const rod = Math.max(0, distance - tip);
+      turn.setFromUnitVectors(up, way.normalize());
+      light.copy(lamp).applyQuaternion(back.copy(turn).invert());
+      put(things.shaft, PAINTS.shaft, 0.009 * look.scale, rod, 0.009 * look.scale);
+      where.addScaledVector(way, rod);
+      put(things.head, PAINTS.head, 0.034 * look.scale, tip, 0.034 * look.scale);
     }
     this.crowd.end();
     // What is drawn through solids is drawn last, and finds no depth of theirs any more.
-    for (const mesh of [this.crowd.mesh, ...this.meshes]) mesh.renderOrder = look.through ? OVER_ALL : 0;
-    const first = together ? this.crowd.mesh : xs;
-    first.renderOrder -= Number(look.through);
-    first.onBeforeRender = look.through ? () => this.renderer.clearDepth() : () => {};
-    for (const mesh of this.meshes) {
-      mesh.visible = !together;
-      if (together) continue;
-      mesh.count = mesh === shafts || mesh === heads ? arrows : axes;
-      mesh.instanceMatrix.needsUpdate = true;
-      mesh.instanceColor.needsUpdate = true;
-      mesh.geometry.attributes.fade.needsUpdate = true;
-    }
+    this.crowd.mesh.renderOrder = look.through ? OVER_ALL : 0;
+    this.crowd.mesh.onBeforeRender = look.through ? () => this.renderer.clearDepth() : () => {};
     this.camera.updateMatrixWorld();
     if (this.plain) this.putAside(look.grid);
     this.renderer.render(this.scene, this.camera);
