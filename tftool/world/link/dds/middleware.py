@@ -122,7 +122,7 @@ class DdsMiddleware(Middleware):
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Call back on `loop` from now on, and report changes of the graph."""
         self.watcher = watcher
-        # The watcher is there first: what waits in the inbox is reported to it.
+        # The watcher is there first: waiting calls are reported to it.
         self._participant.inbox.start(loop)
         self._discovery.start(self._changed)
         if watcher is not None:
@@ -140,7 +140,7 @@ class DdsMiddleware(Middleware):
 
     def close(self) -> None:
         """Send buffered messages, and leave."""
-        # Before the participant: with it the library deletes what is in it, whoever holds it.
+        # Before the participant: the library deletes the readers together with it.
         for listening in [one for several in self._readers.values() for one in several]:
             listening.close()
         self._readers.clear()
