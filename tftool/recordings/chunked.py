@@ -1,11 +1,12 @@
-"""Files whose messages are packed in chunks, read by index or sequentially."""
+"""Files whose messages are packed in chunks: read by index or sequentially, and written."""
 
+import io
 import itertools
 import struct
 import zlib
 from array import array
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -27,12 +28,16 @@ from tftool.recordings.container import (
     Piece,
 )
 from tftool.recordings.contract import Indexes, Stamps
-from tftool.recordings.decompression import Ahead, Packed, unpack, unpack_beginning
+from tftool.recordings.decompression import Ahead, Packed, compressor, unpack, unpack_beginning
 
 FAULTS: Final = (InputError, struct.error, KeyError)
 """Errors of a record that is damaged."""
 
 _MOST_NOTED: Final = 20
+_LARGE_PIECE: Final = 1 << 16  # bytes from which on joining costs more than a write of its own
+
+NOTHING_YET: Final = 2**64 - 1
+"""First log time of no messages."""
 
 
 def reason_of(error: Exception) -> str:
@@ -484,3 +489,92 @@ def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
     numbers = np.array([chosen[key] for key in keys.tolist()], dtype=np.int32)
     places: Stamps = np.minimum(np.searchsorted(keys, owners), len(keys) - 1)
     return np.where(keys[places] == owners, numbers[places], np.int32(-1))
+
+
+class ChunkedWriter:
+    """File of chunks being written; subclasses know its records. See `ContainerWriter`.
+
+    A chunk is written to the file when it is closed, by its size or by `flush`; the file can be
+    read up to there, whatever happens afterwards.
+
+    Attributes:
+        method: Compression of its chunks.
+        position: Bytes in the file so far.
+        counts: Messages by channel.
+        first_free: The first number for channels that come without one.
+    """
+
+    first_free = 0
+
+    def __init__(self, path: Path, method: str, *, with_crc: bool = False) -> None:
+        """Create the file; an existing one is replaced.
+
+        Args:
+            path: Its path.
+            method: Compression of its chunks.
+            with_crc: Whether to compute the CRC of all that is written.
+
+        Raises:
+            UsageError: If the compression is not installed.
+            OSError: If the file cannot be written.
+        """
+        self.method = method
+        self._pack: Callable[[bytes], bytes] = compressor(method)
+        self._known: dict[Channel, int] = {}
+        self._channel_records: dict[int, bytes] = {}
+        self._defined: set[int] = set()  # channels whose records are in the file or the chunk
+        self.counts: dict[int, int] = {}
+        self.position = 0
+        self._with_crc = with_crc
+        self._crc = 0
+        self._path = path
+        self._new_chunk()
+        self._file = io.FileIO(path, "wb+")
+
+    def _new_chunk(self) -> None:
+        self._pieces: list[bytes] = []
+        self._length = 0
+        self._indexes: dict[int, array[int]] = {}
+        self._chunk_low, self._chunk_high = NOTHING_YET, 0
+
+    @property
+    def size(self) -> int:
+        """Bytes written so far, those buffered for the chunk included."""
+        return self.position + self._length
+
+    def abandon(self) -> None:
+        """Close the file unfinished; its content can be read up to its end."""
+        self._file.close()
+
+    def _keep(self, piece: bytes) -> None:
+        self._pieces.append(piece)
+        self._length += len(piece)
+
+    def _copy(self, piece: Piece) -> None:
+        before = self._crc if self._with_crc else None
+        self._crc = piece.copy_to(self._file.fileno(), self.position, before)
+        self.position = self._file.seek(self.position + piece.length)
+
+    def _put(self, *pieces: bytes) -> None:
+        """Append to the file, or on failure remove the incomplete part."""
+        for run in _runs(pieces):
+            view = memoryview(run)
+            while view:
+                view = view[self._file.write(view) or 0 :]
+        if self._with_crc:
+            for piece in pieces:
+                self._crc = zlib.crc32(piece, self._crc)
+        self.position += sum(map(len, pieces))
+
+
+def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
+    """Join small pieces so that they are written together; keep large ones."""
+    small: list[bytes] = []
+    for piece in pieces:
+        if len(piece) < _LARGE_PIECE:
+            small.append(piece)
+            continue
+        yield b"".join(small)
+        small.clear()
+        yield piece
+    yield b"".join(small)

@@ -344,7 +344,8 @@ class _Job:
             table = block.table()
             after = self._changer.changed_table(table, tape.channels)
             self._changer.counts = counts
-        if after is table and self._in_one_part(block) and self._may_copy(block):
+        keeps = not self._edits.links or self._changer.keeps_all(block.start, block.end)
+        if after is table and keeps and self._in_one_part(block):
             assert isinstance(block, Chunk)
             output = self._output(self._part_of(source, block.start), part)
             if output.can_copy(source, block, tape):
@@ -370,10 +371,6 @@ class _Job:
         """Whether a block is a sound chunk whose messages belong to one part of the result."""
         is_one = self._part_of(0, block.start) == self._part_of(0, block.end)
         return is_one and block.whole and bool(block.counts) and isinstance(block, Chunk)
-
-    def _may_copy(self, chunk: Block) -> bool:
-        """Whether a chunk without changes may be copied."""
-        return not self._edits.links or self._changer.keeps_all(chunk.start, chunk.end)
 
     # Parts
 

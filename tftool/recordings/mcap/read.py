@@ -132,11 +132,6 @@ class Mcap(ChunkedReader):
             self._forget()
             self._index()
 
-    @property
-    def bytes_read(self) -> int:
-        """Return the number of bytes read from the file so far."""
-        return self.read
-
     def origin(self, number: int) -> tuple[int, tuple[str, str, bytes] | None]:
         """Return a channel's schema number, and the schema; see `McapWriter.adopt`."""
         schema = self._schema_of[number]

@@ -7,7 +7,7 @@ import io
 import struct
 import zlib
 from array import array
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -16,8 +16,8 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk
-from tftool.recordings.container import CopiedAttachment, MessageTable, Piece
+from tftool.recordings.chunked import NOTHING_YET, Chunk, ChunkedWriter
+from tftool.recordings.container import CopiedAttachment, MessageTable
 from tftool.recordings.containers import MCAP_MAGIC, library_name
 from tftool.recordings.decompression import best_compression, compressor
 from tftool.recordings.mcap.format import (
@@ -71,21 +71,10 @@ _HEADS = np.dtype(
 """A message's record up to its payload; as `MESSAGE_RECORD`."""
 
 _UNCHUNKED: Final = 1 << 16  # bytes that are written at a time where there are no chunks
-_LARGE_PIECE: Final = 1 << 16  # bytes from which on joining costs more than a write of its own
-_NOTHING_YET: Final = 2**64 - 1
 
 
-class McapWriter:
-    """Writer of an MCAP file; see `ContainerWriter`.
-
-    A chunk is written to the file when it is closed, by its size or by `flush`; the file can be
-    read up to there, whatever happens afterwards.
-
-    Attributes:
-        position: Bytes in the file so far.
-        counts: Messages by channel.
-        first_free: The first number for channels and schemas that come without one.
-    """
+class McapWriter(ChunkedWriter):
+    """Writer of an MCAP file; `first_free` counts for its schemas, too."""
 
     @classmethod
     def in_style(cls, path: Path, style: Mapping[str, Any], *, profile: str) -> "McapWriter":
@@ -131,50 +120,24 @@ class McapWriter:
             raise UsageError(
                 f"'{compression}' is no compression of MCAP: choose {', '.join(COMPRESSIONS)}."
             )
-        self.method = "" if compression == "none" else compression
-        self._pack: Callable[[bytes], bytes] = compressor(self.method)
+        super().__init__(path, "" if compression == "none" else compression, with_crc=with_crc)
         self.first_free = 1
         self._chunk_size = chunk_size
         self._limit = chunk_size or _UNCHUNKED
-        self._with_crc = self._with_chunk_crc = with_crc
+        self._with_chunk_crc = with_crc
         self._schemas: dict[tuple[str, str, bytes], int] = {}
         self._schema_records: dict[int, bytes] = {}
-        self._channel_records: dict[int, bytes] = {}
         self._schema_of: dict[int, int] = {}
-        self._known: dict[Channel, int] = {}
-        self._defined: set[int] = set()  # channels whose records are in the file or the chunk
         self._chunks: list[bytes] = []  # their records in the summary
         self._attachments: list[bytes] = []
         self._metadata: list[bytes] = []
-        self.counts: dict[int, int] = {}
-        self._low, self._high = _NOTHING_YET, 0
-        self._new_chunk()
-        self.position = 0
-        self._crc = 0
-        self._path = path
-        self._file = io.FileIO(path, "wb+")
+        self._low, self._high = NOTHING_YET, 0
         self._put(MCAP_MAGIC + record(HEADER, text(profile) + text(library)))
-
-    def _new_chunk(self) -> None:
-        self._pieces: list[bytes] = []
-        self._length = 0
-        self._indexes: dict[int, array[int]] = {}
-        self._chunk_low, self._chunk_high = _NOTHING_YET, 0
-
-    @property
-    def size(self) -> int:
-        """Bytes written so far, those buffered for the chunk included."""
-        return self.position + self._length
-
-    @property
-    def pending(self) -> int:
-        """Bytes of messages buffered for the chunk."""
-        return self._length
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
         """First and last log time of the messages in the file; 0 if there are none."""
-        return (0 if self._low == _NOTHING_YET else self._low), self._high
+        return (0 if self._low == NOTHING_YET else self._low), self._high
 
     # State
 
@@ -313,10 +276,6 @@ class McapWriter:
         self._chunk_low, self._chunk_high = int(pairs[:, 0].min()), int(pairs[:, 0].max())
         return True
 
-    def _keep(self, piece: bytes) -> None:
-        self._pieces.append(piece)
-        self._length += len(piece)
-
     def flush(self) -> None:
         """Write the buffered messages as a chunk."""
         if not self._length:
@@ -414,11 +373,6 @@ class McapWriter:
         )
         self._chunks.append(entry.record())
 
-    def _copy(self, piece: Piece) -> None:
-        before = self._crc if self._with_crc else None
-        self._crc = piece.copy_to(self._file.fileno(), self.position, before)
-        self.position = self._file.seek(self.position + piece.length)
-
     def copy_attachment(self, copied: CopiedAttachment) -> None:
         """Copy an attachment from another file."""
         self.flush()
@@ -457,10 +411,6 @@ class McapWriter:
         summary = self._summary(self.position + len(end))
         self._put(end + summary + MCAP_MAGIC)
 
-    def abandon(self) -> None:
-        """Close the file unfinished; its content can be read up to its end."""
-        self._file.close()
-
     def rescue(self) -> bool:
         """Close the file on a full disk: after its last whole chunk, with a summary.
 
@@ -482,7 +432,7 @@ class McapWriter:
         return True
 
     def _summary(self, begin: int) -> bytes:
-        low = 0 if self._low == _NOTHING_YET else self._low
+        low = 0 if self._low == NOTHING_YET else self._low
         statistics = struct.pack(
             "<QHIIIIQQ",
             sum(self.counts.values()),
@@ -512,27 +462,3 @@ class McapWriter:
         summary = b"".join(found) + b"".join(offsets)
         summary += RECORD.pack(FOOTER, 20) + struct.pack("<QQ", begin, place)
         return summary + U32.pack(zlib.crc32(summary))
-
-    def _put(self, *pieces: bytes) -> None:
-        """Append to the file, or on failure remove the incomplete part."""
-        for run in _runs(pieces):
-            view = memoryview(run)
-            while view:
-                view = view[self._file.write(view) or 0 :]
-        if self._with_crc:
-            for piece in pieces:
-                self._crc = zlib.crc32(piece, self._crc)
-        self.position += sum(map(len, pieces))
-
-
-def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
-    """Join small pieces so that they are written together; keep large ones."""
-    small: list[bytes] = []
-    for piece in pieces:
-        if len(piece) < _LARGE_PIECE:
-            small.append(piece)
-            continue
-        yield b"".join(small)
-        small.clear()
-        yield piece
-    yield b"".join(small)

@@ -10,7 +10,7 @@ from typing import Any, Final
 import yaml
 
 from tftool.base import yaml_guard
-from tftool.base.errors import InputError, UsageError
+from tftool.base.errors import InputError
 from tftool.recordings.poses.pose_links import PoseFile, PoseLink
 
 COLMAP_ROW: Final = "an image (IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME)"
@@ -86,7 +86,7 @@ def read_kalibr(file: PoseFile) -> list[PoseLink]:
                 links.append(_still(before, name, _matrix(values["T_cn_cnm1"])))
         if not links:
             raise ValueError("neither")
-    return _one_pair(file, links)
+    return file.renamed("links", links)
 
 
 def read_euroc_sensor(file: PoseFile) -> list[PoseLink]:
@@ -97,7 +97,7 @@ def read_euroc_sensor(file: PoseFile) -> list[PoseLink]:
         if len(data) != 16:
             raise ValueError(f"{len(data)} numbers")
         rows = [data[start : start + 4] for start in range(0, 16, 4)]
-        return _one_pair(file, [_still(*file.default, _matrix(rows))])
+        return file.renamed("links", [_still(*file.default, _matrix(rows))])
 
 
 def read_kitti_calibration(file: PoseFile) -> list[PoseLink]:
@@ -135,7 +135,7 @@ def read_kitti_calibration(file: PoseFile) -> list[PoseLink]:
     links += [_still(*pair, found[key]) for key, pair in named.items() if key in found]
     if not links:
         raise InputError(f"'{file.path}': expected P0: to P3:, Tr: or R: and T:, found none.")
-    return _one_pair(file, links)
+    return file.renamed("links", links)
 
 
 _IDENTITY: Final = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
@@ -155,22 +155,6 @@ def _rows(turn: Sequence[float], shift: Sequence[float]) -> list[float]:
 
 def _still(parent: str, child: str, numbers: Sequence[float]) -> PoseLink:
     return PoseLink(parent, child, True, len(numbers), array("q", (0,)), array("d", numbers))
-
-
-def _one_pair(file: PoseFile, links: list[PoseLink]) -> list[PoseLink]:
-    """Rename the frames of the single link, as --frames says.
-
-    Raises:
-        UsageError: If there are several links.
-    """
-    if file.options.frames is not None:
-        if len(links) > 1:
-            raise UsageError(
-                f"'{file.path}' holds {len(links)} links with names of their own: leave out "
-                "--frames."
-            )
-        links[0].parent, links[0].child = file.frames
-    return links
 
 
 def _matrix(rows: Any) -> list[float]:

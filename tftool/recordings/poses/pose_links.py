@@ -8,7 +8,7 @@ from decimal import ROUND_HALF_EVEN, Decimal, InvalidOperation
 from pathlib import Path
 from typing import BinaryIO, Final, NoReturn
 
-from tftool.base.errors import InputError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.named_files import open_regular
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.recordings.poses.pose_options import PoseOptions
@@ -203,6 +203,26 @@ class PoseFile:
         if not 0 < len(word.encode()) <= 4096 or "\0" in word:
             raise InputError(f"'{self.path}' has an invalid frame name: '{word[:40]}'.")
         return word
+
+    def renamed(self, what: str, links: list[PoseLink]) -> list[PoseLink]:
+        """Rename the frames of the single link of a file that names them itself, as --frames says.
+
+        Args:
+            what: Plural of what the file holds: "pairs", "links".
+            links: The links.
+
+        Raises:
+            UsageError: If there are several.
+        """
+        if self.options.frames is not None:
+            if len(links) > 1:
+                raise UsageError(
+                    f"'{self.path}' holds {len(links)} {what} with names of their own: leave out "
+                    "--frames."
+                )
+            for link in links:
+                link.parent, link.child = self.frames
+        return links
 
 
 def _is_number(word: str) -> bool:

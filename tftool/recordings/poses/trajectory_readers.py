@@ -102,7 +102,7 @@ def read_csv(file: PoseFile) -> list[PoseLink]:
         link.numbers.extend(file.floats([words[one] for one in columns[1:]], expected))
         link.stamps.append(file.nanoseconds(words[columns[0]], expected))
         file.check_count(link)
-    return _named(file, list(links.values()))
+    return file.renamed("pairs", list(links.values()))
 
 
 def read_npz(file: PoseFile) -> list[PoseLink]:
@@ -147,8 +147,8 @@ def read_npz(file: PoseFile) -> list[PoseLink]:
             f"(n, 4), target and source, found {e}."
         ) from e
     pairs = zip(map(str, targets), map(str, sources), strict=True)
-    return _named(
-        file,
+    return file.renamed(
+        "pairs",
         [
             _link_of(file, pair, stamps[places == place], poses[places == place])
             for place, pair in enumerate(pairs)
@@ -191,8 +191,8 @@ def read_parquet(file: PoseFile) -> list[PoseLink]:
         raise InputError(
             f"'{file.path}': expected the columns {', '.join(TABLE_COLUMNS)}, found {error}."
         ) from error
-    return _named(
-        file,
+    return file.renamed(
+        "pairs",
         [
             _link_of(file, pair, stamps[places == place], poses[places == place])
             for place, pair in enumerate(pairs)
@@ -210,20 +210,3 @@ def _link_of(
     numbers.frombytes(poses.tobytes())
     moments.frombytes(stamps.astype("int64").tobytes())
     return PoseLink(file.name(names[0]), file.name(names[1]), stamps=moments, numbers=numbers)
-
-
-def _named(file: PoseFile, links: list[PoseLink]) -> list[PoseLink]:
-    """Rename the frames of a file that names them itself, as --frames says.
-
-    Raises:
-        UsageError: If it holds several pairs.
-    """
-    if file.options.frames is not None:
-        if len(links) > 1:
-            raise UsageError(
-                f"'{file.path}' holds {len(links)} pairs with names of their own: leave out "
-                "--frames."
-            )
-        for link in links:
-            link.parent, link.child = file.frames
-    return links

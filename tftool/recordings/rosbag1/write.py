@@ -3,7 +3,6 @@
 Source: wiki.ros.org/Bags/Format/2.0.
 """
 
-import io
 import os
 import struct
 from array import array
@@ -16,10 +15,9 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk
+from tftool.recordings.chunked import Chunk, ChunkedWriter
 from tftool.recordings.container import MessageTable
 from tftool.recordings.containers import ROS1_MAGIC
-from tftool.recordings.decompression import compressor
 from tftool.recordings.message_conversion import as_ros1
 from tftool.recordings.rosbag1.format import (
     BAG,
@@ -54,14 +52,8 @@ _HEADS = np.dtype(
 _LATEST: Final = 2**32 * NANOSECONDS
 
 
-class Rosbag1Writer:
-    """Writer of a ROS 1 bag, whose streams are connections; see `ContainerWriter`.
-
-    Attributes:
-        position: Bytes in the file so far.
-        counts: Messages by connection.
-        first_free: The first number for connections that come without one.
-    """
+class Rosbag1Writer(ChunkedWriter):
+    """Writer of a ROS 1 bag, whose streams are connections."""
 
     @staticmethod
     def in_style(path: Path, style: Mapping[str, Any], *, profile: str) -> "Rosbag1Writer":
@@ -93,30 +85,10 @@ class Rosbag1Writer:
                 f"'{compression}' is no compression of ROS 1 bags: choose "
                 f"{', '.join(COMPRESSIONS)}."
             )
-        self.first_free = 0
-        self.method = compression
-        self._pack = compressor(compression)
+        super().__init__(path, compression)
         self._chunk_size = chunk_size
-        self._known: dict[Channel, int] = {}
-        self._records: dict[int, bytes] = {}  # of connections
-        self._defined: set[int] = set()
         self._infos: list[bytes] = []
-        self.counts: dict[int, int] = {}
-        self._new_chunk()
-        self.position = 0
-        self._file = io.FileIO(path, "wb+")
         self._put(ROS1_MAGIC + self._head(0))
-
-    def _new_chunk(self) -> None:
-        self._pieces: list[bytes] = []
-        self._length = 0
-        self._indexes: dict[int, array[int]] = {}
-        self._low, self._high = _LATEST, 0
-
-    @property
-    def size(self) -> int:
-        """Bytes written so far, those buffered for the chunk included."""
-        return self.position + self._length
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
         """Register a connection; return its number for `write`."""
@@ -133,8 +105,8 @@ class Rosbag1Writer:
             if channel.extra(key):
                 fields[key] = channel.extra(key).encode("utf-8", "surrogateescape")
         if number is None:
-            number = max(len(self._records), self.first_free)
-            while number in self._records:
+            number = max(len(self._channel_records), self.first_free)
+            while number in self._channel_records:
                 number += 1
         self._known[channel] = number
         self._add_connection(number, fields["topic"], packed_fields(fields))
@@ -143,7 +115,7 @@ class Rosbag1Writer:
     def _add_connection(self, number: int, topic: bytes, header: bytes) -> None:
         """Register a connection by the header from its publisher."""
         head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
-        self._records[number] = record(head, header)
+        self._channel_records[number] = record(head, header)
 
     def write(
         self,
@@ -156,7 +128,7 @@ class Rosbag1Writer:
         """Append one message; the last two arguments are not stored."""
         if channel not in self._defined:
             self._defined.add(channel)
-            self._keep(self._records[channel])
+            self._keep(self._channel_records[channel])
         if not 0 <= log_time < _LATEST:
             raise InputError(f"A log time of {log_time} ns does not fit into ROS 1's seconds.")
         sec, nanosec = divmod(log_time, NANOSECONDS)
@@ -166,7 +138,10 @@ class Rosbag1Writer:
         index.extend((sec, nanosec, self._length))
         self._keep(_message(channel, sec, nanosec, len(payload)))
         self._keep(payload)
-        self._low, self._high = min(self._low, log_time), max(self._high, log_time)
+        self._chunk_low, self._chunk_high = (
+            min(self._chunk_low, log_time),
+            max(self._chunk_high, log_time),
+        )
         if self._length >= self._chunk_size:
             self.flush()
 
@@ -196,24 +171,20 @@ class Rosbag1Writer:
             for channel in dict.fromkeys(owners.tolist()):
                 index = self._indexes.setdefault(channel, array("I"))
                 index.frombytes(entries[owners == channel].tobytes())
-            self._low = min(self._low, int(logs[which].min()))
-            self._high = max(self._high, int(logs[which].max()))
+            self._chunk_low = min(self._chunk_low, int(logs[which].min()))
+            self._chunk_high = max(self._chunk_high, int(logs[which].max()))
             self._keep(data[places[begin] : ends[end - 1]].tobytes())
             if self._length >= self._chunk_size:
                 self.flush()
             begin = end
         return True
 
-    def _keep(self, piece: bytes) -> None:
-        self._pieces.append(piece)
-        self._length += len(piece)
-
     def flush(self) -> None:
         """Write the buffered messages as a chunk."""
         if not self._length:
             return
         data = b"".join(self._pieces)
-        indexes, low, high = self._indexes, self._low, self._high
+        indexes, low, high = self._indexes, self._chunk_low, self._chunk_high
         self._new_chunk()
         head = {"op": CHUNK, "compression": self.method.encode(), "size": U32.pack(len(data))}
         parts = [record(head, self._pack(data))]
@@ -251,9 +222,7 @@ class Rosbag1Writer:
         """Copy a chunk and its index from another bag."""
         self.flush()
         self._note_chunk(chunk.start, chunk.end, chunk.counts or {})
-        piece = chunk.raw()
-        piece.copy_to(self._file.fileno(), self.position)
-        self.position = self._file.seek(self.position + piece.length)
+        self._copy(chunk.raw())
 
     def _note_chunk(self, start: Stamp, end: Stamp, counts: Mapping[int, int]) -> None:
         for number, count in counts.items():
@@ -274,15 +243,11 @@ class Rosbag1Writer:
         try:
             self.flush()
             place = self.position
-            self._put(b"".join([*self._records.values(), *self._infos]))
+            self._put(b"".join([*self._channel_records.values(), *self._infos]))
             os.lseek(self._file.fileno(), len(ROS1_MAGIC), os.SEEK_SET)
             self._put(self._head(place))
         finally:
             self._file.close()
-
-    def abandon(self) -> None:
-        """Close the file unfinished; its content can be read up to its end."""
-        self._file.close()
 
     def _head(self, place: int) -> bytes:
         """Pack the bag's header record, padded to its size."""
@@ -290,18 +255,12 @@ class Rosbag1Writer:
             {
                 "op": BAG,
                 "index_pos": U64.pack(place),
-                "conn_count": U32.pack(len(self._records)),
+                "conn_count": U32.pack(len(self._channel_records)),
                 "chunk_count": U32.pack(len(self._infos)),
             }
         )
         filling = b" " * (_HEADER_SIZE - 8 - len(fields))
         return U32.pack(len(fields)) + fields + U32.pack(len(filling)) + filling
-
-    def _put(self, piece: bytes) -> None:
-        view = memoryview(piece)
-        while view:
-            view = view[self._file.write(view) or 0 :]
-        self.position += len(piece)
 
 
 class Ros1Messages(Rosbag1Writer):
