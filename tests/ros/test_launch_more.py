@@ -491,6 +491,7 @@ def test_a_launchs_function_may_handle_and_emit_events(tmp_path):
 
 def test_a_handlers_target_must_be_an_action():
     with ros_free(force=True):
+        from launch import LaunchContext
         from launch.actions import LogInfo
         from launch.event_handlers import OnProcessExit
         from launch.events.process import ProcessExited
@@ -501,7 +502,7 @@ def test_a_handlers_target_must_be_an_action():
 
         assert (exited.cmd, exited.pid, exited.cwd) == (["ls"], 7, None)
         assert handler.matches(exited)
-        assert handler.handle(exited, None) == [action]
+        assert handler.handle(exited, LaunchContext()) == [action]
         with pytest.raises(TypeError, match="target_action of OnProcessExit must be an action"):
             OnProcessExit(target_action=3, on_exit=action)
 

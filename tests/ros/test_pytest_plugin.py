@@ -144,6 +144,23 @@ def test_tests_sleep_and_start_threads_in_the_nodes_time_with_ros_free(pytester)
     result.assert_outcomes(passed=1)
 
 
+def test_a_tests_event_loop_sleeps_in_the_nodes_time_with_ros_free(pytester):
+    test = """
+        import asyncio
+        import pytest
+
+        @pytest.mark.parametrize("count", range(2))
+        def test_an_hour_passes(ros_runtime, count):
+            asyncio.get_event_loop().run_until_complete(asyncio.sleep(3600.0))
+            assert ros_runtime.elapsed() == pytest.approx(3600.0, abs=1.0)
+        """
+    pytester.makepyfile(test)
+
+    result = pytester.runpytest("--ros-free", "-p", "tftool.ros.pytest_plugin")
+
+    result.assert_outcomes(passed=2)
+
+
 def test_two_packages_have_test_files_of_one_name(pytester):
     for name in ("one", "other"):
         (pytester.path / name).mkdir()

@@ -268,7 +268,7 @@ _WITH_MODULES_OF_CLASSES = (
 
 WHOLE_PACKAGES = (
     "rclpy", "launch", "launch_ros", "tf2_ros", "message_filters",
-    "launch_testing", "launch_testing_ros", "launch_pytest",
+    "launch_testing", "launch_testing_ros", "launch_pytest", "launch.events", "launch_ros.events",
 )  # fmt: skip
 """Packages whose modules are attributes after no more than `import launch`."""
 

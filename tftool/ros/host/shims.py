@@ -243,13 +243,24 @@ class UserEventLoop(asyncio.SelectorEventLoop):
         return float(self._owner.now() - self._owner.clock.epoch) / NANOSECONDS
 
 
+_replaced: list[asyncio.AbstractEventLoop] = []
+"""Loops that Python made on a thread's first question: kept, as they would warn when collected."""
+
+
 def _get_event_loop() -> asyncio.AbstractEventLoop:
     """Return the thread's loop; create one if there is none, as in a process's main thread."""
+    owner = running_program()
     try:
-        return asyncio.get_event_loop()
+        found = asyncio.get_event_loop()
     except RuntimeError:
-        if running_program() is None:
+        if owner is None:
             raise
+    else:
+        if owner is None or found.is_running() or found in owner.event_loops:
+            return found
+        # In a test's thread: one that would sleep in real time, or another test's.
+        if not found.is_closed():
+            _replaced.append(found)
     loop = UserEventLoop()
     asyncio.set_event_loop(loop)
     return loop

@@ -29,7 +29,6 @@ class LaunchContext:
         launch: The launch that runs it.
         argv: Arguments of the launch's command line.
         noninteractive: Whether questions are left out, as in ROS 2: here none is ever asked.
-        event: The event being handled, None while nothing is.
     """
 
     def __init__(
@@ -51,9 +50,9 @@ class LaunchContext:
         self._workspace = workspace
         self.load = load
         self.launch = launch
-        self.event: Any = None
         self._numbers: dict[str, int] = {}
         self._locals: dict[str, Any] = {}
+        self._outer_locals: list[dict[str, Any]] = []
         self._kept: list[tuple[Any, ...]] = []
 
     @property
@@ -72,10 +71,17 @@ class LaunchContext:
         """Add local values."""
         self._locals.update(extensions)
 
+    def push_locals(self) -> None:
+        """Begin to handle an event: what is added from here on, `pop_locals` forgets."""
+        self._outer_locals.append(dict(self._locals))
+
+    def pop_locals(self) -> None:
+        """Forget the local values added since `push_locals`."""
+        self._locals = self._outer_locals.pop()
+
     def get_locals_as_dict(self) -> dict[str, Any]:
         """Return the local values by name."""
-        known = {} if self.event is None else {"event": self.event}
-        return {**known, **self._locals}
+        return dict(self._locals)
 
     def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
         """Register an event handler.
@@ -139,7 +145,7 @@ class LaunchContext:
             dict(self.launch_configurations),
             dict(self.environment),
             self.files,
-            self.event,
+            dict(self._locals),
         )
 
     def push(self) -> None:
@@ -165,5 +171,5 @@ class LaunchContext:
             self.launch_configurations,
             self.environment,
             self.files,
-            self.event,
+            self._locals,
         ) = kept

@@ -182,15 +182,13 @@ class Launch(Node):
     def _tell(self, event: Event) -> None:
         for handler in list(self.handlers):
             if handler.matches(event):
-                if handler.handle_once:
-                    self.handlers.remove(handler)
-                self.context.event = event
+                self.context.push_locals()
                 try:
                     entities = handler.handle(event, self.context)
                 except Exception as error:
                     raise InputError(error_sentence(error)) from error
                 self.do(entities or ())
-                self.context.event = None
+                self.context.pop_locals()
         if isinstance(event, ShutdownProcess):
             for label, action in self._actions.items():
                 if label in self._running and event.process_matcher(action):
@@ -220,7 +218,7 @@ class Launch(Node):
         action: Any = self._actions.get(label)
         if getattr(action, "cached_output", False):
             action.output_lines.append((to_stdout, f"{line}\n"))
-        event = ProcessIO(text=f"{line}\n".encode(), from_stdout=to_stdout, **self._of(label))
+        event = ProcessIO(text=f"{line}\n".encode(), fd=1 if to_stdout else 2, **self._of(label))
         if self.is_awaited(event):
             self._guarded(lambda: self.emit(event))
 

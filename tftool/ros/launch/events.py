@@ -80,18 +80,17 @@ class ProcessIO(RunningProcessEvent):
 
     Attributes:
         text: The line, as bytes.
+        from_stdin: Whether it went to its standard input.
         from_stdout: Whether it came from its standard output.
         from_stderr: Whether it came from its standard error.
     """
 
     name = "launch.events.process.ProcessIO"
-    from_stdin = False
 
-    def __init__(self, *, text: bytes, from_stdout: bool, **process: Any) -> None:
+    def __init__(self, *, text: bytes, fd: int, **process: Any) -> None:
         super().__init__(**process)
         self.text = text
-        self.from_stdout = from_stdout
-        self.from_stderr = not from_stdout
+        self.from_stdin, self.from_stdout, self.from_stderr = (fd == one for one in range(3))
 
 
 class ShutdownProcess(Event):
@@ -173,14 +172,17 @@ class EventHandler:
         return self._matcher(event)
 
     def handle(self, event: Event, context: Any) -> Any:
-        """Return the next actions."""
+        """Return the next actions, which know the event; a handler for once is removed."""
+        context.extend_locals({"event": event})
+        if self.handle_once:
+            context.unregister_event_handler(self)
         return _entities(self._given, event, context)
 
 
 def _targets(action: Any, target: Any) -> bool:
     if target is None:
         return True
-    if callable(target) and not hasattr(target, "execute"):
+    if callable(target):
         return bool(target(action))
     return action is target
 
@@ -246,7 +248,9 @@ class OnProcessIO(TargetHandler):
         **kwargs: Any,
     ) -> None:
         def written(event: Any, context: Any) -> Any:
-            given = on_stdout if event.from_stdout else on_stderr
+            given = on_stderr
+            if not event.from_stderr:
+                given = on_stdout if event.from_stdout else on_stdin
             return given(event) if callable(given) else given
 
         super().__init__(target_action, written, **kwargs)

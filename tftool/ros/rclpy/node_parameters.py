@@ -96,6 +96,11 @@ class Parameter:
         if self.value is not None and not self.type_.check(self.value):
             raise ValueError(f"Type '{self.type_}' and value '{self.value}' do not agree")
 
+    @property
+    def _value(self) -> Any:
+        """Return its value by the name that ROS's class keeps it under; nodes read it."""
+        return self.value
+
     def get_parameter_value(self) -> Any:
         """Return it as an rcl_interfaces ParameterValue."""
         return value_message(self.value, int(self.type_))
