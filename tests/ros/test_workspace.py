@@ -229,10 +229,11 @@ def test_python_packages_that_cmake_installs_are_found_under_their_own_names(tmp
         'ament_python_install_package(\n  deep PACKAGE_DIR "python/deep")\n'
         "ament_python_install_package(${PROJECT_NAME})\n",
     )
-    for module in ("robot_lib", "python/deep"):
+    for module in ("robot_lib", "python/deep", "src/robot"):
         (package(folder / module) / "__init__.py").touch()
 
-    assert Workspace(tmp_path).module_folders() == [str(folder), str(folder / "python")]
+    found = Workspace(tmp_path).module_folders()
+    assert sorted(found) == [str(folder), str(folder / "python"), str(folder / "src")]
 
 
 def test_two_programs_of_one_module_share_no_globals(tmp_path):

@@ -142,7 +142,7 @@ class Workspace:
         modules = (
             package.path / name
             for package in self.packages.values()
-            for name in (package.name, *package.modules)
+            for name in (package.name, f"src/{package.name}", *package.modules)
         )
         folders = (
             str(module.parent)

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.stamps import seconds
 from tftool.ros import ros2
-from tftool.ros.host import executables, program, user_code
+from tftool.ros.host import executables, importing, program, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.program import Program, ProgramNode
 from tftool.ros.host.workspace import Workspace
@@ -96,6 +96,8 @@ class Launch(Node):
         self.context = context or LaunchContext(workspace)
         self.context.load, self.context.launch = load_file, self
         if isinstance(what, Path):
+            # Launch files import modules of the workspace's packages, too.
+            importing.look_behind(self.context.workspace.module_folders)
             self.description = load_file(what)
             self.context.enter_file(what)
             refuse_unknown(what, arguments or {}, declared(self.description, self.context))
