@@ -48,7 +48,7 @@ def buffer_picture(buffer: "Buffer") -> str:
 
 
 def frames_picture(frames: "Frames") -> str:
-    """Return opened frames as SVG, at their end."""
+    """Return opened frames as SVG, at the end of their time span."""
     return snapshot_picture(frames.buffer.snapshot(frames.span[1]))
 
 
@@ -104,7 +104,7 @@ class PageView:
 
     Attributes:
         html: The page, which needs nothing from elsewhere.
-        height: How tall a notebook shows it, pixels.
+        height: Height in a notebook, pixels.
     """
 
     html: str
@@ -124,12 +124,12 @@ class PageView:
         """Write the page to a file that any browser opens.
 
         Args:
-            path: Its name, in .html.
+            path: Name of the file, in .html.
             force: Whether to replace an existing file.
 
         Raises:
             UsageError: If something has that name and `force` is not given.
-            InputError: If it cannot be written.
+            InputError: If the file cannot be written.
         """
         from tftool.frames.export.trajectory_files import whole_file
 
@@ -150,14 +150,14 @@ def view(
         shown: Source of the frames: a buffer, a recording, opened frames.
         robot: A robot to draw; that of the recording if None.
         meshes: Folders of its meshes.
-        height: How tall it is shown, pixels.
+        height: Height in a notebook, pixels.
 
     Returns:
         The page as `tftool view -o` writes it.
 
     Raises:
         InputError: If nothing of the recording can be read.
-        TypeError: If it has no frames.
+        TypeError: If the source has no frames.
     """
     from tftool.base.errors import without_frames
     from tftool.buffer.buffer import Buffer

@@ -72,10 +72,10 @@ def open_frames(
 
     Args:
         place: Source of the frames, ws://robot:8765 too; None for the session that runs.
-        listen_for: How long to listen to a session, seconds.
+        listen_for: Time to listen to a session, seconds.
         until: Second up to which to play a scenario; 5 s if None, all of it if infinite.
         margin: Seconds to play on after it, for transforms that arrive after their stamp.
-        cache_time: How far back the buffer of a scenario or session remembers; all if None.
+        cache_time: Cache time of a scenario's or session's buffer; unlimited if None.
         joints: Positions of a description's joints, radians or metres.
         arguments: Values of xacro arguments.
         urdf: The description of the robot in a recording that has none inside.
@@ -94,7 +94,7 @@ def open_frames(
         glance: Called in another thread, again and again while a session is listened to, with
             the frames heard so far and for how long, nanoseconds.
         progress: Called with how many bytes of how many are read.
-        reach: How else to reach a session, by the names of the command line's options.
+        reach: Options for reaching a session, by the names of the command line's options.
 
     Raises:
         InputError: If `place` names nothing, or it cannot be read.
@@ -153,7 +153,7 @@ def named(word: str) -> Found:
     A built-in scenario's name wins; `./turtles` and `turtles.yaml` are paths.
 
     Raises:
-        InputError: If it names nothing, or nothing we read.
+        InputError: If the word names nothing, or a file that cannot be read.
     """
     if builtin.is_like_a_name(word):
         path = builtin.path_of(word)
@@ -172,7 +172,7 @@ def scenario_named(
     Args:
         word: A built-in scenario's name, or a file.
         arguments: Values for arguments it declares.
-        expects: Whether its expectations are judged.
+        expects: Whether the expectations are judged.
 
     Raises:
         InputError: If there is none, or it cannot be read.
@@ -225,7 +225,7 @@ def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
     """Refuse --cache-time if FROM is complete, since lookups then use all data.
 
     Raises:
-        UsageError: If it was given.
+        UsageError: If --cache-time was given.
     """
     if cache_time is not None:
         raise UsageError(f"'{visible(found.name)}' is read completely: leave out --cache-time.")

@@ -49,7 +49,7 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
 
     Raises:
         UsageError: If there is no such command.
-        TftoolError: If the command raises it.
+        TftoolError: As the command raises it.
     """
     name, *rest = words
     if name not in COMMANDS:

@@ -162,7 +162,7 @@ class Buffer(Door):
         Args:
             transform: The pose of a child in its parent. One leading slash is removed from either
                 name; a finite quaternion other than zero is scaled to unit length.
-            authority: Its sender.
+            authority: Sender of the transform.
 
         Returns:
             Whether the sample was accepted. If not, the log has the reason, and the stored samples
@@ -292,7 +292,7 @@ class Buffer(Door):
 
         Args:
             parent: The frame in which the poses are expressed.
-            child: The frame whose poses they are.
+            child: Frame whose poses are given.
             stamps: Whole nanoseconds, shape (n,), in any order.
             translations: Metres, shape (n, 3).
             rotations: Quaternions in xyzw order, shape (n, 4), finite and not zero.
@@ -335,7 +335,7 @@ class Buffer(Door):
 
         Args:
             parent: The frame in which the poses are expressed.
-            child: The frame whose poses they are.
+            child: Frame whose poses are given.
             records: One row per sample, int64, shape (n, 8): the stamp in nanoseconds, then the
                 bits of the seven doubles x y z and x y z w.
             authority: Sender of the samples.

@@ -191,7 +191,7 @@ class History(Fields):
         mixed: Whether the stored samples have different parents.
         records: See the head of this module.
         start: Number of the first record that is not pruned.
-        count: How many records there are, pruned ones included.
+        count: Number of records, including pruned ones.
         period: Last measured time between samples, nanoseconds; used to guess the place of a stamp.
         large_from: Number of records from which `use_large_pages` is called.
     """

@@ -109,7 +109,7 @@ class Questions:
         Args:
             source: A recording or robot description below the root; empty to list the files there.
             part: One key of the answer, such as "topics" or "edges"; all of it if empty.
-            skip: How many items of that part's list to leave out.
+            skip: Number of items to leave out at the beginning of that part's list.
         """
         if source:
             return self._asked("info", source, part=part, skip=skip)
@@ -123,7 +123,7 @@ class Questions:
             source: A recording, robot description or launch file below the root.
             at: The moment; the end if empty.
             part: One key of the answer, such as "roots" or "frames"; all of it if empty.
-            skip: How many items of that part's list to leave out.
+            skip: Number of items to leave out at the beginning of that part's list.
         """
         return self._asked("tree", source, *_option("at", at), part=part, skip=skip)
 
@@ -161,7 +161,7 @@ class Questions:
             check: The only checks to run, with commas, such as "split-tree,gap"; all if empty.
             urdf: A robot description below the root to compare with.
             part: One key of the answer, such as "findings" or "summary"; all of it if empty.
-            skip: How many items of that part's list to leave out.
+            skip: Number of items to leave out at the beginning of that part's list.
         """
         options = _option("select", check)
         if urdf:

@@ -36,20 +36,20 @@ class Check:
     """One check with all its texts.
 
     Attributes:
-        id: Its name, for ever.
-        area: Its subject.
+        id: Name of the check, which never changes.
+        area: Subject.
         severity: Severity of its findings; a hit may state another.
         summary: The fault in general, in one line: the docstring of its function.
-        run: Its function.
-        rule: When it speaks, with its thresholds as {names}.
+        run: Function.
+        rule: Condition for a finding, with the thresholds as {names}.
         headline: The fault with a finding's facts; `{where}` names all of them,
             `{concerned:one|many}` chooses a word by their number, as for any number or list.
         detail: A line of evidence for each hit.
-        consequence: Its consequence.
+        consequence: Consequence.
         fixes: Remedies besides those of the hit itself.
         causes: Causes that people found, the most frequent first.
         links: Threads about it, and standards.
-        limits: Its thresholds by name; seconds, metres, radians, shares, counts.
+        limits: Thresholds by name; seconds, metres, radians, shares, counts.
         needs: Keys of `NEEDS` without which it cannot run.
         why: Why the rule and its thresholds are as they are; empty where that is plain.
         because_of: Findings that explain this one: what both must share, and the ids of the
@@ -119,7 +119,7 @@ def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hi
 
     Args:
         stream: What it is about.
-        facts: Its facts; the name of the edge or topic is added.
+        facts: Facts; the name of the edge or topic is added.
         **given: Other attributes of `Hit`, in place of those that the stream gives.
     """
     if isinstance(stream, Track):

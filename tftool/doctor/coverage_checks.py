@@ -393,7 +393,7 @@ class Waits:
     Attributes:
         stamps: The messages' stamps, shape (n,).
         waits: Time from arrival until it can be placed, nanoseconds, shape (n,); or NEVER.
-        link: The edge that holds it up most.
+        link: The edge that delays the lookup most.
         links: The moving edges on the way.
     """
 
@@ -582,9 +582,9 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
 
     Args:
         link: The link that holds up a lookup.
-        period: Its period, nanoseconds; 0 if unknown.
-        later: How much longer after its stamp it arrives than the message, nanoseconds.
-        wait: How long the consumer waits, seconds.
+        period: Period of the edge, nanoseconds; 0 if unknown.
+        later: Extra latency of the edge relative to the message, nanoseconds.
+        wait: Time that the consumer waits, seconds.
     """
     left = wait - later / NANOSECONDS
     told = f"a {wait * 1e3:g} ms wait"

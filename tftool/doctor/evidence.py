@@ -45,7 +45,7 @@ class Evidence:
     """Evidence about the frames: everything that a diagnosis reads.
 
     Attributes:
-        name: Its name in messages.
+        name: Name in messages.
         kind: Kind of source: "MCAP", "scenario".
         transforms: In columns, with log times.
         headers: Headers of messages, by topic.
@@ -55,8 +55,8 @@ class Evidence:
         damage: Unreadable parts, as sentences.
         start: Log time of the first message.
         end: Log time of the last.
-        timed: Whether it has log times; a buffer has none.
-        recorded: Whether it was recorded, and may be played.
+        timed: Whether log times are known; a buffer has none.
+        recorded: Whether the evidence is a recording, which can be played.
         joints: Names in all joint states; None where none was recorded.
         robot: The robot's description, given or recorded; None without one that can be read.
         mistakes: Mistakes in the description, as sentences.
@@ -108,7 +108,7 @@ def described_by(path: str | Path) -> Described:
 
     Raises:
         InputError: If the file cannot be read.
-        UsageError: If it needs xacro, which is not installed.
+        UsageError: If the description needs xacro, and it is not installed.
     """
     try:
         return Described(load_urdf(path))
@@ -170,7 +170,7 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
         scope: Part of the recording, and a description; None for all of it.
 
     Raises:
-        InputError: If it cannot be read, has none of the topics, or nothing in that time.
+        InputError: If the file cannot be read, has none of the topics, or nothing in that time.
     """
     source, scope = recording.source, scope or Scope()
     if scope.tf_topics:
@@ -336,8 +336,8 @@ def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: 
         log: The received transforms.
         name: The name of the source, for people.
         kind: Kind of the source.
-        start: When listening began.
-        end: When it ended.
+        start: Time at which listening began, nanoseconds.
+        end: Time at which listening ended, nanoseconds.
     """
     transforms = log.transforms()
     publishers = transforms.publishers
@@ -394,7 +394,7 @@ def evidence_of(
 
     Raises:
         InputError: If the recording cannot be read.
-        TypeError: If it is none of them.
+        TypeError: If the argument is none of these types.
     """
     if isinstance(given, Frames):
         return evidence_of_frames(given, Scope(described))

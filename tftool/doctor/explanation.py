@@ -63,9 +63,9 @@ class Remedy:
         kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher", "clock".
         text: A sentence.
         command: The line to type; empty where there is none.
-        least: How much is enough, in nanoseconds; None where it is no amount.
-        advised: How much to set, in nanoseconds.
-        possible: Whether it can help at all.
+        least: Sufficient amount, nanoseconds; None for a remedy without an amount.
+        advised: Advised amount, nanoseconds.
+        possible: Whether the remedy can help at all.
     """
 
     kind: str
@@ -432,10 +432,10 @@ class Explanation:
         target: The frame asked for.
         source: The frame asked about.
         stamp: The moment asked about; 0 for the latest.
-        asked: The log time at which it is asked.
+        asked: Log time of the lookup.
         because: Why then: "when /scan of that stamp arrived"; empty where it was said.
-        after: How long after the stamp that is, on the clock of the stamps, nanoseconds.
-        available: Whether it answers.
+        after: Time between the stamp and the lookup, on the clock of the stamps, nanoseconds.
+        available: Whether the lookup succeeds.
         exception: Name of tf2's exception; empty if the lookup succeeds.
         text: Text of that error.
         epoch: The first stamp of moving links.
@@ -449,7 +449,7 @@ class Explanation:
         useless: Common attempts that do not help, as sentences.
         failed: In a session: share of the time of listening in which the same
             question would have been refused; None elsewhere.
-        in_whole: Whether it answers with all that was ever recorded, as `echo` asks it.
+        in_whole: Whether the lookup succeeds with the whole recording, as in `echo`.
     """
 
     target: str
@@ -555,8 +555,8 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
     """Add for which share of the time the lookup would have failed.
 
     Args:
-        model: The session as it was heard.
-        question: The question at its end.
+        model: The session as heard.
+        question: The lookup at the session's end.
         found: The answer.
     """
     trace = LookupTrace(model, question)
@@ -629,16 +629,16 @@ def explain(
     Args:
         recording: A recording, a buffer, or opened frames.
         target_frame: The frame to express things in.
-        source_frame: The frame they are given in.
+        source_frame: Frame of the given points.
         time: The moment, nanoseconds; 0 for the latest.
-        asked_at: The log time at which it is asked; None for the arrival of the message of
+        asked_at: Log time of the lookup; None for the arrival of the message of
             that stamp in the source frame, else the moment itself (of a buffer: now).
-        cache_time: How far back the listener remembers, nanoseconds.
-        timeout: How long it waits, nanoseconds.
+        cache_time: Cache time of the listener, nanoseconds.
+        timeout: Time to wait, nanoseconds.
 
     Raises:
         InputError: If nothing of the recording can be read.
-        TypeError: If it has no frames.
+        TypeError: If the source has no frames.
     """
     settings = Settings(cache_time=cache_time)
     model = Model(evidence_of(recording), settings)

@@ -78,20 +78,20 @@ class Finding:
 
     Attributes:
         id: Id of its check; `tftool doctor --explain ID` describes it.
-        severity: How bad it is.
+        severity: Error, warning or note.
         area: Subject of the check.
         message: The fault, in one line.
-        confidence: How sure that is.
+        confidence: Certain, likely or possible.
         edges: Parent and child of each transform concerned.
         frames: Frames concerned.
         topics: Topics concerned.
         publishers: Nodes concerned, where they are known.
         since: Log time of the first evidence, else its stamp; None where it is not a moment.
         until: The same of the last.
-        count: How often it was seen.
-        facts: Its numbers; stamps and durations in whole nanoseconds.
+        count: Number of occurrences.
+        facts: Numbers behind the finding; stamps and durations in whole nanoseconds.
         evidence: Observations, a line each.
-        consequence: Its consequence.
+        consequence: Consequence.
         fixes: Remedies, the likeliest first.
         because_of: The id of the finding that explains this one; None where none does.
         known: Whether a report that was given as the baseline has it already.

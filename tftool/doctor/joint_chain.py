@@ -23,10 +23,10 @@ class ChainLink:
 
     Attributes:
         joint: The joint.
-        position: Its position, radians or metres; None if the joint is fixed.
+        position: Joint position, radians or metres; None if the joint is fixed.
         is_given: Whether that was said, of itself or of the joint it follows.
         leader: The joint whose position decides; its own name where it follows none.
-        is_known: Whether it gives a frame: a floating joint gives none.
+        is_known: Whether the joint gives a frame: a floating joint gives none.
     """
 
     joint: RobotJoint

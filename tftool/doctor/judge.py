@@ -46,7 +46,7 @@ class Diagnosis:
     Attributes:
         findings: Findings by area, errors first; consequences directly after their cause.
         skipped: Checks that could not run, and why.
-        ran: How many did.
+        ran: Number of checks that ran.
         model: Model that was judged.
     """
 
@@ -220,7 +220,7 @@ def _cause_of(
     Args:
         number: The hit's.
         hits: All of them.
-        of_check: The numbers of those of each check.
+        of_check: Indices of the findings of each check.
     """
     check, hit = hits[number]
     for common, causes in check.because_of:
@@ -328,7 +328,7 @@ def diagnose(
         recording: A recording, a buffer, or opened frames.
         select: Ids or areas of checks to run; all where empty.
         ignore: Ids or areas to leave out.
-        cache_time: How far back the listener that is thought of remembers, nanoseconds.
+        cache_time: Cache time of the assumed listener, nanoseconds.
         urdf: A file with the robot's description; None for the one recorded, if any.
 
     Returns:
@@ -336,7 +336,7 @@ def diagnose(
 
     Raises:
         InputError: If nothing of the recording can be read.
-        TypeError: If it has no frames.
+        TypeError: If the source has no frames.
         UsageError: If there is no such check or area, or the description needs xacro, which is
             not installed.
     """

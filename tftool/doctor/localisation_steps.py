@@ -37,8 +37,8 @@ class LocalisationStep:
     """One jump of one edge.
 
     Attributes:
-        edge: Its parent and child.
-        stamp: The first stamp after it.
+        edge: Parent and child of the edge.
+        stamp: First stamp after the step.
         within: The time from the sample before, nanoseconds.
         moved: Metres that the velocity does not explain.
         turned: Radians that the velocity does not explain.

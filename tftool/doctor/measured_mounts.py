@@ -47,10 +47,10 @@ class MeasuredMount:
     """A frame's mount measured from motion.
 
     Attributes:
-        parent: The frame it is mounted on.
+        parent: Frame on which the sensor is mounted.
         child: The mounted frame.
         name: The recording.
-        begin: Its first stamp.
+        begin: First stamp of the measurement.
         mount: The mount by the motion.
         shift: Difference from the published mount, metres and degrees, shape (6,).
         widths: Half-widths of its 95 % interval, shape (6,); NaN along unseen axes.

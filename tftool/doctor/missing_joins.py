@@ -25,7 +25,7 @@ class Join:
     """A missing transform, with the evidence for it.
 
     Attributes:
-        edge: Its parent and child; None where the evidence names none.
+        edge: Parent and child to publish; None if the evidence names none.
         why: The evidence: part of a sentence.
         fix: The remedy.
         guess: Whether only names or customs say so.

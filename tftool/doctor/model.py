@@ -39,7 +39,7 @@ class Settings:
     """Settings of the assumed listener, and changed thresholds.
 
     Attributes:
-        cache_time: How far back its buffer remembers, nanoseconds.
+        cache_time: Cache time of the listener's buffer, nanoseconds.
         fixed_frame: Frame in which to place sensors; empty for the usual one.
         limits: Thresholds by check and name, in place of the catalogue's.
         tf_topics: Topics it listens to for transforms; empty for the usual ones.
@@ -62,8 +62,8 @@ class Shift:
     Attributes:
         by: Time from stamp to reception of most messages, nanoseconds; negative if stamped later.
         spread: Deviation of `by`: the median of the streams, nanoseconds.
-        streams: How many streams have it.
-        of: How many streams there are.
+        streams: Number of streams with this shift.
+        of: Number of streams there are.
     """
 
     by: Duration
@@ -77,10 +77,10 @@ class Lap:
     """A time at which the clock jumped back.
 
     Attributes:
-        log: When, as log time.
+        log: Log time of the jump back.
         before: The last stamp before.
         after: The first stamp after.
-        streams: How many streams did.
+        streams: Number of streams that jumped.
     """
 
     log: Stamp
@@ -96,7 +96,7 @@ class Tree:
     Attributes:
         root: The frame without a parent; some frame of the circle where there is none.
         frames: All of them, the root included.
-        is_circle: Whether it has no root.
+        is_circle: Whether the frames form a loop, without a root.
     """
 
     root: str
@@ -114,7 +114,7 @@ class Model:
         nameless: Edges with an empty name, or whose ends are the same frame.
         heard: One for each topic and frame of its messages.
         laps: Points where time went back; all else is about the data before the first.
-        reference: How latencies are reckoned, a sentence; empty where that is plain.
+        reference: Sentence about the reference of latencies; empty if it is the usual one.
         shift: Constant by which all stamps differ from their reception; None for none.
     """
 

@@ -260,7 +260,7 @@ def _alternating(
         track: The samples.
         places: Rows of the track by stamp, shape (n,).
         owners: The number of the track that each belongs to, shape (n,).
-        together: The errors of all of them as one motion, shape (n,).
+        together: Errors of all samples as one motion, shape (n,).
         limits: The thresholds.
     """
     turns = np.flatnonzero(np.diff(owners)) + 1
@@ -361,7 +361,7 @@ def _conflict(
         track: The edge that both publish.
         names: Names of the two.
         owned: Rows of the one, and for each the row of the other to compare it with, shape (n,).
-        confidence: How sure it is that they are two.
+        confidence: Confidence that there are two publishers.
     """
     rates, late = [], []
     for places in (owned[0], np.unique(owned[1])):
@@ -613,7 +613,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _could_move(model: Model, track: Track) -> bool:
-    """Whether anything besides its values shows that an edge may move."""
+    """Whether anything besides the values shows that an edge may move."""
     joint = model.joint_above.get(track.child)
     if joint is not None:
         return joint.moves

@@ -45,7 +45,7 @@ class Stream:
     Attributes:
         stamps: Nanoseconds, shape (n,).
         logs: Log times, shape (n,).
-        lap: How many of them belong to the first lap.
+        lap: Number of items in the first lap.
         arrivals: Log times on the clock of the stamps; set once the clocks are known.
     """
 
@@ -119,9 +119,9 @@ class Track(Stream):
 
     Attributes:
         parent: Name without its one leading slash.
-        child: Likewise.
-        static: Whether it came on a static topic.
-        slashed: How many had a leading slash.
+        child: Child frame of the edge.
+        static: Whether the samples came on a static topic.
+        slashed: Number of samples whose names had a leading slash.
     """
 
     def __init__(self, edge: Edge, transforms: Transforms) -> None:
@@ -305,7 +305,7 @@ class Track(Stream):
 
     @cached_property
     def moves(self) -> bool:
-        """Whether its poses differ."""
+        """Whether the poses of the track differ."""
         usable = np.flatnonzero(self.usable)
         if len(usable) < 2:
             return False
@@ -326,7 +326,7 @@ class Heard(Stream):
 
     Attributes:
         topic: Name of the topic.
-        type: Its type.
+        type: Type of the messages.
         frame: The name in the headers, slash included.
     """
 
@@ -342,7 +342,7 @@ class Heard(Stream):
 
     @property
     def is_spatial(self) -> bool:
-        """Whether its data has a position."""
+        """Whether the topic's data has a position."""
         return is_spatial(self.type)
 
 

@@ -38,16 +38,16 @@ class TracedLink:
     """One link of the path, with the samples of the assumed listener.
 
     Attributes:
-        parent: Its parent.
-        child: Its child.
-        is_static: Whether it holds at all times.
-        publisher: Its sender; None if unknown.
+        parent: Parent.
+        child: Child.
+        is_static: Whether the link is static.
+        publisher: Sender of the link; None if unknown.
         count: Samples held.
         oldest: Stamp of the oldest one held, of a static its arrival; None where none is.
         newest: Stamp of the newest one held.
         period: Median step of its stamps, nanoseconds; 0 where there is none.
         latency: Median of arrival minus stamp, nanoseconds.
-        verdict: Its outcome.
+        verdict: Result of the lookup at this link.
         short_by: Distance of the question from the data, nanoseconds.
     """
 
@@ -80,12 +80,12 @@ class Question:
 
     Attributes:
         target: The frame to express things in.
-        source: The frame they are given in.
+        source: Frame of the given points.
         stamp: The moment; 0 for the latest.
-        asked: The log time at which it is asked; None for the arrival of the message of that
+        asked: Log time of the lookup; None for the arrival of the message of that
             stamp in the source frame, else the moment itself.
-        settings: How long the listener remembers.
-        timeout: How long it waits, nanoseconds.
+        settings: Settings of the listener.
+        timeout: Time to wait, nanoseconds.
         topic: The topic whose message asks; empty where none does.
     """
 

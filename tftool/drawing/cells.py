@@ -205,7 +205,7 @@ class CellSheet:
 
         Args:
             dots: The dots.
-            colors: Their colours by cell, or one for all; their own if None.
+            colors: Colours by cell, or one for all; their own if None.
             ascii_only: Show them as ASCII signs.
         """
         marked = dots.masks > 0
@@ -236,9 +236,9 @@ class CellSheet:
 
         Args:
             column: The first cell.
-            row: Its row.
+            row: Row.
             text: The text; it must fit.
-            inks: Its packed colours.
+            inks: Packed colours.
             bold: Whether it is bold.
             clears: Whether it stands on the terminal's own ground.
         """

@@ -19,7 +19,7 @@ class Forest:
         roots: Names without a parent, and one frame of every loop.
         loops: Roots that have a parent: the links that close a loop.
         children: The drawn children of every drawn frame, in order of registration.
-        hidden: How many frames below a drawn frame are left out, where any are.
+        hidden: Number of frames left out below a drawn frame, if any.
         info: Every frame of the snapshot by its name.
     """
 
@@ -148,10 +148,10 @@ class Branch:
 
     Attributes:
         info: The frame.
-        depth: How many levels it is below its root.
+        depth: Number of levels below the root.
         turns: Whether each frame from the root's child down to this one is the last of its
             siblings; of a deep one, only the last `DEEPEST` of these.
-        closes_loop: Whether its own link closes a loop, which is cut there.
+        closes_loop: Whether the link closes a loop, which is cut there.
     """
 
     info: FrameInfo

@@ -19,9 +19,9 @@ class Label:
     Attributes:
         name: Name of the frame.
         text: The written text.
-        column: The cell of its owner.
-        row: The cell of its owner.
-        reach: How many cells that takes to either side.
+        column: Column of the labelled frame.
+        row: Row of the labelled frame.
+        reach: Number of cells that the frame's sign takes to either side.
     """
 
     name: str

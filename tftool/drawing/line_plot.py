@@ -93,7 +93,7 @@ def over_time(
         found: The pairs.
         start: The moment that is 0 on the axis.
         quantities: Quantities to draw, of `series.QUANTITIES`.
-        look: How to draw it.
+        look: Style of the drawing.
         span: First and last second of the axis; those of the data if None.
     """
     drawn = panels(found, start, quantities)
@@ -121,7 +121,7 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
 
     Args:
         found: The pairs.
-        look: How to draw it.
+        look: Style of the drawing.
     """
     curves = path_curves(found)
     colors = look.colors

@@ -67,7 +67,7 @@ def lines(
 
     Args:
         transform: Values to write.
-        with_translation: Whether it says where, too.
+        with_translation: Whether the translation is printed, too.
         precision: Decimals.
         all_orders: Whether to add the 24 orders of Euler angles.
     """

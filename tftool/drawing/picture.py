@@ -157,7 +157,7 @@ def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
 
 
 def _aged(line: str, age: Duration) -> str:
-    """Add its age to the line of the newest sample; return other lines unchanged."""
+    """Add the age to the line of the newest sample; return other lines unchanged."""
     newest = line.startswith("Most recent transform")
     return f"{line}, {short_duration(age)} old" if newest else line
 

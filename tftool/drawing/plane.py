@@ -32,14 +32,14 @@ class PlaneFrame:
     """One frame.
 
     Attributes:
-        name: Its name, which decides its colour.
+        name: Name, which determines the colour.
         x: Coordinate of its origin, metres.
         y: Coordinate of its origin, metres.
-        axes: The ends of its unit x, y and z axes, from its origin, as the plane shows them.
-        parent: The origin of its parent; None for a root.
+        axes: Ends of the unit x, y and z axes from the origin, projected on the plane.
+        parent: Origin of the parent; None for a root.
         age: Seconds without news, for one that is not static.
-        is_turtle: Whether it is drawn as one.
-        is_frame: Whether it is broadcast at all, and has axes; a turtle may not be.
+        is_turtle: Whether the frame is drawn as a turtle.
+        is_frame: Whether the frame is broadcast, and has axes; a turtle may have no frame.
     """
 
     name: str
@@ -64,8 +64,8 @@ class TurtleField:
     Attributes:
         x: Coordinate of its lower left corner, metres.
         y: Coordinate of its lower left corner, metres.
-        theta: How far it is turned, radians.
-        color: Its colour.
+        theta: Heading, radians.
+        color: Colour.
         walls: The sides a turtle just ran into: "left", "right", "bottom", "top".
     """
 
@@ -98,9 +98,9 @@ class Drawn:
     """Strokes that only grow in number, until they are replaced.
 
     Attributes:
-        strokes: The newest of them, oldest first.
-        forgotten: How many there were before the first of `strokes`.
-        edition: A number that is another one for another drawing.
+        strokes: The newest strokes, oldest first.
+        forgotten: Number of strokes dropped before the first of `strokes`.
+        edition: Number that changes when the drawing is replaced.
     """
 
     strokes: Sequence[Stroke] = ()
@@ -114,7 +114,7 @@ class ColoredLines:
 
     Attributes:
         ends: Both ends of each, metres, shape (n, 2, 3).
-        colors: Their packed colours, shape (n,).
+        colors: Packed colours, shape (n,).
     """
 
     ends: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2, 3)))

@@ -28,10 +28,10 @@ class PlaybackMark:
     """Finding of the doctor on the bar.
 
     Attributes:
-        since: Its begin, nanoseconds from the start.
-        until: Its end.
+        since: Begin of the finding, nanoseconds from the start.
+        until: End of the finding, nanoseconds from the start.
         message: The finding, in one line.
-        is_error: Whether it is an error, not a warning.
+        is_error: Whether the finding is an error, not a warning.
     """
 
     since: Duration
@@ -45,11 +45,11 @@ class Playback:
     """Position of a player in its recording.
 
     Attributes:
-        done: How much is played, nanoseconds.
-        total: How much there is.
-        rate: How many of its seconds pass in a real one.
-        is_paused: Whether it is paused.
-        laps: How often it has started over.
+        done: Played part, nanoseconds.
+        total: Duration of the recording, nanoseconds.
+        rate: Seconds of the recording for each real second.
+        is_paused: Whether the player is paused.
+        laps: Number of restarts.
         marks: Findings of the doctor, the worst first.
     """
 
@@ -112,7 +112,7 @@ def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
 
 
 def _keys(room: int, ascii_only: bool) -> str:
-    """Return as many keys with their explanations as fit; `q` always, if there is room for one."""
+    """Return as many keys with explanations as fit; `q` always, if there is room for one."""
     *first, last = [f"{_ASCII.get(key, key) if ascii_only else key} {word}" for key, word in KEYS]
     texts = ("  ".join([*first[:count], last]) for count in range(len(first), -1, -1))
     return next((text for text in texts if len(text) <= room), "")

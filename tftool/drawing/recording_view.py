@@ -30,7 +30,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
         recording: The recording.
         width: Cells a line may take: sentences go on in the next one, columns that have no room
             are left out. None for all.
-        name: Its name, if that is not the opened path.
+        name: Name to print, if other than the opened path.
     """
     source = recording.source
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
@@ -240,7 +240,7 @@ def table(
 
     Args:
         heads: Headings.
-        rows: Their cells.
+        rows: Cells.
         width: Cells a line may take; None for as many as it needs.
         goes: Columns that shrink, then are left out where there is no room, in that order.
         right: Columns of numbers, which stand at the right end.
@@ -304,7 +304,7 @@ def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str
 
     Args:
         rows: Contents of each, or why it is unreadable.
-        width: As `as_text` takes it.
+        width: As in `as_text`.
     """
     heads = ("recording", "kind", "length", "messages", "transforms", "frames", "trees")
     lines: list[tuple[str, ...]] = []

@@ -14,7 +14,7 @@ def as_text(name: str, robot: Robot, width: int | None = None) -> str:
 
     Args:
         name: Name as it was given.
-        robot: The robot it describes.
+        robot: The described robot.
         width: Cells a line may take; columns that have no room are left out. None for all.
     """
     links, joints = robot.links, robot.joints

@@ -35,9 +35,9 @@ class SpaceFrame:
     """One frame.
 
     Attributes:
-        name: Its name.
+        name: Name.
         pose: Pose in the fixed frame.
-        parent: The name of its parent; None for a root.
+        parent: Name of the parent; None for a root.
         age: Seconds without news, for one that is not static.
     """
 
@@ -54,9 +54,9 @@ class SpacePicture:
     Attributes:
         fixed: The fixed frame.
         frames: Frames of its tree.
-        solids: The shapes that move with them.
+        solids: Shapes that move with the frames.
         lines: Trails and other lines.
-        chosen: The frame under the cursor: its name is bold, its solid coloured.
+        chosen: Frame under the cursor: bold name, coloured solid.
         pair: Two frames joined by a line of their own.
     """
 

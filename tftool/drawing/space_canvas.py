@@ -38,7 +38,7 @@ class DepthBuffer(NamedTuple):
 
     Attributes:
         owners: The index of the triangle there; -1 for none. Shape (height, width).
-        depths: Its distance towards the viewer, in points; minus infinity for none.
+        depths: Distance of each cell towards the viewer, in points; minus infinity if empty.
     """
 
     owners: Indices
@@ -49,9 +49,9 @@ class Layer(NamedTuple):
     """Lines of one colour.
 
     Attributes:
-        color: Their colour.
+        color: Colour of the strokes.
         ends: Both ends of each in dots from the middle of the picture, shape (n, 2, 3).
-        is_hidden: Whether solids in front of them hide them.
+        is_hidden: Whether solids in front hide the strokes.
     """
 
     color: Color

@@ -23,8 +23,8 @@ class TableColumn:
     Attributes:
         heading: Text above them.
         cells: One a row.
-        stands_right: Whether they stand at its right end, as numbers do.
-        caps: How wide it may be at most, from wide to narrow: it shrinks before it goes.
+        stands_right: Whether the cells are aligned to the right, as numbers are.
+        caps: Maximum widths, from wide to narrow: a column shrinks before it is dropped.
         goes: In which order columns go where there is no room; 0 for one that stays.
     """
 
@@ -53,7 +53,7 @@ class FittedColumns:
 
     Attributes:
         columns: From left to right.
-        widths: How wide each is.
+        widths: Width of each column.
         room: Cells that are left for the text before them.
         more: Sign for text that was left out.
     """
@@ -95,8 +95,8 @@ def fit(
     Args:
         columns: Columns from left to right; empty ones are always left out.
         width: Cells there are.
-        wanted: How many are wanted for the first.
-        longest: How many it can use at all.
+        wanted: Cells wanted for the first.
+        longest: Most cells that the first can use.
         more: Sign for text that is left out.
     """
     kept = [one for one in columns if any(text for text, _ in one.cells)]

@@ -28,7 +28,7 @@ class Chain:
         target: The frame looked up in.
         source: The frame looked up.
         frames: From source to target, both included.
-        delay: How old the latest answer was, each time it was asked for.
+        delay: Ages of the latest answers, one for each lookup.
     """
 
     target: str
@@ -42,7 +42,7 @@ def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False)
 
     Args:
         traffic: The received messages.
-        chain: The pair it is about; None for all frames.
+        chain: Pair of the report; None for all frames.
         as_tf2: Whether to print tf2_monitor's own numbers; see `frames.traffic`.
 
     Returns:
@@ -103,9 +103,9 @@ def table(
 
     Args:
         now: The clock's time.
-        began: When listening began.
+        began: Time when listening began, nanoseconds.
         traffic: The received messages.
-        chain: The pair it is about; None for all frames.
+        chain: Pair of the report; None for all frames.
         width: Columns there are.
         height: Lines there are; the rest is counted.
         ascii_only: Whether to draw with ASCII only.

@@ -18,9 +18,9 @@ class Item:
     """One item to place.
 
     Attributes:
-        breadth: Its extent across the direction of growth.
+        breadth: Extent across the direction of growth.
         children: Indices of the items that hang from it, in order.
-        levels: How many levels it fills, from its own on. An item with children fills one.
+        levels: Number of levels it fills, from its own on. An item with children fills one.
     """
 
     breadth: float

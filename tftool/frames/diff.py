@@ -33,8 +33,8 @@ def diff(
         a: Frames, or the path of a file of them.
         b: The other side.
         mm: Largest distance that a frame may have moved, millimetres.
-        deg: How much it may be turned, degrees.
-        rate_percent: How much a rate may differ; None where rates do not count.
+        deg: Tolerated rotation, degrees.
+        rate_percent: Tolerated difference of rates, percent; None to ignore rates.
         align_starts: Whether moments count from each one's own start.
 
     Returns:
@@ -52,12 +52,12 @@ def side_of(frames: Comparable, name: str) -> Side:
     """Return frames as one side of a comparison.
 
     Args:
-        frames: Their source.
+        frames: Source of the frames.
         name: Name for a side without one of its own.
 
     Raises:
         InputError: If a path cannot be read.
-        UsageError: If it names a scenario.
+        UsageError: If the word names a scenario.
     """
     if isinstance(frames, str | os.PathLike):
         return _opened(os.fspath(frames))

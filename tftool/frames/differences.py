@@ -67,8 +67,8 @@ class Side:
     """One of the two sets of frames.
 
     Attributes:
-        name: Its name in messages.
-        buffer: Its frames.
+        name: Name in messages.
+        buffer: Frames.
         start: The first moment there is data of, nanoseconds.
         joints: The frames whose place a description leaves open.
     """
@@ -84,9 +84,9 @@ class LinkState:
     """One link in one of the sets.
 
     Attributes:
-        parent: Its last parent.
-        kind: Its kind.
-        count: How many samples there are.
+        parent: Last parent.
+        kind: Kind.
+        count: Number of samples.
         rate: Hertz, by the median of its periods; None if it does not move.
         pose: The child in the parent, where it holds at all times; else None.
     """

@@ -75,8 +75,8 @@ def load_described(found: Found, options: DescriptionOptions) -> Robot:
     """Read the description named by FROM.
 
     Raises:
-        InputError: If it cannot be read or has mistakes.
-        UsageError: If it needs an extra that is not installed, or options do not fit it.
+        InputError: If the description cannot be read or has mistakes.
+        UsageError: If an extra is missing, or options do not fit the description.
     """
     if options.urdf is not None:
         raise UsageError(

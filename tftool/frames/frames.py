@@ -30,7 +30,7 @@ class Frames:
     Attributes:
         kind: Kind of the source.
         name: Name of the source: "run.mcap", "turtles".
-        found: The files it was read from; None for a session.
+        found: Files that were read; None for a session.
         log: Every transform as it arrived, of a scenario or a session; else None.
     """
 
@@ -51,13 +51,13 @@ class Frames:
 
         Args:
             kind: Kind of the source.
-            name: Its name.
+            name: Name.
             buffer: All that is known of the frames.
             span: First and last stamp; None for static transforms.
-            recording: The recording they were read from.
+            recording: Recording that was read.
             robot: The robot.
             log: Every transform as it arrived.
-            found: The files they were read from.
+            found: Files that were read.
             notes: Notes on them, as sentences.
         """
         self.kind: FramesKind = kind
@@ -159,7 +159,7 @@ class Frames:
         """Return the stamp of a time given as for `--at`.
 
         Raises:
-            UsageError: If it is before the beginning or after the end.
+            UsageError: If the moment is before the beginning or after the end.
         """
         start, end = self.span
         received = 0

@@ -11,7 +11,7 @@ class At:
     """A time as for `--at`: seconds since FROM's start, or a stamp.
 
     Attributes:
-        nanoseconds: How much, in nanoseconds.
+        nanoseconds: The time, nanoseconds.
         is_stamp: Whether they count from 1970 (or a recording's own zero), not from the
             beginning.
     """
@@ -37,8 +37,8 @@ def checked_moment(
     Args:
         at: The moment.
         title: Name of the recording or session, as the beginning of a sentence.
-        epoch: Its start.
-        duration: Its length; None for no end.
+        epoch: Start.
+        duration: Length; None for no end.
         received: Time over which a recording received messages of any topic.
 
     Raises:

@@ -26,9 +26,9 @@ class RefusedRun:
     """Consecutive times at which the lookup fails.
 
     Attributes:
-        first: The first of them, nanoseconds.
-        last: The last of them.
-        count: How many.
+        first: First refused time, nanoseconds.
+        last: Last refused time, nanoseconds.
+        count: Number of refused times.
         reason: tf2's message for the first.
     """
 
@@ -100,7 +100,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
         buffer: Source of the frames.
         target: Frame in which the results are expressed.
         source: Frame to look up.
-        moments: When to ask; at the stamps of the fastest link between the two if None.
+        moments: Times of the lookups; the stamps of the fastest link between the two if None.
 
     Raises:
         TransformException: If a name is unknown, nothing joins the two, or there is a pose at

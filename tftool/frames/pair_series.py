@@ -31,7 +31,7 @@ class PlotCurve:
     """One curve of a panel.
 
     Attributes:
-        label: Its label: "x", or with several pairs "laser in map".
+        label: Label: "x", or with several pairs "laser in map".
         place: Number of its pair, counted from 0.
         times: Seconds, shape (n,).
         values: In the panel's unit, shape (n,); NaN where the line is broken.
@@ -197,7 +197,7 @@ def round_ticks(low: float, high: float, most: int) -> list[float]:
     Args:
         low: Lower end of the span.
         high: Upper end, above `low`.
-        most: How many there may be, at least two; three if 0 is inside of the span.
+        most: Largest number of ticks, at least two; three if 0 is inside the span.
     """
     # Zero is a multiple of every step, so that two never enclose it.
     most = max(most, 3 if low < 0.0 < high else 2)
@@ -235,7 +235,7 @@ def thinned(times: Floats, values: Floats, most: int) -> tuple[Floats, Floats]:
     Args:
         times: Shape (n,).
         values: Shape (n,).
-        most: How many points are enough.
+        most: Sufficient number of points.
     """
     if len(values) <= most:
         return times, values

@@ -42,7 +42,7 @@ class RecordingOptions:
     """Options for reading a recording.
 
     Attributes:
-        no_cache: Whether its columns are read again, and not kept.
+        no_cache: Whether columns are read from the recording and not cached.
         with_odometry: Whether odometry and poses count as transforms.
         tf_topics: Topics of transforms, in place of all.
     """

@@ -42,7 +42,7 @@ class PieceLength:
         """Parse a step: "1" frames, "10m", "5deg".
 
         Raises:
-            UsageError: If it is no such length.
+            UsageError: If the text is no such length.
         """
         found = _STEP.fullmatch(text)
         unit = "frames" if found is None or found[2] is None else found[2]

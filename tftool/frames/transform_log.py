@@ -36,10 +36,10 @@ class TransformLog:
         """Append a message; transforms beyond `MOST` are dropped.
 
         Args:
-            now: When it arrived.
-            transforms: The transforms in it.
-            authority: Its sender.
-            is_static: Whether it came on the static topic.
+            now: Time of arrival, nanoseconds.
+            transforms: Transforms of the message.
+            authority: Sender.
+            is_static: Whether the message came on the static topic.
         """
         if self._count >= MOST:
             return

@@ -38,7 +38,7 @@ class Arcs(NamedTuple):
         directions: C, at right angles to A and of length θ, shape (n, 4).
         half_angle_squared: θ², where θ is half the angle between start and end, radians, shape
             (n,).
-        terms: How many terms of the series of tan(x)/x the largest turn needs; 0 if too many.
+        terms: Number of terms of the series of tan(x)/x that the largest turn needs; 0 if too many.
     """
 
     directions: Floats

@@ -88,8 +88,8 @@ class Structure:
     """Fields of one message, in order.
 
     Attributes:
-        name: Its full name, "geometry_msgs/msg/Pose".
-        fields: Its fields.
+        name: Full name, "geometry_msgs/msg/Pose".
+        fields: Fields.
         constants: Name, type and text of each constant.
     """
 

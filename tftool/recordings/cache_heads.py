@@ -56,7 +56,7 @@ def key_of(found: Found, *, any_size: bool = False) -> str:
         any_size: Short ones too: completion alone caches their columns, as reading costs it most.
 
     Raises:
-        OSError: If one of its files cannot be read.
+        OSError: If a file of the recording cannot be read.
     """
     told: list[tuple[object, ...]] = [(FORMAT, found.kind.value, sys.byteorder)]
     total = 0
@@ -92,7 +92,7 @@ def head_size(start: bytes) -> int:
     """Return the number of header bytes of an entry, from its first bytes.
 
     Raises:
-        ValueError: If it does not begin as an entry does.
+        ValueError: If the bytes do not begin as an entry does.
     """
     length = int.from_bytes(start[len(MAGIC) : len(MAGIC) + 8], "little")
     if not start.startswith(MAGIC) or not 0 < length <= _MOST_HEAD:
@@ -104,11 +104,11 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
     """Parse the header of an entry.
 
     Args:
-        data: Its bytes before the columns.
+        data: Bytes of the entry before the columns.
         key: Key of the entry.
 
     Raises:
-        ValueError: If it differs from the written one.
+        ValueError: If the head differs from the written one.
     """
     start = len(MAGIC) + 12
     if head_size(data[:start]) != len(data):

@@ -54,7 +54,7 @@ class Offers:
     Attributes:
         durability: "transient_local" if any offers it, "volatile", or empty if unknown.
         reliability: "reliable" if any offers it, "best_effort", or empty.
-        count: How many offers were noted.
+        count: Number of noted offers.
     """
 
     durability: str = ""
@@ -90,10 +90,10 @@ class Channel:
     Texts are as recorded: bytes that are not UTF-8 are kept as surrogates (`readable` shows them).
 
     Attributes:
-        topic: Its name.
+        topic: Name.
         type: The messages' type.
         encoding: Encoding of its messages: "cdr", "ros1", "json", "protobuf".
-        schema_encoding: How the definition is written: "ros2msg", "ros1msg", "protobuf".
+        schema_encoding: Language of the definition: "ros2msg", "ros1msg", "protobuf".
         definition: The type's definition.
         metadata: Further facts of the stream, by MCAP's keys: "offered_qos_profiles",
             "topic_type_hash", and of ROS 1 "callerid", "latching", "md5sum".

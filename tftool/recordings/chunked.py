@@ -89,17 +89,17 @@ class Chunk:
         place: Offset of its packed data; 0 while unknown.
         packed: Bytes of the data there.
         size: Bytes of it unpacked.
-        method: Its compression.
+        method: Compression.
         start: Log time of its first message.
         end: Log time of its last message.
-        crc: The CRC of its data unpacked; 0 for none.
-        cut: Whether the file ends within it.
+        crc: CRC of the uncompressed data; 0 for none.
+        cut: Whether the file ends within the chunk.
         length: Bytes of its record.
         behind: Offset of the record after its message indexes.
         indexes: For each channel where its message index begins, in MCAP.
-        counts: How many messages each channel has in it, by its indexes; None if not known.
-        whole: Whether it may be copied as it is.
-        walked: Its messages as found by walking, where an index does not give them.
+        counts: Number of messages of each channel, by the indexes; None if unknown.
+        whole: Whether the chunk may be copied unchanged.
+        walked: Messages found by reading the chunk, if no index gives them.
     """
 
     reader: "ChunkedReader"
@@ -141,7 +141,7 @@ class Chunk:
         return self.reader.walked_table(self) if found is None else found
 
     def sound(self) -> bool:
-        """Whether its content is as written, as far as a checksum can show.
+        """Whether the content is as written, as far as a checksum can show.
 
         The first calling thread finds it out; others must wait for its answer.
         """
@@ -160,8 +160,8 @@ class ChunkedReader(File):
     """File of chunks; subclasses know how records are read. See `ContainerReader`.
 
     Attributes:
-        damage: Its damage, as sentences, each once; not more than tell enough.
-        is_indexed: Whether it has an index of its own.
+        damage: Sentences about damage, each once, limited in number.
+        is_indexed: Whether the file has an index.
         schemas: Types by their numbers, where they have any: name, encoding, definition.
     """
 
@@ -173,8 +173,8 @@ class ChunkedReader(File):
         """Open the file.
 
         Raises:
-            InputError: If it is another container.
-            OSError: If it cannot be opened.
+            InputError: If the file is another container.
+            OSError: If the file cannot be opened.
         """
         super().__init__(path)
         self.damage: list[str] = []
@@ -236,7 +236,7 @@ class ChunkedReader(File):
         A chunk is walked if its indexes do not tell all: its own records may describe channels.
 
         Raises:
-            InputError: If nothing of it can be read.
+            InputError: If nothing of the file can be read.
         """
         for chunk in chunks:
             self._chunks.append(chunk)
@@ -287,8 +287,8 @@ class ChunkedReader(File):
             ahead: Pool that may be unpacking it already.
 
         Raises:
-            InputError: If not even its packed bytes can be read.
-            UsageError: If the package it needs is not installed.
+            InputError: If not even the compressed bytes can be read.
+            UsageError: If the package for decompression is not installed.
         """
         coming = None if ahead is None else ahead.take(chunk)
         try:
@@ -378,7 +378,7 @@ class ChunkedReader(File):
             begin, and the payload's length, shape (n,).
 
         Raises:
-            InputError: If they point at something else; others of `FAULTS` likewise.
+            InputError: If the index does not point at messages; also the others of `FAULTS`.
         """
         raise NotImplementedError
 
@@ -510,7 +510,7 @@ class ChunkedWriter:
         """Create the file; an existing one is replaced.
 
         Args:
-            path: Its path.
+            path: Path.
             method: Compression of its chunks.
             with_crc: Whether to compute the CRC of all that is written.
 

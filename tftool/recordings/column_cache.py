@@ -150,7 +150,7 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
     """Parse the columns of an entry.
 
     Raises:
-        ValueError: If they differ from the written ones.
+        ValueError: If the bytes differ from the written ones.
     """
     start = head_size(bytes(data[: len(MAGIC) + 12]))
     head = parsed_head(bytes(data[:start]), key)

@@ -35,7 +35,7 @@ class Batch:
         buffer: The bytes.
         starts: Offset of each message, shape (n,).
         lengths: Bytes of each, shape (n,); all of them lie in the buffer.
-        log_times: When each was received, shape (n,).
+        log_times: Times of reception, nanoseconds, shape (n,).
         senders: Each one's publisher, a number of the reader's, shape (n,).
     """
 
@@ -93,8 +93,8 @@ class _Column:
         """Append rows to be written, and return them.
 
         Args:
-            count: How many.
-            share: How much of all has come with them, from 0 to 1.
+            count: Number of rows.
+            share: Part of the recording read so far, 0 to 1.
         """
         first = self.count
         self.count = needed = first + count
@@ -114,9 +114,9 @@ def _wanted(needed: int, share: float, freely: int) -> int:
     """Return the number of rows to make room for.
 
     Args:
-        needed: How many there must be room for.
-        share: How much of all has come with them, from 0 to 1.
-        freely: How many there may be room for, whatever is needed.
+        needed: Smallest number of rows.
+        share: Part of the recording read so far, 0 to 1.
+        freely: Number of rows that may be allocated in any case.
     """
     # The rest is known roughly; to copy the rows so far costs more than addresses
     # that are never used.
@@ -146,8 +146,8 @@ class Growing:
 
     Attributes:
         parent: Parent frame, as in `Edge`.
-        child: Likewise.
-        static: Likewise.
+        child: Child frame, as in `Edge`.
+        static: As in `Edge`.
         records: Samples in the layout of histories, which take them uncopied; with room.
         messages: Number of the message of each sample; with room.
         state: Read and written by the native scan as well: how many rows there are; the last
@@ -173,9 +173,9 @@ class Growing:
         """Enlarge the columns by `count` rows.
 
         Args:
-            count: How many rows are added.
-            share: How much of the whole has been read with them, from 0 to 1.
-            freely: How many rows may be allocated, however few have been read.
+            count: Number of rows to add.
+            share: Part of the recording read so far, 0 to 1.
+            freely: Number of rows that may be allocated in any case.
 
         Returns:
             For how many there is room now that there was none for.
@@ -204,10 +204,10 @@ class Growing:
         """Return rows for transforms, and the numbers of their messages.
 
         Args:
-            first: The first of those messages, which are in order, and the place in it.
-            last: The last of them.
-            count: How many transforms.
-            share: How much of all has come with them.
+            first: First of the messages, which are in order, and the index in it.
+            last: Last of the messages.
+            count: Number of transforms.
+            share: Part of the recording read so far, 0 to 1.
         """
         state = self.state
         # Threads may deliver batches in another order; such an edge is sorted at the end.
@@ -338,7 +338,7 @@ def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
     Args:
         buffer: The bytes.
         places: Offset of each number, shape (n,), all of it within the buffer.
-        kind: Its type, "<u4".
+        kind: Type, "<u4".
     """
     size = np.dtype(kind).itemsize
     # Overlapping views with a stride of one byte: unaligned words without a copy.

@@ -29,7 +29,7 @@ def check_told(count: int) -> None:
     """Refuse a record that describes a stream and exceeds the size limit.
 
     Raises:
-        InputError: If it is.
+        InputError: If the size is too large.
     """
     if count > LARGEST_TOLD:
         raise InputError(
@@ -41,11 +41,11 @@ class Taken(NamedTuple):
     """One message with everything its container stores about it.
 
     Attributes:
-        channel: The number of its channel in its file.
-        log_time: When it was received, nanoseconds.
-        payload: Its bytes.
-        publish_time: When it was sent; `log_time` where it is not kept.
-        sequence: Its number at its publisher; 0 where it is not kept.
+        channel: Number of the channel in its file.
+        log_time: Time of reception, nanoseconds.
+        payload: Bytes.
+        publish_time: Time of publication, nanoseconds; `log_time` if not recorded.
+        sequence: Publisher's sequence number; 0 if not recorded.
     """
 
     channel: int
@@ -59,12 +59,12 @@ class MessageHead(NamedTuple):
     """Header of a message record.
 
     Attributes:
-        channel: Its channel's number.
-        log_time: When it was received, nanoseconds.
+        channel: Number of the channel.
+        log_time: Time of reception, nanoseconds.
         first: Offset of its payload.
-        last: Its end.
-        publish_time: When it was sent.
-        sequence: Its number at its publisher.
+        last: Offset of the end.
+        publish_time: Time of publication, nanoseconds.
+        sequence: Publisher's sequence number.
     """
 
     channel: int
@@ -82,9 +82,9 @@ class MessageTable:
     Attributes:
         data: The bytes that their payloads are in.
         channels: The number of each one's channel, shape (n,).
-        log_times: When each was received, nanoseconds, shape (n,).
-        publish_times: When each was sent, shape (n,).
-        sequences: Its number at its publisher, shape (n,).
+        log_times: Times of reception, nanoseconds, shape (n,).
+        publish_times: Times of publication, nanoseconds, shape (n,).
+        sequences: Publishers' sequence numbers, shape (n,).
         starts: Offset of each payload, shape (n,).
         lengths: Bytes of the payload, shape (n,).
     """
@@ -194,7 +194,7 @@ class Block(Protocol):
         """Whether the block may be copied as it is."""
 
     def sound(self) -> bool:
-        """Whether its content is as written, as far as a checksum can show."""
+        """Whether the content is as written, as far as a checksum can show."""
 
     def table(self) -> MessageTable:
         """Return its messages in order; of a damaged block those before the damage."""
@@ -213,7 +213,7 @@ class Piece:
     Attributes:
         file: The file's number.
         place: Offset of the first.
-        length: How many they are.
+        length: Number of bytes.
     """
 
     file: int
@@ -229,14 +229,14 @@ class Piece:
         Args:
             file: The other file's number; it is open for writing and reading.
             place: Offset in it at which to write them.
-            crc: The CRC of the bytes before them, if one is wanted.
+            crc: CRC of the preceding bytes, if one is wanted.
 
         Returns:
             The CRC with theirs; 0 if none is wanted.
 
         Raises:
             InputError: If the file has become shorter, or other bytes are read back.
-            OSError: If they cannot be written.
+            OSError: If the bytes cannot be written.
         """
         done = 0
         while done < self.length:
@@ -287,9 +287,9 @@ class CopiedAttachment(NamedTuple):
     """An MCAP file's attachment to copy to another file.
 
     Attributes:
-        piece: Its record.
-        times: Its two times, as they are packed.
-        names: Its name and media type, likewise.
+        piece: Bytes of the record.
+        times: Log time and creation time, packed.
+        names: Name and media type, packed.
         size: Bytes of the attachment.
     """
 
@@ -320,7 +320,7 @@ class Container(Protocol):
         size: Bytes.
         start: Log time of the first message; 0 where there is none.
         end: Log time of the last message.
-        streams: Its streams; their numbers in a batch are places in it.
+        streams: Streams; a batch refers to them by index.
     """
 
     kind: str
@@ -350,7 +350,7 @@ class Container(Protocol):
         Args:
             wanted: Numbers of streams.
             progress: Called with the progress.
-            head: How many bytes of each message are needed, all if None; more may come.
+            head: Number of bytes needed of each message, all if None; more may be given.
         """
 
     def close(self) -> None:
@@ -364,8 +364,8 @@ class ContainerReader(Container, Protocol):
         container: "mcap", "db3" or "bag".
         channels: Its streams by the numbers they have in the file, exactly as recorded; more may
             come up while it is read.
-        extras: Its contents besides messages; complete once it is read.
-        style: How its container is written, for a writer of the same kind.
+        extras: Contents other than messages; complete once everything is read.
+        style: Options for a writer that writes the container in the same way.
     """
 
     container: str
@@ -381,7 +381,7 @@ class File:
     """A file read at given offsets, never beyond its size when it was opened.
 
     Attributes:
-        path: Its path.
+        path: Path.
         size: Bytes when it was opened; it may grow while it is read.
         read: Bytes read so far.
     """
@@ -390,7 +390,7 @@ class File:
         """Open the file.
 
         Raises:
-            OSError: If it cannot be.
+            OSError: If the file cannot be opened.
         """
         self.path = path
         self._file = path.open("rb", buffering=0)
@@ -401,7 +401,7 @@ class File:
         """Read `count` bytes from an offset.
 
         Raises:
-            InputError: If the file does not have them, or they are too many to hold.
+            InputError: If the file is shorter, or the bytes are too many for memory.
         """
         if count < 0 or place < 0 or place + count > self.size:
             raise InputError(
@@ -424,7 +424,7 @@ class File:
         """Read bytes from an offset into a buffer, and fill it.
 
         Raises:
-            InputError: If the file does not have them.
+            InputError: If the file is shorter.
         """
         if hasattr(os, "preadv") and 0 <= place <= self.size - len(room):
             self.read += len(room)

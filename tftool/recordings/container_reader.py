@@ -80,7 +80,7 @@ class Recorded:
 
         Args:
             name: Name as it was given.
-            container: Its files.
+            container: Files of the recording.
         """
         self.name = name
         self._container = container
@@ -259,7 +259,7 @@ class Recorded:
                 yield batch
 
     def close(self) -> None:
-        """Close its files."""
+        """Close the recording's files."""
         self._container.close()
 
 

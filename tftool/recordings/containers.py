@@ -37,7 +37,7 @@ class ContainerFormat:
         writer_at: Module and class of its writer.
         options: Options of its writer beside a path.
         encoding: The only encoding of messages that it holds: "cdr" or "ros1"; "" for any.
-        keeps_sequences: Whether it stores the publish time and the sequence number of a message.
+        keeps_sequences: Whether publish time and sequence number of a message are stored.
     """
 
     name: str
@@ -55,12 +55,12 @@ class ContainerFormat:
         """Open a file for reading.
 
         Args:
-            path: Its path.
-            by_index: Whether it is read by its index; otherwise from front to back.
+            path: Path.
+            by_index: Whether the file is read by its index; otherwise from front to back.
 
         Raises:
-            InputError: If it cannot be read.
-            OSError: If it cannot be opened.
+            InputError: If the file cannot be read.
+            OSError: If the file cannot be opened.
         """
         found: ContainerReader = _imported(self.reader_at)(path, by_index=by_index)
         return found
@@ -69,8 +69,8 @@ class ContainerFormat:
         """Create a file, with those options that the container has.
 
         Raises:
-            UsageError: If it has no such compression, or that is not installed.
-            OSError: If it cannot be written.
+            UsageError: If the container has no such compression, or a package is missing.
+            OSError: If the file cannot be written.
         """
         known = {name: value for name, value in options.items() if name in self.options}
         found: ContainerWriter = _imported(self.writer_at)(path, **known)
@@ -80,13 +80,13 @@ class ContainerFormat:
         """Create the file of an edit, for messages that are encoded already.
 
         Args:
-            path: Its path.
+            path: Path.
             style: `style` of the reader of the same container whose file is edited; empty for
                 another container.
             profile: Profile of its messages if the style has none: "ros1" or "ros2".
 
         Raises:
-            OSError: If it cannot be written.
+            OSError: If the file cannot be written.
         """
         module, name = self.writer_at
         return _imported((module, f"{name}.in_style"))(path, style, profile=profile)
@@ -143,7 +143,7 @@ def container_of(path: Path) -> str:
     """Return the container for a file name; "" for a folder.
 
     Raises:
-        UsageError: If it asks for one that is not written.
+        UsageError: If this container cannot be written.
     """
     if not path.suffix:
         return ""

@@ -28,14 +28,14 @@ class RecordedTopic:
     """One topic of a recording.
 
     Attributes:
-        name: Its name as recorded; some ROS 2 recordings have `tf` without a slash.
+        name: Name as recorded; some ROS 2 recordings have `tf` without a slash.
         type: Name of the message type as ROS 2 writes it short: "tf2_msgs/TFMessage". As
             recorded where it is not a ROS type: "foxglove.FrameTransform".
         encoding: "cdr", "ros1", "json", "protobuf", or whatever else is recorded.
-        count: How many messages; up to the damage, where there is any.
+        count: Number of messages, up to the damage if there is any.
         definition: The text of the message definition; empty where the recording has none.
-        transforms: Whether its type carries transforms.
-        static: Whether those hold at all times.
+        transforms: Whether the type carries transforms.
+        static: Whether the transforms are static.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Publisher:
         durability: Offer to late subscribers: "transient_local" (ROS 1's
             latching too), "volatile", or empty where that is not recorded.
         reliability: "reliable", "best_effort", or empty.
-        offers: How many publishers' offers of service the recorder noted for the topic.
+        offers: Number of publishers' QoS offers that the recorder noted for the topic.
     """
 
     topic: str
@@ -69,7 +69,7 @@ class Publisher:
 
     @property
     def authority(self) -> str:
-        """Return its name in buffers and views: the node, else the topic."""
+        """Return the publisher's name in buffers and views: the node, else the topic."""
         return self.node or self.topic
 
 
@@ -79,13 +79,13 @@ class Edge:
 
     Attributes:
         parent: Name as recorded, without the one leading slash it may have.
-        child: Likewise.
-        static: Whether it came on a static topic.
-        slashed: How many of its transforms had a leading slash in a name.
+        child: Child frame.
+        static: Whether the samples came on a static topic.
+        slashed: Number of transforms with a leading slash in a name.
         records: One row a transform, int64, shape (n, 8): the stamp, and bit by bit the
             seven doubles x y z (metres) and x y z w (quaternion).
         messages: The message each came in: a place in `Transforms.log_times`.
-        kept: How many rows from the first on are known to be as a buffer keeps them: each newer
+        kept: Number of rows from the first on are known to be as a buffer keeps them: each newer
             than the one before, finite, and with a unit quaternion of tf2's sign.
     """
 
@@ -166,9 +166,9 @@ class Headers:
 
     Attributes:
         topic: Name of the topic.
-        type: Its type.
+        type: Type.
         stamps: Nanoseconds, shape (n,).
-        log_times: When each was received, nanoseconds, shape (n,).
+        log_times: Times of reception, nanoseconds, shape (n,).
         names: The frame names that occur, as recorded (slashes included).
         frames: Frame of each message: a place in `names`, shape (n,).
     """
@@ -194,9 +194,9 @@ class RawMessage:
     """One message as recorded.
 
     Attributes:
-        log_time: When it was received, nanoseconds.
-        sender: Its publisher.
-        payload: Its bytes, in the topic's encoding.
+        log_time: Time of reception, nanoseconds.
+        sender: Publisher.
+        payload: Bytes, in the topic's encoding.
     """
 
     log_time: Stamp

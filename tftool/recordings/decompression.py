@@ -40,12 +40,12 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
 
     Args:
         method: "", "none", "zstd", "lz4" or "bz2", as the container writes it.
-        packed: Its bytes in the file.
-        size: How many it says it will be.
+        packed: Compressed bytes.
+        size: Stated number of uncompressed bytes.
 
     Raises:
-        InputError: If it states too large a size or a wrong one, or is damaged.
-        UsageError: If the package it needs is not installed.
+        InputError: If the stated size is too large or wrong, or the bytes are damaged.
+        UsageError: If the package for decompression is not installed.
     """
     if method in ("", "none"):
         if len(packed) != size:
@@ -247,7 +247,7 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
         The unpacked bytes, and the begin of the step that failed; the end if none did.
 
     Raises:
-        InputError: If it is not known how it is packed.
+        InputError: If the compression is unknown.
     """
     stream, found, start = _stream(method), bytearray(), 0
     while start < len(packed) and len(found) < size and not stream.eof:
@@ -273,7 +273,7 @@ def check_size(packed: int, size: int) -> None:
     """Refuse a declared size beyond any real one.
 
     Raises:
-        InputError: If it is one.
+        InputError: If the size is that of a bomb.
     """
     if size > LARGEST or size > most_of(packed):
         raise InputError(

@@ -61,7 +61,7 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
         that it knows itself.
 
     Raises:
-        InputError: If it is not a string.
+        InputError: If the message is not a string.
         DescriptionError: If all have mistakes; those of the first.
     """
     kind = INTERFACES.message("std_msgs/msg/String")

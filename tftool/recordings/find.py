@@ -69,7 +69,7 @@ class Kind(Enum):
 
     @property
     def is_recording(self) -> bool:
-        """Whether `open_recording` can read it."""
+        """Whether `open_recording` can read this kind."""
         return self not in (Kind.SCENARIO, Kind.DESCRIPTION, Kind.STATICS)
 
 
@@ -81,7 +81,7 @@ def container_in(path: Path, kind: Kind) -> ContainerFormat:
     """Return the container of a file of that kind.
 
     Raises:
-        InputError: If it is none.
+        InputError: If files of that kind are no recordings.
     """
     found = _CONTAINERS.get(kind)
     if found is None:
@@ -95,7 +95,7 @@ class Found:
 
     Attributes:
         name: The word.
-        kind: Its kind. ROSBAG2 is a folder with rosbag2's metadata.
+        kind: Kind. ROSBAG2 is a folder with rosbag2's metadata.
         paths: The file or the folder; of SEVERAL, each of its recordings in the order of
             their names, files and folders.
         passed_over: Files beside them, in the folder or of the glob, that are not recordings.
@@ -197,7 +197,7 @@ def _kind_with_options(word: str, path: Path) -> Kind:
     """Return the kind of one file; refuse options for pose files for other kinds.
 
     Raises:
-        UsageError: If it has such options and is not a pose file.
+        UsageError: If options of pose files are given for another file.
     """
     options = options_of(word)
     if options.pose_format is not None:
@@ -229,8 +229,8 @@ def kind_of_file(path: Path) -> Kind:
     """Return the kind of one file, by its first bytes.
 
     Raises:
-        InputError: If it is empty, or nothing we read.
-        OSError: If it cannot be read.
+        InputError: If the file is empty, or of an unknown kind.
+        OSError: If the file cannot be read.
     """
     mode = path.stat().st_mode
     if not stat.S_ISREG(mode):

@@ -35,9 +35,9 @@ def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decode
 
     Args:
         kind: The type, short.
-        encoding: How its messages are written.
+        encoding: Encoding of the messages.
         definition: The type's definition, as recorded.
-        topic: Its topic, which names a PoseStamped's child frame.
+        topic: Topic, which names a PoseStamped's child frame.
 
     Raises:
         InputError: If the type's definition is wrong or missing.

@@ -30,7 +30,7 @@ class Conversion(NamedTuple):
     """Conversion of a stream to the other profile.
 
     Attributes:
-        channel: The stream as it is written then.
+        channel: Stream after the conversion.
         payload: Each message's bytes as they are written then.
     """
 
@@ -42,7 +42,7 @@ def as_ros2(channel: Channel) -> Conversion:
     """Return the conversion of a ROS 1 stream to ROS 2.
 
     Raises:
-        InputError: If its type is not known, or its messages are written another way.
+        InputError: If the type is unknown, or the messages have another encoding.
     """
     if channel.encoding == "cdr":
         return Conversion(channel, bytes)
@@ -133,7 +133,7 @@ def ros2_channel(topic: str, kind: str, *, static: bool = False) -> Channel:
     """Return the channel of a known type, as ROS 2 records it.
 
     Args:
-        topic: Its name.
+        topic: Name.
         kind: The type: "tf2_msgs/msg/TFMessage".
         static: Whether late subscribers get the last message too.
 

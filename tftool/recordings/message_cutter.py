@@ -46,11 +46,11 @@ class Cutter:
         self._count = self._held = 0
 
     def add(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages, or buffer them until there are more.
+        """Decode messages now, or buffer them until there are more.
 
         Args:
             batch: The messages.
-            numbers: Their numbers in the table, shape (n,).
+            numbers: Numbers in the table, shape (n,).
         """
         # Those that wait go first: columns are in the order of the recording.
         if len(batch) >= _FEW:
@@ -234,9 +234,9 @@ class ScanCutter(Cutter):
         """Return where a pair's transforms are written, with space reserved.
 
         Args:
-            pair: Its number.
+            pair: Number.
             message: Number of the message with the next one.
-            rank: The place in it.
+            rank: Index of the transform in the message.
         """
         number = self._of_pair.get(pair)
         if number is not None:

@@ -69,7 +69,7 @@ class Samples:
         rotations: Quaternions x y z w as recorded, shape (n, 4).
         authorities: Publisher of each: the node where it is recorded, else the topic,
             shape (n,).
-        log_times: When each was received, nanoseconds, shape (n,).
+        log_times: Times of reception, nanoseconds, shape (n,).
         static: Whether each holds at all times, shape (n,).
     """
 
@@ -136,7 +136,7 @@ class Recording:
         )
 
     def close(self) -> None:
-        """Close its files; data already read stays available."""
+        """Close the recording's files; data already read stays available."""
         self._closed = True
         self.source.close()
 
@@ -290,7 +290,7 @@ class Recording:
 
     @cached_property
     def robot(self) -> Robot | None:
-        """Robot by its description: the given one, else the recorded one.
+        """Robot from the given description, else from the recorded one.
 
         Mistakes in a recorded one are among `oddities`.
 
@@ -347,7 +347,7 @@ class Recording:
         """Return all recorded transforms of one child frame, unchanged.
 
         Raises:
-            InputError: If it is the child of none.
+            InputError: If the frame is no child of an edge.
         """
         transforms = self.transforms
         edges = [edge for edge in transforms.edges if edge.child == stripped(frame)]
@@ -527,7 +527,7 @@ def open_recording(
 
     Raises:
         InputError: If nothing can be read.
-        UsageError: If it is compressed, and the package for that is not installed.
+        UsageError: If the package for its compression is not installed.
     """
     name = os.fspath(path)
     before: list[tuple[int, int]] | None = None

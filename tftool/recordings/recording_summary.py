@@ -26,14 +26,14 @@ class EdgeFacts:
     Attributes:
         parent: Name.
         child: Name.
-        static: Whether it holds at all times.
-        count: How many transforms.
+        static: Whether the edge is static.
+        count: Number of transforms.
         rate: Hertz, by the median of its periods; None of a static or a single one.
         first: First stamp.
         last: Last stamp.
         offset: Log time against stamp; None of a static.
-        simulated: Whether its stamps count from a simulation's start.
-        publishers: Its senders: nodes where they are recorded, else topics.
+        simulated: Whether stamps count from a simulation's start.
+        publishers: Senders: nodes if recorded, else topics.
     """
 
     parent: str
@@ -128,8 +128,8 @@ def oddities(
 
     Args:
         recording: The recording.
-        edges: Its edges in numbers.
-        forest: Its trees.
+        edges: Edges in numbers.
+        forest: Trees.
     """
     found = [
         f"{text}." if count == 1 else f"{text} ({count} times)."

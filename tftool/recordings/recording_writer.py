@@ -64,9 +64,9 @@ class RecordingWriter:
         """Append one message of transforms.
 
         Args:
-            samples: The transforms in it.
-            log_time: When it was received, nanoseconds; the newest stamp where it is not said.
-            topic: Its topic.
+            samples: Transforms of the message.
+            log_time: Time of reception, nanoseconds; the newest stamp if not given.
+            topic: Topic.
         """
         self._write_transforms(samples, log_time, topic, static=False)
 
@@ -108,11 +108,11 @@ class RecordingWriter:
         """Append one message as bytes.
 
         Args:
-            channel: The stream it belongs to.
-            log_time: When it was received, nanoseconds.
-            payload: Its bytes, in the channel's encoding.
-            publish_time: When it was sent; `log_time` where it is not said.
-            sequence: Its number at its publisher.
+            channel: Stream of the message.
+            log_time: Time of reception, nanoseconds.
+            payload: Bytes, in the channel's encoding.
+            publish_time: Time of publication, nanoseconds; `log_time` if not recorded.
+            sequence: Publisher's sequence number.
         """
         number = self._numbers.get(channel)
         if number is None:
@@ -173,12 +173,12 @@ def write_recording(
             missing), "bz2", "lz4" or "none" in ROS 1 bags (none if None).
         storage: Storage of a folder: "mcap" or "sqlite3".
         profile: Profile of an MCAP file: "ros2", or "" for none.
-        force: Whether it may replace an existing file.
+        force: Whether an existing file may be replaced.
 
     Raises:
         UsageError: If the file exists and `force` is not given, the suffix is another,
             or the compression is not known or not installed.
-        InputError: If it cannot be written there.
+        InputError: If the file cannot be written.
     """
     place = Path(path)
     name = container_of(place)

@@ -48,7 +48,7 @@ def listed(place: str) -> list[str]:
     """Expand a URL with `*`, `?` or `[…]` in its name; return others unchanged.
 
     Raises:
-        InputError: If it names nothing, or cannot be listed.
+        InputError: If the word names nothing, or a folder cannot be listed.
         UsageError: If fsspec is not installed.
     """
     system, path = _opened(place)

@@ -47,7 +47,7 @@ class RecordLimits:
     Attributes:
         size: Bytes of a file before the next one begins; 0 for one file.
         duration: Nanoseconds of it, likewise.
-        ring: How much of the past is held in memory and written in the end; 0 to write at once.
+        ring: Duration held in memory and written at the end; 0 to write at once.
     """
 
     size: int = 0
@@ -64,9 +64,9 @@ class RollingRecording:
     """An MCAP file, or a folder of them, for messages as they arrive.
 
     Attributes:
-        path: Its name in the end.
-        messages: How many messages came; of a ring that is closed, how many it wrote.
-        transforms: How many transforms were in them.
+        path: Name in the end.
+        messages: Number of messages came; of a ring that is closed, how many it wrote.
+        transforms: Number of transforms were in them.
         size: Bytes written, or held.
         files: Names of the files that are closed, in order.
     """
@@ -83,14 +83,14 @@ class RollingRecording:
 
         Args:
             path: A name that ends in ".mcap", or one without a suffix for a folder.
-            limits: When to begin a new file.
+            limits: Limits at which a new file begins.
             compression: "zstd", "lz4" or "none".
-            force: Whether it may replace existing files.
+            force: Whether existing files may be replaced.
 
         Raises:
             UsageError: If there is something of that name and `force` is not given, or the name
                 cannot hold the messages.
-            InputError: If it cannot be written there.
+            InputError: If the file cannot be written.
         """
         self.path = path
         self._limits = limits or RecordLimits()
@@ -165,13 +165,13 @@ class RollingRecording:
         """Add one message.
 
         Args:
-            channel: The stream it belongs to.
-            log_time: When it was received.
-            payload: Its bytes.
-            transforms: How many transforms are in it.
+            channel: Stream of the message.
+            log_time: Time of reception, nanoseconds.
+            payload: Bytes.
+            transforms: Number of transforms are in it.
 
         Raises:
-            InputError: If it cannot be written; data written before stays readable.
+            InputError: If the file cannot be written; earlier data stays readable.
         """
         if self._closed:
             return
@@ -273,7 +273,7 @@ class RollingRecording:
         """Write messages that have waited for a second; call a few times a second.
 
         Raises:
-            InputError: If it cannot be written; data written before stays readable.
+            InputError: If the file cannot be written; earlier data stays readable.
         """
         if self._writer is None or now - self._flushed < CHUNK_TIME:
             return

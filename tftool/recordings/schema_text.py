@@ -37,7 +37,7 @@ def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
     """Whether a type's messages have the same bytes by either definition.
 
     Raises:
-        InputError: If either does not know it.
+        InputError: If a definition lacks the type.
     """
 
     def shape(interfaces: Interfaces, full: str) -> list[object]:

@@ -45,7 +45,7 @@ class Target:
     """A file or folder written completely or not at all; a context manager.
 
     Attributes:
-        path: Its name in the end.
+        path: Name in the end.
         part: Path of the unfinished file.
     """
 
@@ -53,13 +53,13 @@ class Target:
         """Create the temporary file or folder, after checking existing ones.
 
         Args:
-            path: Its name in the end.
-            folder: Whether it is a folder.
-            force: Whether it may replace existing files.
+            path: Name in the end.
+            folder: Whether to write a folder.
+            force: Whether existing files may be replaced.
 
         Raises:
             UsageError: If something has that name and `force` is not given.
-            InputError: If it cannot be written there.
+            InputError: If the file cannot be written.
         """
         self.path = path
         self.part = path.with_name(path.name + PART)
@@ -93,7 +93,7 @@ class Target:
             self.discard()
 
     def commit(self) -> None:
-        """Give it its name, once everything is on the disk.
+        """Give the file its final name, once everything is on the disk.
 
         Raises:
             InputError: If that fails; the part is gone then.
@@ -136,7 +136,7 @@ class Target:
 
 
 def commit_together(targets: Sequence[Target]) -> None:
-    """Give related files their names together, or none of them.
+    """Give related files their final names together, or none of them.
 
     The others are found by the last file. It is renamed last, and its predecessor is removed first:
     whenever a process ends, it is never beside files of another version. Until all is done, the

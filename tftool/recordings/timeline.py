@@ -50,7 +50,7 @@ class PlayClock:
         Args:
             transforms: All of the recording.
             read: Times of `/clock`, nanoseconds.
-            received: When it was received, nanoseconds.
+            received: Time of reception, nanoseconds.
         """
         self._read, self._received = read, received
         self._offset = 0
@@ -82,10 +82,10 @@ class Due:
     """One message's transforms, to publish at one time.
 
     Attributes:
-        moment: When, on the clock of the stamps.
+        moment: Time, on the clock of the stamps.
         node: Node that sent them; empty if not recorded.
-        topic: Their topic.
-        static: Whether they hold at all times.
+        topic: Topic.
+        static: Whether the transforms are static.
         transforms: The recorded transforms, names without a leading slash.
     """
 
@@ -102,8 +102,8 @@ class TimelineRows:
 
     Attributes:
         edges: The number of the edge of each, shape (n,).
-        rows: Its row in that edge, shape (n,).
-        places: The number of its message, shape (n,).
+        rows: Row in that edge, shape (n,).
+        places: Index of each row's message, shape (n,).
     """
 
     edges: Indexes

@@ -67,7 +67,7 @@ class Surface:
     """Appearance of a surface.
 
     Attributes:
-        name: Its name; may be empty.
+        name: Name; may be empty.
         color: Red, green, blue and opacity from 0 to 1; None where it is not given.
         texture: File name of a picture, empty without one.
     """
@@ -82,10 +82,10 @@ class LinkShape:
     """A visual or collision shape of a link.
 
     Attributes:
-        name: Its name, often empty.
-        origin: Its pose in the link.
-        geometry: Its shape.
-        material: Its material; None for collisions and where none is named.
+        name: Name, often empty.
+        origin: Pose in the link.
+        geometry: Shape.
+        material: Material; None for collisions and where none is named.
     """
 
     name: str
@@ -99,9 +99,9 @@ class RobotLink:
     """A rigid part of a robot, with its own frame.
 
     Attributes:
-        name: Its name, and its frame's.
-        visuals: Its drawn shapes.
-        collisions: Its collision shapes.
+        name: Name of the link and of its frame.
+        visuals: Drawn shapes.
+        collisions: Collision shapes.
         mass: Kilograms; None without an inertial element.
     """
 
@@ -142,14 +142,14 @@ class RobotJoint:
     """Joint between a link and its parent.
 
     Attributes:
-        name: Its name.
+        name: Name.
         type: One of `JOINT_TYPES`.
         parent: The parent link.
         child: The child link.
         origin: The child's pose in the parent at position zero.
         axis: Unit vector in the joint's frame about which it turns or along which it slides.
         limit: None for a joint without.
-        mimic: The joint it follows, if any.
+        mimic: Joint that this joint follows, if any.
     """
 
     name: str
@@ -163,7 +163,7 @@ class RobotJoint:
 
     @property
     def moves(self) -> bool:
-        """Whether it has one position: revolute, continuous or prismatic."""
+        """Whether the joint has one position: revolute, continuous or prismatic."""
         return self.type in ("revolute", "continuous", "prismatic")
 
     @property
@@ -175,7 +175,7 @@ class RobotJoint:
 
     @property
     def unit(self) -> str:
-        """Unit of its position: rad or m."""
+        """Unit of the joint's position: rad or m."""
         return "m" if self.type == "prismatic" else "rad"
 
 
@@ -189,7 +189,7 @@ class RobotDescription:
         links: Contents by name, in the order of the file.
         joints: Contents by name, in the order of the file.
         notes: Oddities that are still readable, as sentences.
-        text: Its text, with xacro expanded.
+        text: Text, with xacro expanded.
     """
 
     name: str

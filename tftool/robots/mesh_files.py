@@ -38,8 +38,8 @@ def read_mesh(name: str, content: bytes) -> list[Mesh]:
     """Read the triangles of a mesh file.
 
     Args:
-        name: Its name, whose ending names its format.
-        content: Its bytes; a stranger's.
+        name: Name of the file; the suffix selects the format.
+        content: Bytes; a stranger's.
 
     Raises:
         MeshRefused: If its format is not read here, or the file is damaged.

@@ -158,7 +158,7 @@ class MeshFolders:
         """Return the path below a folder, checked to stay inside it.
 
         Raises:
-            MeshRefused: If it does not, or is not a file of a known kind.
+            MeshRefused: If the path leads outside, or is not a file of a known kind.
         """
         if "\0" in name or "\\" in name:
             raise MeshRefused("a name of a mesh has an invalid character")

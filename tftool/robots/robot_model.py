@@ -147,7 +147,7 @@ class Robot:
 
         Args:
             given: Positions by joint, see `positions`.
-            stamp: Their stamp, nanoseconds.
+            stamp: Stamp, nanoseconds.
 
         Raises:
             UsageError: See `positions`.
@@ -165,7 +165,7 @@ class Robot:
         """Return the joint above a link.
 
         Raises:
-            KeyError: If it is the root, or no link.
+            KeyError: If the frame is the root, or no link.
         """
         return self._above[link]
 
@@ -183,7 +183,7 @@ class Robot:
 
         Args:
             given: Positions by joint.
-            stamp: Their stamp, nanoseconds.
+            stamp: Stamp, nanoseconds.
         """
         known = {
             name: position
@@ -362,7 +362,7 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
             do not expand files from strangers.
 
     Raises:
-        InputError: If it cannot be read.
+        InputError: If the file cannot be read.
         DescriptionError: If it has mistakes; all of them, with line and column.
         UsageError: If it contains xacro and the extra `xacro` is not installed.
     """

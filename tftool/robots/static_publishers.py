@@ -35,8 +35,8 @@ class StaticFrames:
         name: The file, as it was given.
         links: Published links, in its order.
         notes: Unreadable parts of it, as sentences.
-        start: They hold at all times: 0.
-        end: Likewise.
+        start: 0, as static transforms are valid at all times.
+        end: 0.
     """
 
     name: str
@@ -62,7 +62,7 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
     """Read the static transforms that a launch file or script publishes.
 
     Raises:
-        InputError: If it cannot be read, or publishes none.
+        InputError: If the file cannot be read, or publishes no static transform.
     """
     name = name or str(path)
     links, mistakes, computed = read_statics(path, name)
@@ -81,7 +81,7 @@ def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Rem
     """Return a file's static transforms, its mistakes, and what can only be known by running it.
 
     Raises:
-        InputError: If it cannot be read.
+        InputError: If the file cannot be read.
     """
     try:
         if path.stat().st_size > LARGEST:

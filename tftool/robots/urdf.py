@@ -88,7 +88,7 @@ def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -
     """Return a description with its xacro expanded; a plain one unchanged.
 
     Raises:
-        InputError: If it cannot be read or expanded.
+        InputError: If the file cannot be read or expanded.
         UsageError: If the extra `xacro` is not installed.
     """
     text = _text_of(Path(path))

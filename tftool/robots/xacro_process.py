@@ -40,7 +40,7 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
         arguments: Values of xacro arguments.
 
     Raises:
-        InputError: If it cannot be expanded, in `TIME_LIMIT` and `MEMORY_LIMIT`.
+        InputError: If the file cannot be expanded within `TIME_LIMIT` and `MEMORY_LIMIT`.
         UsageError: If the extra `xacro` is not installed.
     """
     if importlib.util.find_spec("xacrodoc") is None:

@@ -30,7 +30,7 @@ class LaunchTestItem(pytest.Item):
     """A launch with its tests, once for each set of its parameters."""
 
     def runtest(self) -> None:
-        """Run it in a world of its own.
+        """Run the test in a world of its own.
 
         Raises:
             LaunchTestFailure: If a test fails.
@@ -57,7 +57,7 @@ class LaunchTestItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """Return where it is."""
+        """Return file, line and name of the test."""
         return self.path, 0, f"launch tests: {self.name}"
 
 

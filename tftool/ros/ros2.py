@@ -96,7 +96,7 @@ def _message(asked: argparse.Namespace) -> Any:
     """Make a message from its YAML text.
 
     Raises:
-        UsageError: If it does not fit its type.
+        UsageError: If the value does not fit the type.
     """
     kind = {"topic": "msg", "service": "srv", "action": "action"}[asked.noun]
     asked.kind = rosidl_runtime.interface(asked.type, kind)

@@ -159,17 +159,17 @@ class TurtlesOnDemand:
         self._is_asked = False
 
     def host_from_program(self) -> None:
-        """Host it for the running program, unless turtles are simulated already."""
+        """Host turtlesim for the running program, unless turtles are simulated already."""
         program.current().ask(self.host)
 
     def host_for_topics(self) -> None:
-        """Host it when a topic of the first turtle is used."""
+        """Host turtlesim when a topic of the first turtle is used."""
         if not self._is_asked and TURTLE_TOPICS & self._world.topics().keys():
             # Not at once: the world is entering the topic at this moment.
             asyncio.get_running_loop().call_soon(self.host)
 
     def host(self) -> None:
-        """Host it, unless turtles are simulated already (in the loop's thread)."""
+        """Host turtlesim, unless turtles are simulated already (in the loop's thread)."""
         if self._is_asked:
             return
         self._is_asked = True
@@ -231,7 +231,7 @@ def status_of(program: Program) -> int:
     """Return the exit status of a program that has ended.
 
     Raises:
-        NodeFailed: If it raised.
+        NodeFailed: If the program raised.
     """
     # One that ended because we asked it to has done what it should.
     is_stuck = isinstance(program.failure, StuckError)

@@ -162,10 +162,10 @@ class FrameFacts:
     """Facts about a frame; all None if it is unknown.
 
     Attributes:
-        exists: Whether it is known.
-        parent: Its parent.
-        static: Whether it holds at all times.
-        broadcaster: Its sender.
+        exists: Whether the frame is known.
+        parent: Parent.
+        static: Whether the link is static.
+        broadcaster: Sender.
         known: The frames that there are.
     """
 

@@ -14,7 +14,7 @@ def folder() -> Path:
     """Return the folder of the built-in scenarios.
 
     Raises:
-        InputError: If they are missing.
+        InputError: If the scenarios are missing.
     """
     return shipped("scenarios", "turtles.yaml")
 
@@ -26,7 +26,7 @@ def shipped(name: str, mark: str) -> Path:
     it lies beside it.
 
     Raises:
-        InputError: If it is in neither place.
+        InputError: If the file is in neither place.
     """
     for place in (PACKAGE / name, PACKAGE.parent / name):
         if (place / mark).exists():

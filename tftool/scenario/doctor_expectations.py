@@ -96,7 +96,7 @@ def rules_beside(path: str | Path) -> tuple[DoctorRules, Path | None]:
     """Return the rules beside a recording, `run.doctor.yaml` for `run.mcap`, and their path.
 
     Raises:
-        InputError: If it cannot be read; `ScenarioError` with every mistake in it.
+        InputError: If the file cannot be read; `ScenarioError` with every mistake.
     """
     recording = Path(path)
     for name in (f"{recording.name}{ENDING}", f"{recording.stem}{ENDING}"):

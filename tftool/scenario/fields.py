@@ -195,8 +195,8 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
 
     Args:
         read: Reader of its value.
-        default: Its value when it is left out; without one it must be given.
-        key: Its key, where that is not a name in Python.
+        default: Default value; without one the key is required.
+        key: Key, where that is not a name in Python.
         beside: Whether the key is a sibling of the one that names the kind, not inside it.
     """
     return DeclaredField(read, default[0] if default else REQUIRED, key, beside)
@@ -299,7 +299,7 @@ def tagged(
 
     Args:
         node: The mapping.
-        reading: The pass it is read in.
+        reading: Pass in which the key is read.
         what: Noun for messages, with its article.
         kinds: Dataclass of each such key.
         common: Keys allowed beside all of them.

@@ -58,7 +58,7 @@ def load(
     Args:
         path: The file.
         arguments: Values for arguments the scenario declares.
-        expects: Whether its expectations are judged. Those of a file are checked in any case, and
+        expects: Whether expectations are judged. Those of a file are checked in any case, and
             of a built-in scenario they are left out if they are not judged.
 
     Raises:
@@ -78,7 +78,7 @@ def parse(
         text: The YAML.
         name: Its name in messages, usually its path.
         arguments: Values for arguments the scenario declares.
-        expects: Whether to read its expectations.
+        expects: Whether to read the expectations.
     """
     source = Document(text, name)
     reading = Reading(source)
@@ -97,9 +97,9 @@ class _ScenarioReader:
     Attributes:
         given: Arguments from outside.
         expects: Whether expectations are read.
-        duration: How long the scenario lasts, once that is known.
+        duration: Duration of the scenario, once known.
         names: Names of its nodes, once all are known.
-        looks: How often its expectations look so far.
+        looks: Number of looks of all expectations so far.
         not_a_tree: Places where its nodes publish links that no tree can hold.
     """
 

@@ -99,7 +99,7 @@ class NodeKind:
 
     Attributes:
         make: The class, or a function that does as a class does.
-        fields: Its parameters, by their names.
+        fields: Parameters, by their names.
     """
 
     __slots__ = ("fields", "make")
@@ -118,7 +118,7 @@ class NodeKind:
             make: The class, or a function that does as a class does.
             usual: Names of parameters that are read as `USUAL` says, separated by blanks.
             required: Parameters a scenario has to give, though the class has a default.
-            readers: How each further parameter is read.
+            readers: Readers of further parameters, by name.
         """
         self.make = make
         readers |= {name: USUAL[name] for name in usual.split()}

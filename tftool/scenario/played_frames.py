@@ -29,15 +29,15 @@ def played(
     """Play a scenario on simulated time, and return all its transforms.
 
     Args:
-        found: Its file.
+        found: File.
         until: The last moment: a duration, infinity for all of it, or a moment that must lie
             inside; `USUAL` if None.
         margin: Seconds to play on after a moment, for transforms that arrive after their stamp.
-        cache_time: How far back its buffers remember, in place of its own; all of it if None.
+        cache_time: Cache time of the buffers, in place of the scenario's own; unlimited if None.
         watch: Called with its world before it lives.
 
     Raises:
-        NodeFailed: If one of its nodes raised.
+        NodeFailed: If a node raised.
         UsageError: If the moment is outside the span.
     """
     scenario = replace(load(found.paths[0], expects=False), expect=())

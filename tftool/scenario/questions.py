@@ -52,7 +52,7 @@ class ScenarioWorld:
 
     Attributes:
         world: World of the scenario.
-        start: The moment it began.
+        start: Time at which the scenario began.
     """
 
     def __init__(self, world: World, start: Stamp, rules: DoctorRules = NO_RULES) -> None:
@@ -103,7 +103,7 @@ class Subject(Declared):
     """Something that can be asked about a scenario at some time.
 
     Attributes:
-        key: Its key in a scenario.
+        key: Key in a scenario.
         form: Form of its expected answer.
     """
 
@@ -120,7 +120,7 @@ class Subject(Declared):
 
     @property
     def problem(self) -> str:
-        """Return what is wrong with its fields together; empty if nothing is."""
+        """Return the fault in the combination of fields; empty if there is none."""
         return ""
 
 
@@ -137,7 +137,7 @@ class Lookup(Subject):
 
     @property
     def problem(self) -> str:
-        """Return what is wrong with its fields together; empty if nothing is."""
+        """Return the fault in the combination of fields; empty if there is none."""
         if self.fixed is None and (self.target_time or self.source_time):
             return "two times need a fixed frame to go through: 'fixed'"
         if self.fixed is not None and self.time is not None:
@@ -187,7 +187,7 @@ class Between(Subject):
 
     @property
     def problem(self) -> str:
-        """Return what is wrong with its fields together; empty if nothing is."""
+        """Return the fault in the combination of fields; empty if there is none."""
         return self.lookup.problem
 
     @property
@@ -401,7 +401,7 @@ class PoseOf(Subject):
     turtle: str = reads(values.turtle)
 
     def answer(self, scene: ScenarioWorld) -> Any:
-        """Return its last Pose message; None if there is none."""
+        """Return the turtle's last Pose message; None if there is none."""
         topic = scene.world.topics().get(f"{self.turtle}/pose")
         return topic.latest if topic is not None and topic.kind is Pose else None
 
@@ -427,7 +427,7 @@ class Logged(Subject):
         return scene.lines.get(self, 0)
 
     def counts(self, record: LogRecord) -> bool:
-        """Whether it counts a log line."""
+        """Whether a log line is counted."""
         return (
             self.text in record.text
             and self.node in (None, record.node)

@@ -20,8 +20,8 @@ class NodeEntry:
     """A node to start.
 
     Attributes:
-        kind: Its kind, a key of `kinds.KINDS`.
-        name: Its name: given, or its kind, numbered if there are several.
+        kind: Kind, a key of `kinds.KINDS`.
+        name: Given name, or the kind, numbered if there are several.
         parameters: All parameters of its kind.
     """
 
@@ -35,11 +35,11 @@ class Step:
     """One action, `at` nanoseconds after the start.
 
     Attributes:
-        at: When.
+        at: Time of the step.
         action: Action of the step.
-        line: Its line in the file.
-        name: Its name there: "spawn".
-        fails: Whether it is to be refused.
+        line: Line in the file.
+        name: Name there: "spawn".
+        fails: Whether the step must be refused.
     """
 
     at: Duration
@@ -55,9 +55,9 @@ class When:
 
     Attributes:
         kind: "at" a moment, "by" a moment at the latest, or "during" a while.
-        first: The first moment it is looked at.
+        first: First time of judging.
         last: The last one.
-        every: How far apart the moments between are.
+        every: Interval between the times of judging.
     """
 
     kind: str
@@ -76,10 +76,10 @@ class Expectation:
     """A condition that must hold, and its times.
 
     Attributes:
-        when: When it is judged.
+        when: Times at which the expectation is judged.
         question: The question.
         check: Check of the answer, from `checks`.
-        line: Its line in the file.
+        line: Line in the file.
     """
 
     when: When
@@ -102,17 +102,17 @@ class Scenario:
     """A world, the actions in it, and its expectations.
 
     Attributes:
-        name: Its name: that of the file without the suffix.
+        name: Name: that of the file without the suffix.
         file: Its file, as it was given.
-        about: Its contents.
+        about: Contents.
         arguments: Arguments that can be set from outside, with their values.
-        duration: How long it lasts on simulated time, in nanoseconds.
-        cache_time: How far back its buffer remembers, in nanoseconds.
-        nodes: Its nodes, in order.
-        script: Its steps.
-        expect: Its expectations.
+        duration: Duration on simulated time, nanoseconds.
+        cache_time: Cache time of the buffer, nanoseconds.
+        nodes: Nodes, in order.
+        script: Steps.
+        expect: Expectations.
         doctor: Checks that the doctor leaves out, in expectations and in `tftool doctor`.
-        source: The text it was read from, so that it can be read with other arguments.
+        source: Text of the scenario, to be read again with other arguments.
         not_a_tree: Places where its nodes publish two parents of a frame, a loop, or a self-link.
             Not refused: the doctor may be asked about such a scenario.
     """
@@ -141,12 +141,12 @@ class Outcome:
 
     Attributes:
         expectation: The question in words: "distance from turtle2 to turtle1".
-        line: Its line in the scenario's file.
-        when: When it was to hold: "by 20 s".
+        line: Line in the scenario's file.
+        when: Time condition of the expectation: "by 20 s".
         expected: Description of a right answer: "below 0.5 m".
         found: Sentence about the error.
-        at: When that was found, nanoseconds since the start; None if its time never came.
-        ok: Whether it holds.
+        at: Time of the verdict, nanoseconds since the start; None if its time never came.
+        ok: Whether the expectation is met.
     """
 
     expectation: str
@@ -159,11 +159,11 @@ class Outcome:
 
     @property
     def reached(self) -> bool:
-        """Whether its time was reached."""
+        """Whether the expectation's time was reached."""
         return self.at is not None
 
     def judgement(self) -> Judgement:
-        """Convert it for tables and test reports."""
+        """Convert the outcome for tables and test reports."""
         return Judgement(
             subject=f"{self.when}: {self.expectation} {self.expected}",
             ok=self.ok,
@@ -179,11 +179,11 @@ class Verdict:
     """Verdict on one run of a scenario.
 
     Attributes:
-        scenario: Its name.
-        file: Its file.
+        scenario: Name.
+        file: File.
         outcomes: One for each step that failed or was to, in the order of time; then one for
             each expectation, in the order of the file.
-        lasted: How long the run was, nanoseconds on its clock.
+        lasted: Duration of the run, nanoseconds on its clock.
         failure: Why the run ended early; empty when it did not.
         warnings: Slips of programs that show outside simulated time alone: sentences.
     """
@@ -201,7 +201,7 @@ class Verdict:
         return not self.failure and all(one.ok for one in self.outcomes if one.reached)
 
     def report(self) -> Report:
-        """Convert it for tables and test reports."""
+        """Convert the verdict for tables and test reports."""
         judgements = tuple(outcome.judgement() for outcome in self.outcomes)
         lasted = as_seconds(self.lasted)
         return Report(self.scenario, self.file, judgements, lasted, self.failure, self.warnings)

@@ -120,16 +120,16 @@ class Action(Declared):
     """Something that happens at a time of a scenario.
 
     Attributes:
-        key: Its key in a scenario.
+        key: Key in a scenario.
     """
 
     key: ClassVar[str]
 
     async def do(self, script: Script) -> None:
-        """Do it now.
+        """Carry out the action now.
 
         Raises:
-            StepFailed: If it is refused, and why.
+            StepFailed: If the action is refused, with the reason.
         """
         raise NotImplementedError
 
@@ -142,7 +142,7 @@ class Press(Action):
     every: Duration = reads(values.period, seconds(1), beside=True)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         start = script.clock.now()
         for count, key in enumerate(self.keys):
             await script.wait_until(start + count * self.every)
@@ -160,7 +160,7 @@ class Drive(Action):
     lasting: Duration = reads(values.duration, key="for", beside=True)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         topic = script.publisher(f"{self.turtle}/cmd_vel", Twist)
         at = script.clock.now()
         end = at + self.lasting
@@ -185,7 +185,7 @@ class SpawnTurtle(Action):
     theta: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         request = build(Spawn.Request, self.x, self.y, self.theta, self.name)
         spawned = await script.call("spawn", request)
         if not spawned.name:
@@ -199,7 +199,7 @@ class KillTurtle(Action):
     turtle: str = reads(values.turtle)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         # The answer says nothing, as in ROS 2.
         is_there = script.world.has_service(f"{self.turtle}/set_pen")
         await script.call("kill", build(Kill.Request, self.turtle))
@@ -217,7 +217,7 @@ class Teleport(Action):
     theta: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         request = build(TeleportAbsolute.Request, self.x, self.y, self.theta)
         await script.call(f"{self.turtle}/teleport_absolute", request)
 
@@ -231,7 +231,7 @@ class Hop(Action):
     angular: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         request = build(TeleportRelative.Request, self.linear, self.angular)
         await script.call(f"{self.turtle}/teleport_relative", request)
 
@@ -244,7 +244,7 @@ class Rotate(Action):
     theta: float = reads(values.angle)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         goal = build(RotateAbsolute.Goal, self.theta)
         script.world.send_goal(f"{self.turtle}/rotate_absolute", goal, patience=PATIENCE)
 
@@ -264,7 +264,7 @@ class Pen(Action):
     off: bool = reads(values.flag, False)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         request = build(SetPen.Request, self.r, self.g, self.b, self.width, int(self.off))
         await script.call(f"{self.turtle}/set_pen", request)
 
@@ -274,7 +274,7 @@ class ClearField(Action):
     """Erase all trails."""
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         await script.call(self.key, Empty.Request())
 
 
@@ -311,7 +311,7 @@ class Broadcast(FrameAction):
     lasting: Duration = reads(values.duration, 0, key="for", beside=True)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         pose = self.transform
         at = script.clock.now()
         end = at + self.lasting
@@ -333,7 +333,7 @@ class BroadcastStatic(FrameAction):
     """Broadcast a static transform."""
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         now = script.clock.now()
         pose = self.transform
         if not script.broadcast_static(TransformStamped(now, self.parent, self.child, pose)):
@@ -347,7 +347,7 @@ class StopNode(Action):
     node: str = reads(values.name("a node"))
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         # It may be gone already: stopped before, or left out by what hosts this world.
         gone = [node for node in script.world.nodes if node.name == self.node]
         for node in gone:
@@ -365,5 +365,5 @@ class Say(Action):
     text: str = reads(values.text)
 
     async def do(self, script: Script) -> None:
-        """Do it now."""
+        """Carry out the action now."""
         script.info(self.text)

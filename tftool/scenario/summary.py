@@ -29,7 +29,7 @@ class Played:
         scenario: The scenario that was played.
         snapshot: All frames at its end.
         verdict: Verdict of the run.
-        defaults: The arguments its expectations were written for.
+        defaults: Arguments for which the expectations were written.
     """
 
     scenario: Scenario
@@ -69,7 +69,7 @@ def play_through(
 
 
 def written(played: Played) -> str:
-    """Format it as lines for a person."""
+    """Format the verdict as lines for a person."""
     scenario, verdict, snapshot = played.scenario, played.verdict, played.snapshot
     changed = played.changed()
     given = _settings(scenario.arguments, changed)
@@ -122,7 +122,7 @@ def written(played: Played) -> str:
 
 
 def as_json(played: Played) -> str:
-    """Return it for --json."""
+    """Return the verdict for --json."""
     verdict = played.verdict
     frames = {}
     for info in played.snapshot.frames:

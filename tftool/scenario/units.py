@@ -260,7 +260,7 @@ class RelativeMoment:
     offset: Duration = 0
 
     def stamp(self, start: Stamp, now: Stamp) -> Stamp:
-        """Return its stamp in a scenario that started at `start`, for a question at `now`."""
+        """Return the moment as a stamp, for a scenario's `start` and a question at `now`."""
         if self.kind == "latest":
             return 0
         return (start if self.kind == "start" else now) + self.offset

@@ -27,7 +27,7 @@ _NO_ERROR, _REJECTED, _UNKNOWN_GOAL, _ENDED = 0, 1, 2, 3
 
 
 class Tasks:
-    """Tasks kept until they end, and cancelled when their owner closes."""
+    """Running tasks, which are cancelled when their owner closes."""
 
     def __init__(self) -> None:
         self._tasks: set[asyncio.Task[None]] = set()
@@ -39,7 +39,7 @@ class Tasks:
         task.add_done_callback(self._tasks.discard)
 
     def cancel(self) -> None:
-        """Cancel everything that still runs."""
+        """Cancel all tasks that still run."""
         for task in tuple(self._tasks):
             task.cancel()
 
@@ -85,9 +85,9 @@ class ActionParts:
         """Follow an action's goals.
 
         Args:
-            world: The world that has it.
+            world: World of the action.
             name: The action's name.
-            interface: Its type, "package/action/Name".
+            interface: Type, "package/action/Name".
             on_feedback: Is given each FeedbackMessage.
             on_status: Is given the states of all goals when one of them changes.
             warn: Is given a sentence for the log.

@@ -44,7 +44,7 @@ class Clock(ABC):
 
     Attributes:
         epoch: The moment the clock was made. Never 0, which means "latest".
-        rate: How many of the clock's seconds pass in a real one; infinite when simulated.
+        rate: Seconds of the clock for each real second; infinite if simulated.
         interrupted: Whether a signal has asked the run on it to end; known at once, even
             while something holds up the loop, which would otherwise be the first to know.
         when_killed: Called before a second signal ends the process: restore the terminal there.
@@ -155,8 +155,8 @@ class SimClock(Clock):
     before the next one of the same instant is woken.
 
     Attributes:
-        alarms: How many timers of real time are set.
-        paced: How many real processes run beside the world: while there are any, simulated
+        alarms: Number of timers of real time are set.
+        paced: Number of real processes run beside the world: while there are any, simulated
             time passes no faster than real time, so that they keep up with it.
     """
 
@@ -285,7 +285,7 @@ class WallClock(Clock):
         """Start now, at `rate` times real time.
 
         Args:
-            rate: How many of its seconds pass in a real one.
+            rate: Seconds of the clock for each real second.
             epoch: First time, such as the moment a recording began; the present
                 less the head start if None.
             head_start: How much of the past to live through first, as fast as it can be
@@ -393,7 +393,7 @@ class WallClock(Clock):
 
 
 class FollowedClock(WallClock):
-    """Real time until it is set; then it stands still until it is set again.
+    """Clock that follows real time until it is set; then it waits at each value until set again.
 
     Clock of a world that shares a session: while another process publishes `/clock`, for example to
     play a recording, that time is used. A wait keeps its remaining duration when time falls back,
@@ -408,7 +408,7 @@ class FollowedClock(WallClock):
 
         Args:
             told: Function called with that moment.
-            epoch: When it began, where that was before.
+            epoch: Time at which the clock began, if earlier.
         """
         super().__init__(epoch=told if epoch is None else epoch)
         self.fell_back: Listeners[Duration] = Listeners()
@@ -417,7 +417,7 @@ class FollowedClock(WallClock):
 
     @property
     def is_told(self) -> bool:
-        """Whether it has been set."""
+        """Whether the clock has been set."""
         return self._told is not None
 
     def now(self) -> Stamp:
@@ -446,7 +446,7 @@ class FollowedClock(WallClock):
             self.fell_back.call(-change)
 
     async def told_once(self, patience: Duration) -> None:
-        """Wait until it is set for the first time, at most for a duration in real time."""
+        """Wait until the clock is set for the first time, at most for a duration in real time."""
         first = self._first = asyncio.get_running_loop().create_future()
         if self.is_told:
             first.set_result(None)
@@ -457,7 +457,7 @@ class FollowedClock(WallClock):
             timer.cancel()
 
     def run_on(self) -> None:
-        """Continue in real time from its present value."""
+        """Continue in real time from the present value."""
         if self._told is not None:
             self._started = time.monotonic_ns() - (self._told - self.epoch)
             self._told = None
@@ -520,7 +520,7 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
         The result of the coroutine.
 
     Raises:
-        KeyboardInterrupt: If a signal ended it; its cause is an error during the stop.
+        KeyboardInterrupt: If a signal ended the run; the cause is an error during the stop.
         Exception: Any of the coroutine, or of a task that it started.
     """
     loop = clock.new_loop()

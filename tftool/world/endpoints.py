@@ -39,11 +39,11 @@ class Quality:
     """Quality of service of a publisher or a subscription.
 
     Attributes:
-        depth: How many messages wait, or are kept for late subscribers.
+        depth: Number of messages wait, or are kept for late subscribers.
         is_reliable: Whether none may be lost on the way.
         is_latched: Whether late subscribers get earlier messages (transient local).
         keeps_all: Whether nothing that waits is dropped, whatever the depth.
-        timing: How often there are messages; None where it is not known.
+        timing: Rate of the messages; None if unknown.
     """
 
     depth: int = 10
@@ -89,11 +89,11 @@ class Endpoint:
 
     Attributes:
         role: Publisher or subscription.
-        node: The node it belongs to.
+        node: Node of the endpoint.
         topic: The topic's name, without a leading slash.
         interface: The exchanged type, "std_msgs/msg/String".
         quality: Offered or requested quality of service.
-        is_remote: Whether it is another process's.
+        is_remote: Whether the endpoint is another process's.
         deliver: Receives, for a latched subscription here, earlier messages and their senders.
         kept: Messages that late subscribers of a latched publisher here get.
     """
@@ -152,7 +152,7 @@ class Endpoints:
             self._changed()
 
     def is_alive(self, endpoint: Endpoint) -> bool:
-        """Whether it keeps its liveliness, as far as known."""
+        """Whether a publisher keeps its liveliness, as far as known."""
         return endpoint not in self._silent
 
     def of(self, topic: str, role: Role) -> list[Endpoint]:

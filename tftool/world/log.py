@@ -23,8 +23,8 @@ class LogRecord:
     """One line of a log.
 
     Attributes:
-        stamp: When it was said, by the world's clock.
-        level: How much it matters.
+        stamp: Time of the record, by the world's clock.
+        level: Severity of the record.
         node: Node that logged it.
         text: The logged text. It may hold strangers' names: escape it where it is shown.
         program: Program of the node, if there are several: two of them may
@@ -86,7 +86,7 @@ class Log:
 
         Args:
             now: Gives the stamp of a line.
-            keep: How many lines are kept.
+            keep: Number of lines are kept.
             report: Called with an exception of a listener; see `Listeners`.
         """
         self.records: deque[LogRecord] = deque(maxlen=keep)

@@ -47,7 +47,7 @@ class MemoryBound:
     """Keeps the samples of a live buffer within a memory limit.
 
     Attributes:
-        limit: How many.
+        limit: Largest number of bytes.
     """
 
     __slots__ = ("_buffer", "_said", "_say", "_unseen", "limit")

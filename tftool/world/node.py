@@ -30,10 +30,10 @@ class Node(Resident):
     """Base of nodes: override `run`, and wait with `every` or the clock.
 
     Attributes:
-        world: Its world.
+        world: World.
         name: Its name, in logs and as the authority of its transforms.
-        rank: Its number among the nodes of the world, in the order of joining.
-        phase: Its place within an instant.
+        rank: Number among the nodes of the world, in the order of joining.
+        phase: Place within an instant.
     """
 
     phase: ClassVar[Phase] = Phase.CONSUME
@@ -103,7 +103,7 @@ class Node(Resident):
 
         Raises:
             TypeError: If the period is not a whole number.
-            ValueError: If it is not positive.
+            ValueError: If the period is not positive.
         """
         period = whole(period)
         if period <= 0:

@@ -36,7 +36,7 @@ class Parameters:
         """Change a declared parameter.
 
         Raises:
-            UsageError: If it was never declared, or the value is of another type.
+            UsageError: If the parameter was not declared, or the value has another type.
                 An int is taken where a float is declared.
         """
         self._check(name)

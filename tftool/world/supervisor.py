@@ -21,8 +21,8 @@ class Resident:
     Nodes know their world; the world knows them only as residents.
 
     Attributes:
-        name: Its name; no two residents of a world share one.
-        rank: Its place among them: within a phase the one that joined first goes first.
+        name: Name; no two residents of a world share one.
+        rank: Order among residents: within a phase the one that joined first runs first.
         is_shown: Whether lists of nodes name it; a program that only carries nodes stays out.
     """
 
@@ -31,10 +31,10 @@ class Resident:
     is_shown: ClassVar[bool] = True
 
     async def run(self) -> None:
-        """Run it; it ends when this returns."""
+        """Run the resident; it ends when this returns."""
 
     def close(self) -> None:
-        """Close everything it offers; called at its end."""
+        """Close everything that the resident offers; called at its end."""
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:

@@ -27,15 +27,15 @@ class Topic(Generic[T]):
     Attributes:
         name: The topic's name, without a leading slash.
         kind: The type every value has.
-        count: How many values were published.
+        count: Number of values were published.
         latest: The value published last, None before the first.
         on_demand: Called when a subscriber is added or removed; None without a link.
         sender: The publisher of the value that is being delivered; None when not known.
         relay: Function that sends values to other processes, called last; None without a link.
-        far_subscribers: How many listen in other processes.
+        far_subscribers: Number of listen in other processes.
         is_far: Whether it is here only to be listed: other processes have it, and it was not
             asked for by its name here.
-        is_removed: Whether the world has forgotten it: another one may have its name by now.
+        is_removed: Whether the world has removed the topic: another one may have its name by now.
     """
 
     __slots__ = (
@@ -182,7 +182,7 @@ class GoalHandle:
             takes every goal.
         patience: Seconds to wait for the server of another process to take the goal or a
             cancellation; None for as long as it takes.
-        goal_id: Its sixteen bytes.
+        goal_id: Sixteen bytes.
         feeds: Functions called with each feedback.
     """
 
@@ -236,7 +236,7 @@ class GoalHandle:
 
     @property
     def ended(self) -> GoalResult | None:
-        """Return its result; None while it runs."""
+        """Return the goal's result; None while it runs."""
         return self._result.result() if self.done else None
 
     # The server's side.
@@ -293,7 +293,7 @@ class NamedOffers(Generic[T]):
         """Start empty.
 
         Args:
-            what: Their kind: "service", "action".
+            what: Kind: "service", "action".
             changed: Called when an offer is added or removed.
         """
         self._what = what
@@ -306,7 +306,7 @@ class NamedOffers(Generic[T]):
         """Add a server; call the returned function to remove it.
 
         Args:
-            name: Its name.
+            name: Name.
             offer: The offer.
             shares: Whether another of this process may have that name already.
 

@@ -34,7 +34,7 @@ async def wait_for_transform(
         target_frame: Frame the answer is expressed in.
         source_frame: Frame whose pose is asked for.
         time: The moment asked about; 0 for the latest common time.
-        timeout: How long to wait at most; None waits for ever.
+        timeout: Longest time to wait; None waits for ever.
 
     Raises:
         TimeoutException: If it could not be given in time; the cause is the refusal

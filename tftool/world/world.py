@@ -87,7 +87,7 @@ class TopicPublisher(Generic[T]):
         return topic.subscribers
 
     def close(self) -> None:
-        """Close it: the node is no longer a publisher of that topic."""
+        """Close the publisher: the node no longer publishes on that topic."""
         self._withdraw()
 
 
@@ -118,8 +118,8 @@ class World:
         Args:
             clock: Clock of the world.
             buffer: Buffer of frames already; empty when None.
-            cache_time: How far back an empty one remembers.
-            max_bytes: How many bytes the samples may take that come in; None for the usual limit.
+            cache_time: Cache time of a new buffer, nanoseconds.
+            max_bytes: Largest number of bytes for samples; None for the usual limit.
         """
         self.clock = clock
         self.log = Log(clock.now, report=self.report)
@@ -153,11 +153,11 @@ class World:
         """Return the topic of that name, created on first use.
 
         Args:
-            name: Its name.
-            kind: The class of its messages.
+            name: Name.
+            kind: Class of the messages.
 
         Raises:
-            TftoolError: If it is there already and carries something else.
+            TftoolError: If the topic exists with another type.
         """
         topic = self._topic(name.removeprefix("/"), kind)
         topic.is_far = False
@@ -183,7 +183,7 @@ class World:
         """Register a node as a publisher of a topic.
 
         Args:
-            node: Its name.
+            node: Name.
             name: The topic's name.
             kind: The published type.
             quality: Offered quality of service.
@@ -201,7 +201,7 @@ class World:
         """Register a node as a subscriber of a topic; call the returned function to stop.
 
         Args:
-            node: Its name, under which a failure of the callback is reported.
+            node: Name, under which a failure of the callback is reported.
             name: The topic's name.
             kind: The type published there.
             callback: Called with every value to come.
@@ -254,7 +254,7 @@ class World:
             role: Publisher or subscription.
             node: The node.
             name: The topic's name.
-            kind: The type of its values.
+            kind: Type of the values.
             quality: Offered or requested quality of service.
             keeps: Whether a publisher keeps its messages for late subscribers.
             deliver: Receives earlier messages for a latched subscription.
@@ -300,7 +300,7 @@ class World:
             handler: Answers a request, now or when awaited; None is an answer of defaults.
             kind: The service's ROS class. None for one that stays inside this process.
             node: The node that answers.
-            is_remote: Whether it answers from another process.
+            is_remote: Whether the service answers from another process.
             shares: Whether another may serve that name already, as in ROS: who came first
                 answers, and the next one from when that leaves.
 
@@ -401,7 +401,7 @@ class World:
             on_feedback: Called with each feedback.
             patience: Seconds that a server of another process has to take the goal; None for
                 any.
-            goal_id: Its sixteen bytes, where the client has chosen them.
+            goal_id: Sixteen bytes of the goal's id, if the client has chosen them.
 
         Raises:
             TftoolError: If no node serves that action, or the goal is of another type.
@@ -593,7 +593,7 @@ class World:
         Raises:
             NodeFailed: If a node raised; see `live`.
             TypeError: If the duration is not a whole number.
-            ValueError: If it is negative.
+            ValueError: If the duration is negative.
         """
         until = None
         if duration is not None:
@@ -622,7 +622,7 @@ class World:
 
         Args:
             owner: The name of the listener's owner.
-            failure: Its exception.
+            failure: Exception.
 
         Raises:
             Exception: `failure` itself, if the owner is a node and the world does not run.
@@ -668,7 +668,7 @@ def _require(asked: Any, part: str, kind: Any, what: str) -> None:
     """Refuse a request not of a service's class, or a goal not of an action's.
 
     Raises:
-        TftoolError: If it is not.
+        TftoolError: If the request is of another class.
     """
     if not is_part(asked, part, kind):
         given = getattr(asked, "interface__", "") or type(asked).__name__

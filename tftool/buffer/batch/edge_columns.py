@@ -143,7 +143,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
 
     Args:
         times: Shape (n,).
-        name: Their name in an error message.
+        name: Name of the times in an error message.
 
     Raises:
         TypeError: If the times are not whole numbers.

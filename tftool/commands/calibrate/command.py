@@ -185,7 +185,7 @@ def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
     """Refuse two chains of one tree if one contains the wanted mount.
 
     Raises:
-        UsageError: If they do.
+        UsageError: If one chain contains the mount.
     """
     pairs = [_pair(word) for word in words if not word.startswith("/")]
     if len(pairs) < 2:

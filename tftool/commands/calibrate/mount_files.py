@@ -131,7 +131,7 @@ def joint_to_change(output: Path, published: PublishedMount, name: str | None) -
     None if there is none, and the output is not a description.
 
     Raises:
-        UsageError: If it has no such joint, or that is not on the way.
+        UsageError: If the description has no such joint, or the joint is not between the frames.
     """
     chosen = _joint(published, name)
     if chosen is None and output.suffix == ".urdf":

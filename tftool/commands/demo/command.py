@@ -54,7 +54,7 @@ def _show(
 
     Args:
         connection: The command's connection.
-        options: Its options.
+        options: Options.
         chosen: The scenario.
         wanted: Name of the scenario; None to show the running session, if there is one.
     """

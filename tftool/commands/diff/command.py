@@ -157,8 +157,8 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
     """Open one side's FROM.
 
     Raises:
-        InputError: If it names nothing, or cannot be read.
-        LinkError: If it is the session, and none runs.
+        InputError: If the word names nothing, or the file cannot be read.
+        LinkError: If the word means the session, and none runs.
     """
     if word != SESSION:
         return side_of(open_from(connection, word, lasting, until=WHOLE, shares=True), word)

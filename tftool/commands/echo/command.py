@@ -173,7 +173,7 @@ def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
     The moments are those of --at-stamps-of, else --rate a second, from the first stamp on.
 
     Raises:
-        InputError: If it has no such topic.
+        InputError: If the recording has no such topic.
         UsageError: If there are more moments than can be asked for at once.
         TransformException: If the pair cannot be looked up at any of them.
     """

@@ -107,10 +107,10 @@ class Echo:
         Args:
             world: Source of the frames.
             pair: The pair to look up.
-            printer: How to print it.
+            printer: Printer of the answers.
             period: Nanoseconds between two answers.
-            count: How many answers to print; None for no end.
-            patience: How long to wait for the first, in nanoseconds; None for ever.
+            count: Number of answers to print; None for no end.
+            patience: Time to wait for the first answer, nanoseconds; None for ever.
             departures: Gives how many processes that sent transforms have left; after each
                 further departure the wait starts again, for something new.
         """
@@ -160,7 +160,7 @@ class Echo:
         """Wait for new data after a publisher left, while the age of the shown answer grows.
 
         Raises:
-            TransformException: If it does not come in time, or never will.
+            TransformException: If the transform does not become available in time, or never will.
         """
         clock, pace = self.world.clock, pace_of(self.world.clock)
         newest = self.pair.newest(self.world.buffer)

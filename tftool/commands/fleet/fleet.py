@@ -139,7 +139,7 @@ def _failure(error: Exception) -> str:
     """Return why a worker of a cluster failed on one recording.
 
     Raises:
-        UsageError: If it cannot do this work at all.
+        UsageError: If the cluster cannot do this work at all.
         InputError: If the cluster is gone: nothing is wrong with the recording.
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):

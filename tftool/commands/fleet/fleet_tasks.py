@@ -89,8 +89,8 @@ class FleetTask:
         """Return the rows of one recording; an unreadable one gives a row too, and raises nothing.
 
         Args:
-            source: Its name.
-            place: Its path or URL.
+            source: Name.
+            place: Path or URL.
         """
         try:
             with fetched(place) as path:

@@ -57,14 +57,14 @@ class RowFile:
         """Open the file.
 
         Args:
-            path: Its suffix says the format: .jsonl, .csv or .parquet.
+            path: Path; the suffix selects the format: .jsonl, .csv or .parquet.
             columns: The columns of a table.
             judged: The columns that are kept of its existing rows; see `earlier`.
-            resume: Whether to keep its rows and append.
+            resume: Whether to keep existing rows and append.
 
         Raises:
             UsageError: If the suffix is another, or an extra is not installed.
-            InputError: If it cannot be opened, or was not written by this command.
+            InputError: If the file cannot be opened, or was not written by this command.
         """
         self.path = path
         self._columns = columns
@@ -157,7 +157,7 @@ class RowFile:
         """Close the file; for Parquet, write the table.
 
         Raises:
-            InputError: If it cannot be written.
+            InputError: If the file cannot be written.
         """
         self._file.close()
         if not self._is_parquet:
@@ -209,7 +209,7 @@ def _arrow() -> Any:
     """Import the package that writes Parquet.
 
     Raises:
-        UsageError: If it is not installed.
+        UsageError: If the package is not installed.
     """
     try:
         import pyarrow

@@ -74,8 +74,8 @@ class Workers:
     """Executors of one kind.
 
     Attributes:
-        count: How many recordings are worked on at once.
-        window: How many are handed over at once.
+        count: Number of recordings processed at once.
+        window: Number of recordings submitted at once.
         open: Returns an executor; after a failure, a new one.
         is_remote: Whether they need whole paths: all workers share the file system.
     """

@@ -47,8 +47,8 @@ def report_recording(
         frames: The recording.
         report: The report to fill and to write.
         period: Nanoseconds between two reports; one report about all of it if None.
-        lasting: How much of it to report on, from where the frames are connected.
-        cache_time: How far back lookups reach, as in a session.
+        lasting: Duration of the reported part, from the moment the frames are connected.
+        cache_time: Cache time of the lookups, as in a session.
 
     Raises:
         TransformException: If the frames are not connected in as much time.
@@ -123,7 +123,7 @@ class Arrivals:
         """Receive messages until a pair can be looked up; return that time.
 
         Raises:
-            TransformException: If that is not so at the end.
+            TransformException: If the frames are not connected at the end.
         """
         answers: list[bool] = []
         waits = self.buffer.request(lambda _, there: answers.append(there), *pair) != NOW

@@ -53,7 +53,7 @@ class TrafficReport:
 
         Args:
             frames: Target and source of the chain to report on; None for all frames.
-            style: How to report.
+            style: Form of the report.
         """
         self.frames = frames
         self.style = style
@@ -143,7 +143,7 @@ async def watch_session(
         world: World to listen to.
         report: The report to fill and to write.
         period: Nanoseconds between two reports.
-        lasting: How long, in nanoseconds; None for ever.
+        lasting: Duration, nanoseconds; None for ever.
 
     Raises:
         TransformException: If the frames are not connected in as much time, or never will be.

@@ -94,7 +94,7 @@ class Display:
 
         Args:
             player: The player.
-            clock: When to draw.
+            clock: Clock by which to draw.
             marks: Findings of the doctor.
         """
         self._marks = marks

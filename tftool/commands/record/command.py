@@ -64,7 +64,7 @@ class RecordingRun:
         Args:
             recorder: The recorder.
             rolling: Writer of the recording.
-            clock: When to look.
+            clock: Clock by which to look.
             finding: Id of the finding that ends recording; None for none.
         """
         self.recorder = recorder
@@ -81,7 +81,7 @@ class RecordingRun:
         """Record for `duration` nanoseconds or until a finding; without either until stopped.
 
         Raises:
-            InputError: If it cannot be written any more; the data so far is readable.
+            InputError: If the file cannot be written any more; the data so far is readable.
         """
         clock = self._clock
         end = None if duration is None else clock.now() + duration

@@ -71,8 +71,8 @@ class Providers:
         """Make a clock that stands still at the end of a complete source.
 
         Args:
-            epoch: When it began.
-            now: Its end.
+            epoch: Time at which the clock began.
+            now: Time at which the clock stays.
         """
         from tftool.world.clock import FollowedClock
 
@@ -88,7 +88,7 @@ class Providers:
         """Open a link; None if no world is shared.
 
         Raises:
-            LinkError: If it cannot be opened.
+            LinkError: If the link cannot be opened.
         """
         from tftool.world.link.session import Link
 
@@ -120,7 +120,7 @@ class Connection:
         reach: Middleware, and reach beyond this machine's own processes.
         read_only: Whether to look only.
         robot: Joint positions, xacro arguments, a description for a recording.
-        recording: How a recording is read.
+        recording: Options for reading a recording.
         providers: Sources of its clocks and links.
         context: typer's context of the command line.
     """
@@ -169,7 +169,7 @@ class Connection:
         """Open a link; it is closed together with this connection.
 
         Raises:
-            LinkError: If it cannot be opened.
+            LinkError: If the link cannot be opened.
         """
         link = self.providers.link(self.options())
         if link is not None:
@@ -242,7 +242,7 @@ class Connection:
         """Refuse --read-only for a command whose whole purpose is to publish.
 
         Raises:
-            UsageError: If it was given.
+            UsageError: If --read-only was given.
         """
         if self.read_only:
             raise UsageError(
@@ -279,7 +279,7 @@ def read(
     """Build the connection; `reach` has the middlewares' options, FROM may be an `address`.
 
     Raises:
-        UsageError: If they contradict each other.
+        UsageError: If options contradict each other.
         InputError: If a file is missing, or not of the stated kind.
     """
     if join and host:
@@ -364,9 +364,9 @@ def open_from(
         connection: The command's options.
         place: FROM; None for the session that runs.
         lasting: Value of --for: how long to listen or to play.
-        until: How far to play a scenario, where --for does not say; see `open_frames`.
+        until: Time up to which a scenario is played, without --for; see `open_frames`.
         margin: Seconds to play on after that.
-        cache_time: How far back the buffer of a scenario or a session remembers.
+        cache_time: Cache time of the buffer of a scenario or a session.
         tells: Whether to print oddities of the frames.
         shares: Whether the options of sharing are for another of several sources.
         watch: Called with the world of a scenario or a session before it lives.

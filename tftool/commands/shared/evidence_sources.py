@@ -38,7 +38,7 @@ def evidence_from(
     Args:
         connection: The command's options.
         word: FROM as typed; None for the running session, or else the turtle world.
-        lasting: How long to listen, nanoseconds; the usual time when None.
+        lasting: Time to listen, nanoseconds; the usual time if None.
         scope: Part of a recording to examine.
         look: Returns lines about the findings so far, while a session is listened to.
 
@@ -86,7 +86,7 @@ def rules_of(word: str | None) -> DoctorRules:
     """Return the doctor's settings in a scenario, or in the file beside a recording.
 
     Raises:
-        InputError: If it cannot be read.
+        InputError: If the file cannot be read.
     """
     if word is None:
         return NO_RULES

@@ -43,7 +43,7 @@ class JoinDecision:
     """Outcome of the search for a session to join.
 
     Attributes:
-        session: The session it has joined; None where it has to host.
+        session: The joined session; None if the command must host one.
         link: Link by which others join; None for a host that nobody can join.
         alone: Why it does, as a sentence.
     """
@@ -66,7 +66,7 @@ def join_or_host(
         connection: The command's options.
         word: The given name, which is hosted; None for the session that runs.
         needs_turtles: Whether only a session with a turtle simulator will do.
-        cache_time: How far back the buffer of a joined world remembers.
+        cache_time: Cache time of a joined world's buffer, nanoseconds.
 
     Raises:
         LinkError: If a session was asked for and there is none, or no link.
@@ -145,12 +145,12 @@ def open_session(
         connection: The command's options.
         word: FROM as typed, which is hosted; None for the running session.
         simulated: Whether a hosted world lives on simulated time, from its beginning on.
-        head_start: How much of a scenario on the wall clock is lived through at once.
-        cache_time: How far back the world's buffer remembers, in place of the scenario's own.
+        head_start: Part of a scenario that is simulated at once before the wall clock starts.
+        cache_time: Cache time of the world's buffer, in place of the scenario's own.
         without: Says which of a hosted scenario's nodes to leave out.
         needs_turtles: Whether only a session with a turtle simulator will do.
         because: Why a world that was not named is hosted, for people.
-        by_hand: Whether a person drives in it, in place of the scenario's own script.
+        by_hand: Whether a person drives, in place of the scenario's script.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.

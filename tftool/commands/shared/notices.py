@@ -43,7 +43,7 @@ def name_frames(
     Args:
         frames: The frames there are.
         asked: Requested frames; None for none.
-        when: When they are all there are; "so far" where more may come.
+        when: Qualifier of the known frames: "so far" if more may follow.
         advice: A sentence to append.
 
     Returns:
@@ -106,7 +106,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
     Args:
         record: The line.
-        label: Its program, if there are several.
+        label: Program of the record, if there are several.
     """
     line = visible_lines(str(record).rstrip())
     label = f"[{label}] " if label else ""

@@ -86,8 +86,8 @@ def take_solids(
     """Call `take` with the shapes of the robot that /robot_description describes, when it comes.
 
     Args:
-        world: Where it is published.
-        owner: Who subscribes.
+        world: World in which the description is published.
+        owner: Name of the subscriber.
         take: Takes the shapes.
         tell: Takes sentences about what is not drawn.
     """
@@ -123,7 +123,7 @@ def run_app(
         scene: The scene to show.
         life: Lives the world through; it is cancelled when the user quits.
         driver: The node that receives keys.
-        setting: How to show it.
+        setting: Options of the screen.
         idle: Draws while no key is pressed, where something does.
 
     Returns:

@@ -38,7 +38,7 @@ def finite(value: float | None) -> float | None:
     """Accept a finite number.
 
     Raises:
-        typer.BadParameter: If it is NaN or infinite, or above `MOST`.
+        typer.BadParameter: If the value is NaN or infinite, or above `MOST`.
     """
     if value is not None and not math.isfinite(value):
         raise typer.BadParameter(f"{value} is not a finite number.")
@@ -49,7 +49,7 @@ def positive(value: float | None) -> float | None:
     """Accept a finite number above zero.
 
     Raises:
-        typer.BadParameter: If it is zero, negative, NaN or infinite, or above `MOST`.
+        typer.BadParameter: If the value is zero, negative, NaN or infinite, or above `MOST`.
     """
     if value is not None and not (math.isfinite(value) and value > 0):
         raise typer.BadParameter(f"{value:g} is not a positive number.")
@@ -60,7 +60,7 @@ def not_negative(value: float | None) -> float | None:
     """Accept a finite number of zero or more.
 
     Raises:
-        typer.BadParameter: If it is negative, NaN or infinite, or above `MOST`.
+        typer.BadParameter: If the value is negative, NaN or infinite, or above `MOST`.
     """
     if value is not None and not (math.isfinite(value) and value >= 0):
         raise typer.BadParameter(f"{value:g} is not zero or more.")
@@ -129,7 +129,7 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
     """Refuse more simulated time than a command may play.
 
     Raises:
-        UsageError: If it is more than a day.
+        UsageError: If the duration is more than a day.
     """
     if lasting is not None and lasting > LONGEST_SIMULATED:
         raise UsageError(
@@ -148,7 +148,7 @@ def moment(text: str) -> At:
     stamp, and so is `2022-09-23T17:01:44.7Z`; without a time zone it is UTC.
 
     Raises:
-        typer.BadParameter: If it is neither.
+        typer.BadParameter: If the text is neither a number nor a date.
     """
     if re.match(r"\d{4}-?\d\d-?\d\d[T ]", text):
         return _date(text)
@@ -225,7 +225,7 @@ def option(
         names: Names of the option; made from its field if none is given.
         default: Its value where it is not given; `...` if it must be, and within `Annotated`.
         metavar: Name of its value in the help.
-        panel: The heading it is listed under; None for that of all others.
+        panel: Heading above the option in the help; None for the usual one.
         more: Further arguments of `typer.Option`.
     """
     return typer.Option(default, *names, metavar=metavar, rich_help_panel=panel, help=words, **more)
@@ -262,7 +262,7 @@ def seconds_option(
         names: Names of the option; made from its field if none is given.
         default: Its value where it is not given, in nanoseconds; see `option`.
         check: Check of the number.
-        panel: The heading it is listed under; None for that of all others.
+        panel: Heading above the option in the help; None for the usual one.
     """
     more: dict[str, Any] = {"parser": duration(check), "show_default": False}
     return option(words, *names, default=default, metavar="SECONDS", panel=panel, **more)

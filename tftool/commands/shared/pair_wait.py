@@ -44,7 +44,7 @@ class PairWait:
         Args:
             world: The world whose buffer is asked.
             pair: The lookup.
-            patience: How long to wait, in nanoseconds; None for ever.
+            patience: Time to wait, nanoseconds; None for ever.
             advice: Remedy named when a frame does not appear in time.
         """
         self.world = world

@@ -28,7 +28,7 @@ class FramePair:
         target: Frame the answer is given in.
         source: Frame looked for.
         at: The moment; 0 for the latest.
-        offset: How far from now the moment is instead, where it is not 0.
+        offset: Distance of the moment from now, nanoseconds; 0 if the moment is absolute.
         fixed_frame: Frame through which `source` at that moment is seen in `target` now.
     """
 
@@ -46,7 +46,7 @@ class FramePair:
         """Look the pair up.
 
         Raises:
-            TransformException: If it cannot be given.
+            TransformException: If the transform is not available.
         """
         if self.target == self.source and not buffer.frame_exists(self.target):
             # tf2 calls any frame in itself the identity, even one that is not known.
@@ -101,7 +101,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
         given: Values of --pair, TARGET:SOURCE.
 
     Raises:
-        UsageError: If they do not fit together.
+        UsageError: If the words do not form pairs and a FROM.
     """
     if len(words) > (1 if given else 3):
         raise UsageError(

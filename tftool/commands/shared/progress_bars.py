@@ -134,7 +134,7 @@ class ListeningBar:
         """Start without a bar.
 
         Args:
-            lasting: How long the session is listened to, seconds.
+            lasting: Time to listen to the session, seconds.
             look: Returns lines about the findings so far.
         """
         self._lasting = lasting
@@ -176,7 +176,7 @@ class ListeningBar:
             self._live.stop()
 
     def __call__(self, frames: "Frames", since: Duration) -> None:
-        """Show how far it is, and look at what was heard."""
+        """Show the progress, and look at what was heard."""
         transforms = 0 if frames.log is None else len(frames.log)
         self._progress.update(
             self._task,

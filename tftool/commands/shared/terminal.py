@@ -175,7 +175,7 @@ class Redrawing:
         """Prepare to draw.
 
         Args:
-            clock: When it is killed, the terminal gets its cursor back.
+            clock: Clock of the world; when it is killed, the cursor is shown again.
         """
         self.console: Console = Console()
         self._live: Live | None = None

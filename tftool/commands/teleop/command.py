@@ -41,7 +41,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
 
     Args:
         connection: The command's options.
-        turtle: The one they drive.
+        turtle: Turtle that the keys drive.
         keys: Words between blanks: "up up left g".
 
     Returns:
@@ -91,7 +91,7 @@ async def press_there(world: World, turtle: str, words: list[str]) -> str:
     """Press keys in a joined session, in which a turtle is known only by its poses.
 
     Raises:
-        UsageError: If it is not there.
+        UsageError: If there is no such turtle.
     """
     poses = world.topic(f"{turtle}/pose", Pose)
     # Subscribed, so that they come in.

@@ -195,7 +195,7 @@ async def _show(
         page: The page.
         name: Name of the source it shows.
         waiting: Ends when the time is over.
-        open_browser: Whether to open it.
+        open_browser: Whether to open the page.
     """
     async with page:
         if page.asked_port not in (0, page.port):

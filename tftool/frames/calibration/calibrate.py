@@ -97,16 +97,16 @@ class Calibration:
         interval95: Interval of the mount.
         fixed_interval95: Interval of the fixed mount.
         clock_offset: t_a = t_b + seconds, at the middle of the common time.
-        offset_interval95: Its half-width, seconds.
-        drift_ppm: Its drift, microseconds in a second; None where the recording is short.
-        clock: The correlation it was found by.
+        offset_interval95: Half-width, seconds.
+        drift_ppm: Drift of the clock, microseconds per second; None for a short recording.
+        clock: Correlation that gave the offset.
         halves_differ: Distance between the mounts of both halves: metres, degrees.
         unseen: Parts of the mount that the motion does not show: x y z roll pitch yaw.
         unseen_direction: Unit vector along moving_a's axes, where a tilted direction is unseen.
         inverted: Whether each motion was inverted.
         next_motion: The motion to record next; None if none is needed.
         scale: Factor of A's translations and its half-width; None if it was not asked for.
-        notes: How the inputs were read, as sentences.
+        notes: Sentences about the reading of the inputs.
     """
 
     verdict: Literal["solved", "partial", "refused"]

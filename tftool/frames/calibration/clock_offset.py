@@ -76,7 +76,7 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
 
     Args:
         a: Poses over time, or frames that are one chain.
-        b: Likewise, on any clock.
+        b: The other motion, on any clock.
 
     Both are poses of one rigid body; where on it, and in which fixed frame, does not matter. The
     offset may be of any size.

@@ -109,7 +109,7 @@ class BodyMotion:
         return BodyMotion(f"{source} in {target}", self.start, self.times, places, back)
 
     def is_planar(self) -> bool:
-        """Whether its poses have only x, y and yaw, as planar odometry has."""
+        """Whether the poses have only x, y and yaw, as planar odometry has."""
         return bool(
             np.ptp(self.positions[:, 2]) < 1e-6 and np.abs(self.rotations[:, :2]).max() < 1e-6
         )

@@ -35,8 +35,8 @@ class Exported:
 
     Attributes:
         paths: The files.
-        format: Their format.
-        count: How many poses, or links, or transforms.
+        format: Format.
+        count: Number of poses, links or transforms.
         trajectories: The answers, with the refused spans; empty for links.
     """
 
@@ -131,7 +131,7 @@ def export(
         progress: Called with the progress in bytes.
 
     Raises:
-        InputError: If it cannot be written.
+        InputError: If the file cannot be written.
         TransformException: If a frame is unknown, or a pair is joined at no moment.
         TypeError: If there are no frames to write, or `path` is not named.
         UsageError: If the options contradict each other, or an extra is missing.
@@ -183,7 +183,7 @@ def write_trajectories(
     """Write pairs that were looked up.
 
     Raises:
-        InputError: If it cannot be written.
+        InputError: If the file cannot be written.
         TransformException: If one of the pairs has no pose at any moment.
         UsageError: If the format holds one pair only, or an extra is missing.
     """
@@ -208,7 +208,7 @@ def write_links(
     """Write the links between frames: static ones, or for MCAP all.
 
     Raises:
-        InputError: If it cannot be written.
+        InputError: If the file cannot be written.
         UsageError: If there is nothing to write, or it does not fit the format.
     """
     if not buffer.frames():

@@ -26,7 +26,7 @@ class Style:
         foxglove: Whether MCAP gets foxglove.FrameTransforms in the place of tf2_msgs.
         with_moving: Whether URDF gets links that move, too, as floating joints.
         root: The frame a URDF or the like begins with; None for all there is.
-        time: When links that move are asked for, nanoseconds; 0 for the latest.
+        time: Time of the lookup of moving links, nanoseconds; 0 for the latest.
     """
 
     decimals: int = DECIMALS
@@ -73,7 +73,7 @@ class Format(StrEnum):
 
     @property
     def is_trajectory(self) -> bool:
-        """Whether it stores pairs over time, and not links."""
+        """Whether the format stores pairs over time, and not links."""
         return self.holds != "links"
 
 
@@ -91,7 +91,7 @@ def format_of(path: Path) -> Format:
     """Return the format for a file name.
 
     Raises:
-        UsageError: If it names none.
+        UsageError: If the suffix is unknown.
     """
     name = path.name.lower()
     for suffix, form in SUFFIXES.items():

@@ -32,7 +32,7 @@ def write_frames(
         buffer: Source of the transforms.
         path: File to write; its name ends in ".mcap".
         foxglove: Whether as foxglove.FrameTransforms in protobuf, not as tf2_msgs/TFMessage.
-        force: Whether it may replace an existing file.
+        force: Whether an existing file may be replaced.
         progress: Called with the progress.
 
     Returns:
@@ -40,7 +40,7 @@ def write_frames(
 
     Raises:
         UsageError: If the file exists and `force` is not given.
-        InputError: If it cannot be written.
+        InputError: If the file cannot be written.
     """
     statics, moving, total = _held(buffer)
     done = 0

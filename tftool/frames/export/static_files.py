@@ -38,7 +38,7 @@ def fixed_links(
 
     Args:
         buffer: Source of the frames.
-        with_moving: Whether to add those that move, with their pose at one moment.
+        with_moving: Whether to add moving links, with their pose at one moment.
         time: Moment, nanoseconds; 0 for the latest of each link.
         root: Take only the frames below this one; all if None.
 
@@ -84,7 +84,7 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
         name: The robot's.
 
     Raises:
-        UsageError: If they are not one tree.
+        UsageError: If the links are not one tree.
         InputError: If a name cannot stand in XML.
     """
     tops = roots(links)

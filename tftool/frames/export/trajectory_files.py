@@ -43,7 +43,7 @@ def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
 
     Raises:
         UsageError: If something has that name and `force` is not given.
-        InputError: If it cannot be written.
+        InputError: If the file cannot be written.
     """
     with Target(path, force=force) as target:
         try:
@@ -58,8 +58,8 @@ def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
     """Open files that get their names together when all are complete, or not at all.
 
     Args:
-        paths: Their names; the others are found by the last one.
-        force: Whether they may replace existing files.
+        paths: Final names; readers find the other files by the last one.
+        force: Whether existing files may be replaced.
 
     Raises:
         UsageError: If something has one of the names and `force` is not given.

@@ -56,7 +56,7 @@ class Edits:
         shift: Nanoseconds to add to the stamps of moving links.
         restamp: Whether stamps become log times.
         everywhere: Whether names and stamps change in all messages with a header.
-        split_every: How long each of several files lasts; 0 for one file.
+        split_every: Duration of each file; 0 for one file.
     """
 
     drop: tuple[LinkName, ...] = ()
@@ -175,7 +175,7 @@ class Changer:
 
     Attributes:
         window: Moments to keep; None for all.
-        counts: How often each thing was done, by its name.
+        counts: Number of changes, by kind.
         topics: Topics on which links are that change; None where that is not known.
         passed_over: Topics whose names could not be changed, and why.
     """
@@ -486,7 +486,7 @@ class Renamer:
         """Return the bytes with new names; None if none changes.
 
         Raises:
-            MalformedMessage: If it is not a message of the type.
+            MalformedMessage: If the payload is not a message of the type.
         """
         if self._marks and not any(mark in payload for mark in self._marks):
             return None
@@ -517,7 +517,7 @@ def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
     """Return the function that renames frames in a channel's messages; None without headers.
 
     Raises:
-        InputError: If its type is not known.
+        InputError: If the type is unknown.
     """
     if channel.encoding not in LAYOUTS:
         raise InputError(f"its messages are written as '{channel.encoding}'")

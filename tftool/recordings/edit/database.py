@@ -40,7 +40,7 @@ class EditedDatabase:
     Attributes:
         path: Path of the written file.
         container: "db3".
-        channels: Its topics.
+        channels: Topics.
         counts: Messages by topic, afterwards.
         start: Log time of the first message, afterwards.
         end: Log time of the last message.
@@ -52,7 +52,7 @@ class EditedDatabase:
         """Copy the file and verify the copy.
 
         Raises:
-            OSError: If it cannot be written.
+            OSError: If the file cannot be written.
         """
         self.path = path
         self.channels = tape.channels
@@ -75,7 +75,7 @@ class EditedDatabase:
             touched: Numbers of the topics whose messages may change.
 
         Raises:
-            InputError: If it cannot be written.
+            InputError: If the file cannot be written.
             Unsound: If the database is damaged.
         """
         try:
@@ -178,7 +178,7 @@ class EditedDatabase:
         """Verify the changed rows.
 
         Raises:
-            InputError: If they differ from the intended ones.
+            InputError: If the rows differ from the intended ones.
         """
         found: dict[tuple[str, str], int] = {}
         address = f"file:{quote(str(self.path))}?mode=ro&immutable=1"

@@ -127,7 +127,7 @@ class StaticHeads:
         """Write the latest value of every static transform, one message per channel.
 
         Args:
-            number: Its number among the parts of the result, from 0.
+            number: Index of the file among the parts of the result, from 0.
             output: The part's file, still empty.
             start: The log time of the written messages.
         """

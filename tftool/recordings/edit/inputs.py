@@ -21,10 +21,10 @@ class EditedInput:
     """One recording to edit; a context manager.
 
     Attributes:
-        name: Its name as given.
-        tapes: Its files, in order.
-        paths: Their paths.
-        is_folder: Whether it is a folder of rosbag2's.
+        name: Name as given.
+        tapes: Files, in order.
+        paths: Paths.
+        is_folder: Whether the input is a rosbag2 folder.
         metadata: Contents of its metadata.yaml.
         mode: "file" or "message" if rosbag2 compressed whole files or each message.
         damage: Damage of the folder.
@@ -53,7 +53,7 @@ class EditedInput:
         return sum(tape.size for tape in self.tapes)
 
     def close(self) -> None:
-        """Close its files, and remove decompressed copies."""
+        """Close the input's files, and remove decompressed copies."""
         for tape in self.tapes:
             tape.close()
         for folder in self._unpacked:
@@ -63,7 +63,7 @@ class EditedInput:
         """Open one of its files.
 
         Raises:
-            InputError: If it cannot be read.
+            InputError: If the file cannot be read.
         """
         kind = kind_of_file(path)
         place = path
@@ -83,7 +83,7 @@ class EditedInput:
         """Open a pose file as an MCAP file of its messages.
 
         Raises:
-            InputError: If it cannot be read.
+            InputError: If the file cannot be read.
         """
         folder = tempfile.TemporaryDirectory(prefix="tftool-")
         self._unpacked.append(folder)
@@ -146,8 +146,8 @@ def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) ->
     """Open one file.
 
     Raises:
-        InputError: If it is not a recording, or cannot be read.
-        OSError: If it cannot be opened.
+        InputError: If the file is not a recording, or cannot be read.
+        OSError: If the file cannot be opened.
     """
     tape = container_in(path, kind or kind_of_file(path)).open(path, by_index=False)
     if isinstance(tape, Sqlite):

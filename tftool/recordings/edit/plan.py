@@ -124,10 +124,10 @@ def _refuse_outside(
     Args:
         edits: The edits with the cut.
         recordings: Recordings to cut.
-        moments: When there is something, in no order.
+        moments: Times of the contents, in no order.
 
     Raises:
-        UsageError: If it does.
+        UsageError: If the cut keeps nothing.
     """
     if not moments:
         return

@@ -44,8 +44,8 @@ class EditReport:
     """Result of an edit.
 
     Attributes:
-        messages: How many the result has.
-        counts: How often each thing was done, by its name.
+        messages: Number of messages in the result.
+        counts: Number of changes, by kind.
         notes: Further notes, as sentences.
         files: The names of the written files.
         copied: Chunks that were copied as they were.
@@ -74,7 +74,7 @@ def edit(
         names: The recordings: files or folders; several are joined.
         output: Path to write: its suffix names the container; without one, a folder as of rosbag2.
         edits: The edits.
-        force: Whether it may replace existing files.
+        force: Whether existing files may be replaced.
         dry_run: Whether to report the edits without writing.
         ros2: Whether an MCAP file gets ROS 1's messages converted to ROS 2's.
         progress: Called with the progress.
@@ -418,7 +418,7 @@ class _Job:
         """Read the output back, and compare it with the intended content.
 
         Raises:
-            InputError: If it differs.
+            InputError: If the output differs from the intended content.
         """
         for database in self._databases:
             database.compare()

@@ -45,8 +45,8 @@ class MessageKind:
     """Messages with the same frames, which differ only in stamps and numbers.
 
     Attributes:
-        places: Their transforms.
-        counts: How often each thing was done to one of them, by its name.
+        places: Transforms.
+        counts: Number of changes to messages of this kind, by kind of change.
     """
 
     places: tuple[Place, ...]
@@ -96,7 +96,7 @@ class Kinds:
         """Start without kinds.
 
         Args:
-            layout: How the channel's messages are written.
+            layout: Encoding of the channel's messages.
             learn: Changes one message, and returns its counts.
         """
         self._layout = layout

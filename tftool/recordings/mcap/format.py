@@ -80,7 +80,7 @@ class SingleMessages:
         Args:
             file: The file.
             chosen: Number of the stream of each channel.
-            head: How many bytes of each message are needed; all if None.
+            head: Number of bytes needed of each message; all if None.
         """
         self._file = file
         self._chosen = chosen
@@ -106,7 +106,7 @@ class SingleMessages:
         """Read messages.
 
         Args:
-            places: Their places, counted from `offset`.
+            places: Places, counted from `offset`.
             offset: A place in the file.
             end: Offset that none of them may exceed.
 
@@ -218,7 +218,7 @@ class IndexEntry(NamedTuple):
         length: Bytes of its record.
         indexes: For each channel where its message index begins.
         indexes_length: Bytes of those.
-        method: Its compression.
+        method: Compression.
         packed: Bytes of its messages in the file.
         size: Bytes of them unpacked.
     """
@@ -235,11 +235,11 @@ class IndexEntry(NamedTuple):
 
     @property
     def place(self) -> int:
-        """Offset of its messages, after 49 bytes of header and the compression's name."""
+        """Offset of the chunk's messages, after 49 bytes of header and the compression's name."""
         return self.position + 49 + len(self.method.encode("utf-8", "surrogateescape"))
 
     def record(self) -> bytes:
-        """Return its record in the summary."""
+        """Return the entry as a record of the summary."""
         head = struct.pack("<QQQQ", self.start, self.end, self.position, self.length)
         sizes = text(self.method) + _SIZES.pack(self.packed, self.size)
         body = head + entries(self.indexes) + U64.pack(self.indexes_length) + sizes
@@ -250,7 +250,7 @@ def index_entry(summary: bytes, first: int, last: int, size: int) -> IndexEntry:
     """Parse a chunk index in the summary of a file of `size` bytes.
 
     Raises:
-        InputError: If it is cut, or names bytes after the file's end.
+        InputError: If the record is cut, or names bytes after the file's end.
     """
     start, end, position, length, count = _CHUNK_INDEX_HEAD.unpack_from(summary, first)
     indexes = entries_at(summary, first + 32, last)
@@ -293,7 +293,7 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
 
     Args:
         body: The record.
-        place: Its offset.
+        place: Offset.
         last: Offset that it must not exceed.
 
     Returns:

@@ -87,12 +87,12 @@ class Mcap(ChunkedReader):
         """Open the file and list its contents.
 
         Args:
-            path: Its path.
+            path: Path.
             by_index: Whether its messages are to be read by its index, which is made where the
                 file has none; otherwise they are read with `blocks`.
 
         Raises:
-            InputError: If nothing of it can be read.
+            InputError: If nothing of the file can be read.
             OSError: If the file cannot be opened.
         """
         style = {
@@ -140,7 +140,7 @@ class Mcap(ChunkedReader):
     # Content
 
     def _read_style(self) -> None:
-        """Detect from its first records how the file was written."""
+        """Detect from the first records how the file was written."""
         position = len(MCAP_MAGIC)
         try:
             while position + 9 <= self.size:
@@ -162,8 +162,8 @@ class Mcap(ChunkedReader):
         """Read the summary; return whether it is complete.
 
         Raises:
-            InputError: If it is damaged.
-            struct.error: Likewise.
+            InputError: If the summary is damaged.
+            struct.error: If a record of the summary is cut.
         """
         size = self.size
         tail = self.at(max(0, size - FOOTER_SIZE), min(size, FOOTER_SIZE))
@@ -275,7 +275,7 @@ class Mcap(ChunkedReader):
         """Build an index of a file without one, up to its end or its damage.
 
         Raises:
-            InputError: If nothing of it can be read.
+            InputError: If nothing of the file can be read.
         """
         self._scan(self._found_chunks())
         self._count(Counter(self._loose.channels))
@@ -594,7 +594,7 @@ def check_length(length: int) -> None:
     """Refuse a message record shorter than its header.
 
     Raises:
-        InputError: If it is.
+        InputError: If the length is too large.
     """
     if length < MESSAGE_HEAD.size:
         raise InputError(f"a message's record has the length {length} bytes")

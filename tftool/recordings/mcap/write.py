@@ -104,7 +104,7 @@ class McapWriter(ChunkedWriter):
         """Create the file; an existing one is replaced.
 
         Args:
-            path: Its path.
+            path: Path.
             profile: Profile of its channels: "ros2", "ros1", or "".
             library: Name of the writing library.
             compression: "zstd", "lz4" or "none", of each chunk; "zstd" if None.
@@ -148,7 +148,7 @@ class McapWriter(ChunkedWriter):
 
         Args:
             channel: The stream; one that is known already has its number.
-            number: The number it should have, where it matters.
+            number: Number of the channel, if it matters.
             schema: The number of its schema, known already; likewise.
 
         Raises:
@@ -343,7 +343,7 @@ class McapWriter(ChunkedWriter):
 
         Args:
             channel: The stream.
-            number: Its number.
+            number: Number.
             origin: The number of its schema there, and the schema; see `Mcap.origin`.
         """
         schema, described = origin
@@ -385,7 +385,7 @@ class McapWriter(ChunkedWriter):
         """Copy a metadata record.
 
         Raises:
-            struct.error: If it is none.
+            struct.error: If the record is no metadata.
         """
         (length,) = U32.unpack_from(body)
         self.flush()

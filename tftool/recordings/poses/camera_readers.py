@@ -161,7 +161,7 @@ def _matrix(rows: Any) -> list[float]:
     """Return the upper three rows of a matrix, row by row.
 
     Raises:
-        ValueError: If it is none.
+        ValueError: If the numbers form no matrix.
     """
     if not isinstance(rows, list) or len(rows) not in (3, 4):
         raise ValueError("no matrix")

@@ -36,7 +36,7 @@ class PoseContainer:
         """Read the file.
 
         Raises:
-            InputError: If it cannot be read.
+            InputError: If the file cannot be read.
         """
         file = PoseFile(path, options, (form.parent, form.child))
         links = form.read(file)
@@ -106,7 +106,7 @@ def open_poses(found: Found) -> PoseContainer:
     """Read a pose file, with the options for its name.
 
     Raises:
-        InputError: If it cannot be read.
+        InputError: If the file cannot be read.
     """
     return PoseContainer(found.paths[0], *format_of_file(found.name, found.paths[0]))
 

@@ -70,7 +70,7 @@ class PoseFormat:
         read: Reads a file.
         parent: Default name of the parent.
         child: Default name of the child.
-        convention: Its numbers in words.
+        convention: Numbers in words.
         inverse: Whether its numbers map the parent's points into the child.
         axes: Axes of its cameras, where they are not those of the frame that is made.
     """
@@ -242,7 +242,7 @@ def recognised(data: bytes, name: str) -> PoseFormat | None:
     """Return the format of a file with these first bytes; None if it is not a pose file.
 
     Raises:
-        InputError: If it fits several formats.
+        InputError: If the text fits several formats.
     """
     head = Head(data)
     found = [one for one in FORMATS if one.fits(head)]
@@ -270,7 +270,7 @@ def format_of_file(word: str, path: Path) -> tuple[PoseFormat, PoseOptions]:
     """Return the format of a file, and its options.
 
     Raises:
-        InputError: If it is not a pose file.
+        InputError: If the file is not a pose file.
         UsageError: If --pose-format names none.
     """
     options = options_of(word)

@@ -54,7 +54,7 @@ class PoseFile:
     """A pose file during reading: lines, options, and unusual rows.
 
     Attributes:
-        path: Its path.
+        path: Path.
         options: Options of reading.
         default: Names of the format's frames.
         oddities: Rows that were left out or out of order, as the middle of a sentence.
@@ -64,7 +64,7 @@ class PoseFile:
         """Take a file.
 
         Args:
-            path: Its path.
+            path: Path.
             options: Options of reading.
             default: Names of parent and child, where the options name none.
         """
@@ -87,8 +87,8 @@ class PoseFile:
         """Open the file.
 
         Raises:
-            InputError: If it is too large.
-            OSError: If it cannot be opened.
+            InputError: If the file is too large.
+            OSError: If the file cannot be opened.
         """
         file = open_regular(self.path)
         if file.seek(0, 2) > LARGEST_FILE:

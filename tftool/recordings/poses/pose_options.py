@@ -48,7 +48,7 @@ class PoseOptions:
         """Names of parent and child.
 
         Raises:
-            UsageError: If they are not two different names with a colon between.
+            UsageError: If the text is not two different names with a colon between.
         """
         parent, _, child = (self.frames or "").partition(":")
         if not parent or not child or ":" in child or parent == child:

@@ -109,7 +109,7 @@ def read_npz(file: PoseFile) -> list[PoseLink]:
     """Read the NumPy archive of `export`.
 
     Raises:
-        InputError: If it has other arrays, or they do not fit together.
+        InputError: If the file has other arrays, or their shapes do not match.
     """
     import zipfile
 
@@ -160,7 +160,7 @@ def read_parquet(file: PoseFile) -> list[PoseLink]:
     """Read the Parquet table of `export`.
 
     Raises:
-        InputError: If it has other columns.
+        InputError: If the file has other columns.
         UsageError: If the extra `parquet` is not installed.
     """
     try:

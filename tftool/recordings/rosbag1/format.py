@@ -41,8 +41,8 @@ def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int
     """Parse a record's header; return it, its data's offset and length.
 
     Raises:
-        InputError: If it announces too much, or the file does not have it.
-        struct.error: If it is cut.
+        InputError: If the record is too long, or longer than the file.
+        struct.error: If the head is cut.
     """
     block = file.up_to(position, _HEAD)
     (length,) = U32.unpack_from(block)
@@ -69,7 +69,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
     Raises:
         InputError: If the header is missing, or the index is not in the file.
         KeyError: If the header lacks a field.
-        struct.error: If a field of it is cut.
+        struct.error: If a field is cut.
     """
     header, _, _ = record_head(file, len(ROS1_MAGIC))
     if header.get(b"op") != BAG:
@@ -86,8 +86,8 @@ def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
     """Read a chunk info record.
 
     Raises:
-        KeyError: If its header lacks a field.
-        struct.error: If a field of it is cut.
+        KeyError: If the header lacks a field.
+        struct.error: If a field is cut.
     """
     (position,) = U64.unpack(header[b"chunk_pos"])
     start, end = time_of(header[b"start_time"]), time_of(header[b"end_time"])

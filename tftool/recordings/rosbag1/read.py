@@ -52,12 +52,12 @@ class Rosbag1(ChunkedReader):
         """Open the file and list its contents.
 
         Args:
-            path: Its path.
+            path: Path.
             by_index: Whether its messages are to be read by its index, which is made where the
                 file has none; otherwise they are read with `blocks`.
 
         Raises:
-            InputError: If nothing of it can be read.
+            InputError: If nothing of the file can be read.
             OSError: If the file cannot be opened.
         """
         super().__init__(path, {"compression": "none", "chunk_size": 0})
@@ -97,7 +97,7 @@ class Rosbag1(ChunkedReader):
         """Read the index at the end; return whether there is one.
 
         Raises:
-            InputError: If it is damaged; others of `FAULTS` likewise.
+            InputError: If the index is damaged; also the others of `FAULTS`.
         """
         bag, place, data = index_of(self)
         if place == 0:
@@ -156,7 +156,7 @@ class Rosbag1(ChunkedReader):
     # From front to back
 
     def blocks(self) -> Iterator[Chunk]:
-        """Yield its chunks."""
+        """Yield the chunks of the bag."""
         yield from self._pieces()
         if not self._ended:
             self.note(f"The recording breaks off at byte {self._ended_at}.")

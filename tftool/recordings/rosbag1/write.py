@@ -72,7 +72,7 @@ class Rosbag1Writer(ChunkedWriter):
         """Create the file; an existing one is replaced.
 
         Args:
-            path: Its path.
+            path: Path.
             compression: "none", "bz2" or "lz4", of each chunk.
             chunk_size: Bytes of messages in a chunk before they are compressed.
 
@@ -210,7 +210,7 @@ class Rosbag1Writer(ChunkedWriter):
 
         Args:
             channel: The connection.
-            number: Its number.
+            number: Number.
             origin: Its topic and its publisher's header there; see `Rosbag1.origin`.
         """
         self._add_connection(number, *origin)
@@ -275,7 +275,7 @@ class Ros1Messages(Rosbag1Writer):
         """Register a stream.
 
         Raises:
-            InputError: If ROS 1 has nothing like its type.
+            InputError: If ROS 1 has no such type.
         """
         conversion = as_ros1(channel)
         number = super().channel(conversion.channel, number)

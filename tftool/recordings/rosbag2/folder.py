@@ -38,7 +38,7 @@ def open_found(found: Found) -> Container:
     """Open a found source.
 
     Raises:
-        InputError: If it cannot be read, or is not a recording.
+        InputError: If the file cannot be read, or is not a recording.
         OSError: If a file cannot be opened.
     """
     if not found.kind.is_recording:

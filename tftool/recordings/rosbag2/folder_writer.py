@@ -25,10 +25,10 @@ class FileFacts:
     """Metadata of one file.
 
     Attributes:
-        name: Its name in the folder.
+        name: Name in the folder.
         start: Log time of its first message; 0 where there is none.
         end: Log time of its last message.
-        count: Its messages.
+        count: Messages.
     """
 
     name: str
@@ -50,7 +50,7 @@ def metadata_text(
     Args:
         storage: "mcap" or "sqlite3".
         files: The files, in order.
-        topics: How many messages each topic has.
+        topics: Number of messages each topic has.
         compression: Format and mode of compression outside the storage.
         old: Metadata of the recording it was made from: its version and what
             else does not follow from the files is kept.
@@ -115,9 +115,9 @@ def read_metadata(folder: Path) -> dict[str, Any]:
 
     Raises:
         OSError: If there is none, or it may not be read.
-        ValueError: If it is too large, or no YAML.
-        KeyError: If it does not describe a recording.
-        TypeError: Likewise.
+        ValueError: If the file is too large, or no YAML.
+        KeyError: If the file does not describe a recording.
+        TypeError: If a value has another type than rosbag2 writes.
     """
     path = folder / METADATA
     if path.stat().st_size > _LARGEST_METADATA:
@@ -138,7 +138,7 @@ def write_metadata(folder: Path, text: str) -> None:
     """Write a folder's metadata.
 
     Raises:
-        OSError: If it cannot be.
+        OSError: If the file cannot be written.
     """
     (folder / METADATA).write_text(text, encoding="utf-8")
 
@@ -167,7 +167,7 @@ class FolderWriter:
 
         Args:
             folder: The folder.
-            file: The file in it.
+            file: Name of the file in the folder.
             storage: "mcap" or "sqlite3".
             inner: Writer of the file.
         """

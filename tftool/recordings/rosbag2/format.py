@@ -96,7 +96,7 @@ class _Table:
                 yield self._batch(*self._read(pages[begin : begin + _AT_ONCE]), wanted)
 
     def _read(self, pages: Pages) -> tuple[Bytes, Pages]:
-        """Read pages; return their bytes, and where each page begins in them."""
+        """Read pages; return their bytes, and the offset of each page."""
         first, apart = int(pages.min()), pages - pages.min()
         span = int(apart.max()) + 1
         if span <= _MOST_APART * len(pages):

@@ -50,9 +50,9 @@ class Sqlite:
     """One `.db3` file; see `ContainerReader`.
 
     Attributes:
-        path: Its path.
+        path: Path.
         unpacks: Whether `blocks` unpacks messages that rosbag2 compressed each by itself.
-        topic_ids: The number that its own rows have for each stream.
+        topic_ids: Number of each stream in the file's rows.
     """
 
     kind = "rosbag2 (sqlite3)"
@@ -62,12 +62,12 @@ class Sqlite:
         """Open the file and list its contents.
 
         Args:
-            path: Its path.
+            path: Path.
             by_index: Makes no difference: rows are read in their order in any case.
 
         Raises:
-            InputError: If it is damaged, or no recording.
-            OSError: If it cannot be opened.
+            InputError: If the file is damaged, or no recording.
+            OSError: If the file cannot be opened.
         """
         self.path = path
         self.unpacks = False
@@ -200,7 +200,7 @@ class Sqlite:
         return [found.get(number, 0) for number in self.topic_ids]
 
     def blocks(self) -> "Iterator[Rows]":
-        """Yield its rows in the order of recording."""
+        """Yield the rows of the file in the order of recording."""
         for batch in self.batches(list(self.channels)):
             if len(batch):
                 # Kept while further ones are read, into the same memory. No other container has

@@ -43,7 +43,7 @@ class SqliteWriter:
         """Create the file; an existing one is replaced.
 
         Args:
-            path: Its path.
+            path: Path.
             compression: "none": the container has no other.
 
         Raises:

@@ -35,7 +35,7 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
     Args:
         module: The module.
         name: The name that was asked for.
-        known: The names it has.
+        known: Names in the module.
     """
     # Only what may be a slip: another name of ROS 2's is none.
     near = near_names(name, known, alike=0.8)

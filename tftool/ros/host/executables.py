@@ -47,10 +47,10 @@ class Asked:
     """Request to start one of our executables.
 
     Attributes:
-        world: Its world.
-        name: Its node's full name.
-        namespace: The namespace it is in.
-        arguments: Its own arguments.
+        world: World.
+        name: Node's full name.
+        namespace: Namespace of the node.
+        arguments: Own arguments.
         parameters: Values given for its node.
         options: Everything `--ros-args` said.
     """
@@ -287,7 +287,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
     """Refuse an unknown executable.
 
     Raises:
-        HasItsOwnCommand: If it is one for a terminal of its own.
+        HasItsOwnCommand: If the program needs a terminal of its own.
         UsageError: If there is no such package or executable, with the nearest name.
     """
     found = workspace.packages.get(package)
@@ -328,18 +328,18 @@ def start(
     Args:
         world: World to join.
         workspace: Workspace of users' packages, searched first.
-        package: Its package; None for a file.
-        executable: Its name there, or the file.
+        package: Package; None for a file.
+        executable: Name there, or the file.
         label: Name of the program among others: "listener-4".
-        argv: Its whole `sys.argv`.
-        arguments: Its own arguments.
+        argv: Whole `sys.argv`.
+        arguments: Own arguments.
         options: Options of `--ros-args`.
         on_exit: Called once a program of a user's has ended.
 
     Raises:
-        HasItsOwnCommand: If it is one for a terminal of its own.
+        HasItsOwnCommand: If the program needs a terminal of its own.
         UsageError: If there is no such package or executable, with the nearest name.
-        InputError: If its file cannot be read or is not valid Python.
+        InputError: If the file cannot be read or is not valid Python.
     """
     # As where a workspace is sourced: each of its packages can import the others.
     importing.look_behind(workspace.module_folders)

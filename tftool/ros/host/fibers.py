@@ -63,8 +63,8 @@ class CodeLine:
 
     Attributes:
         file: The file's path.
-        line: Its number, from 1.
-        function: The function it is in.
+        line: Number, from 1.
+        function: Function that contains the line.
         text: The line itself, stripped.
     """
 
@@ -108,10 +108,10 @@ class Fiber:
 
     Attributes:
         name: Name of the program whose code it runs.
-        interrupted: Whether it was asked to end; every wait then raises KeyboardInterrupt.
+        interrupted: Whether the fiber was asked to end; every wait then raises KeyboardInterrupt.
         error: Exception of its body, once it has ended; a StuckError where it had to be
             broken off because it went on after it was asked to end without a signal.
-        ended: Whether its body is over.
+        ended: Whether the body has ended.
         owner: Program of the fiber, for `current`.
         end: Returns the exception that every wait raises once it was asked to end.
     """

@@ -284,7 +284,7 @@ class ImportedName:
 
     Attributes:
         module: Our module, below `tftool.ros`; or "package/kind" of an interface.
-        name: Its name there; "*" means every public name that it defines.
+        name: Name in the implementing module; "*" means all public names.
         tags: Tags in XML and YAML launch files; those of substitutions begin with "$".
     """
 

@@ -30,7 +30,7 @@ class InstalledPart:
 
     Attributes:
         subject: The part, and where it is declared: "chase/node.py: an entry point in setup.py".
-        file: The file it is about.
+        file: File of the part.
         fault: Why ROS 2 would not find it, and the remedy; "" if it would.
     """
 

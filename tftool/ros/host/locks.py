@@ -155,7 +155,7 @@ class UserLock:
         """Release the lock.
 
         Raises:
-            RuntimeError: If it is not held.
+            RuntimeError: If the lock is not held.
         """
 
         def free() -> None:
@@ -166,7 +166,7 @@ class UserLock:
         self._state.change(free)
 
     def locked(self) -> bool:
-        """Whether it is held."""
+        """Whether the lock is held."""
         return self._held
 
     _is_owned = locked  # A condition asks so; its own way, a failed acquire, counts as polling.
@@ -269,7 +269,7 @@ class UserEvent(threading.Event):
         self._cond: Any = UserCondition(UserLock())
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Block until it is set; return whether it is."""
+        """Block until the event is set; return whether it is."""
         owner = running_program()
         return self.is_set() if owner is not None and owner.interrupted else super().wait(timeout)
 

@@ -55,7 +55,7 @@ class RosOptions:
 
     Attributes:
         name: A new name for the program's nodes (`__node:=`), if any.
-        namespace: Their namespace (`__ns:=`), if given.
+        namespace: Namespace (`__ns:=`), if given.
         remaps: Rules for topics, services and actions, the first that fits counts.
         parameters: (node pattern, name, value), later ones win.
         levels: Log levels by logger; "" is everybody's.
@@ -159,7 +159,7 @@ def check_node_name(name: str) -> None:
     """Refuse an invalid node name.
 
     Raises:
-        UsageError: If it is not a name.
+        UsageError: If ROS 2 refuses the name.
     """
     fault = node_name_fault(name)
     if fault is not None:
@@ -170,7 +170,7 @@ def check_namespace(namespace: str) -> None:
     """Refuse an invalid namespace.
 
     Raises:
-        UsageError: If it is none.
+        UsageError: If ROS 2 refuses the namespace.
     """
     fault = namespace_fault(f"/{namespace.strip('/')}")
     if fault is not None:
@@ -186,7 +186,7 @@ def expand(given: str, name: str, namespace: str) -> str:
         namespace: The node's namespace.
 
     Raises:
-        UsageError: If it can be no topic's name.
+        UsageError: If ROS 2 refuses the topic name.
     """
     fault = topic_name_fault(given)
     if fault is not None:
@@ -316,7 +316,7 @@ def strict_yaml_value(text: str) -> Any:
     """Parse strictly: text that is not valid YAML is refused.
 
     Raises:
-        ValueError: If it is not YAML.
+        ValueError: If the text is not YAML.
     """
     import yaml
 

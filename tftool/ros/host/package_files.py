@@ -22,9 +22,9 @@ class Package:
     """The sources of one package.
 
     Attributes:
-        name: Its name.
+        name: Name.
         path: Its folder, also used as its share directory.
-        scripts: Its console scripts: name to "module:function".
+        scripts: Console scripts: name to "module:function".
         installed: Files that its setup.py installs into its share directory at another place
             than the one where they lie: that place to the file.
         modules: Folders of Python packages that its CMakeLists.txt installs
@@ -200,7 +200,7 @@ class _Literals:
                 self._names[statement.targets[0].id] = self.value(statement.value)
 
     def value(self, node: ast.expr) -> Any:
-        """Return its value; None if that needs running it."""
+        """Return the value of an expression; None if only running the code could tell."""
         match node:
             case ast.Constant():
                 return node.value

@@ -59,14 +59,14 @@ class Program(Node):
         label: Name it was started under; its node may take it over in the world.
         argv: Its `sys.argv`.
         options: Options of `--ros-args`.
-        strict: Whether time is held while it runs: on the simulated clock.
-        broadcasts: Whether it sends transforms.
-        listens: Whether it asks for them; one that only sends has its timers go before
+        strict: Whether time stops while the program runs: on the simulated clock.
+        broadcasts: Whether the program sends transforms.
+        listens: Whether the program looks up transforms; timers of one that only sends run before
             those of the others in the same instant.
         failure: Its error, unless it ended well.
         status: Its exit status once it has ended, None before.
         nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
-        unserved: The nodes it destroyed, each with its number of callbacks if none was served.
+        unserved: Destroyed nodes, each with its number of callbacks if none was served.
         event_loops: Event loops of asyncio that it made, closed at the end.
         lines_with_angles: Lines of it whose angles were looked at: whether they are degrees.
         advice: Functions that sum its lookups up at the end: a sentence, or "".
@@ -132,17 +132,17 @@ class Program(Node):
 
     @property
     def is_begun(self) -> bool:
-        """Whether it has started."""
+        """Whether the program has started."""
         return self._loop is not None
 
     @property
     def interrupted(self) -> bool:
-        """Whether it was asked to end."""
+        """Whether the program was asked to end."""
         return self.fiber.interrupted
 
     @property
     def turn(self) -> Phase:
-        """Return its timers' turn within an instant."""
+        """Return the turn of the program's timers within an instant."""
         return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
 
     # The loop's side.
@@ -274,7 +274,7 @@ class Program(Node):
         """Wait for the first of some futures (in the loop), which are not cancelled.
 
         Args:
-            waits: What to wait for.
+            waits: Futures to wait for.
             until: The moment at which to stop waiting; None for none.
             phase: The turn within that moment; this program's own unless given.
 

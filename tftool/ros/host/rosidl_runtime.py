@@ -15,7 +15,7 @@ def interface(name: str, kind: str) -> Any:
     """Return the class of an interface, "package/srv/Name" or "package/Name".
 
     Raises:
-        UsageError: If it is unknown, with the nearest name.
+        UsageError: If the interface is unknown, with the nearest name.
     """
     package, _, own = name.strip("/").partition("/")
     own = own.removeprefix(f"{kind}/")
@@ -34,7 +34,7 @@ def definition(name: str) -> str:
     """Return the text of an interface's definition.
 
     Raises:
-        UsageError: If it is not known.
+        UsageError: If the interface is unknown.
     """
     package, _, own = name.partition("/")
     kind, _, short = own.rpartition("/")
@@ -135,7 +135,8 @@ def plain(
 
     Args:
         value: The message, or the value of a field.
-        truncate_length: How many elements of a list, or letters of a text, are shown; None for all.
+        truncate_length: Number of elements of a list, or letters of a text, are shown; None for
+            all.
         no_arr: Whether a list is replaced by its type and length.
         no_str: Whether a text is replaced by its length.
     """

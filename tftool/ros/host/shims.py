@@ -93,7 +93,7 @@ class UserThread(threading.Thread):
         (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def _run_told(self) -> None:
-        """Run it; an exception ends only this thread, and is printed as in Python."""
+        """Run the function; an exception ends only this thread, and is printed as in Python."""
         try:
             self.run()
         except Exception as error:
@@ -101,7 +101,7 @@ class UserThread(threading.Thread):
             self._owner.ask(lambda: self._owner.error(sentence))
 
     def join(self, timeout: float | None = None) -> None:
-        """Wait for its end."""
+        """Wait for the end of the thread."""
         if self._fiber is None:
             super().join(timeout)
             return
@@ -112,7 +112,7 @@ class UserThread(threading.Thread):
         owner.ask(lambda: owner.first_of(self._task, until=end))
 
     def is_alive(self) -> bool:
-        """Whether it runs."""
+        """Whether the thread runs."""
         return super().is_alive() if self._fiber is None else not self._fiber.ended
 
 

@@ -1,4 +1,4 @@
-"""Loading users' code, and running it as a program."""
+"""Loading of users' code, and its execution as a program."""
 
 import inspect
 from collections.abc import Callable

@@ -25,7 +25,7 @@ class ShareFolder:
     """
 
     def __init__(self, source: Path, installed: Mapping[str, Path]) -> None:
-        """Lay it out.
+        """Create the folder and its links.
 
         Args:
             source: The package's sources, shown as they lie.

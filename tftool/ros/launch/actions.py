@@ -229,7 +229,7 @@ class OpaqueFunction(Action):
 
 
 class GroupAction(Action):
-    """Actions in their own scope."""
+    """Actions in a scope of their own."""
 
     def __init__(
         self,
@@ -282,7 +282,7 @@ class IncludeLaunchDescription(Action):
         self.launch_arguments = list(launch_arguments or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return its actions, after its arguments."""
+        """Set the arguments, then return the actions of the included description."""
         description, path = self.source.load(context)
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         if path is None:
@@ -398,7 +398,7 @@ class EmitEvent(Action):
         """Emit the event.
 
         Raises:
-            UsageError: If it is none.
+            UsageError: If the value is no event.
         """
         if not isinstance(self.event, Event):
             action = " of launch.actions" if isinstance(self.event, Action) else ""

@@ -140,7 +140,7 @@ def show_arguments(path: Path, workspace: Workspace) -> str:
     """Print the arguments of a launch file.
 
     Raises:
-        InputError: If it cannot be read.
+        InputError: If the file cannot be read.
     """
     context = LaunchContext(workspace, load_file)
     context.enter_file(path)

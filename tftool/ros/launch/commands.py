@@ -29,8 +29,8 @@ class SystemCommand:
     Attributes:
         words: The command and its arguments.
         environment: Its environment variables, all of them.
-        cwd: Its working directory; None for the current one.
-        emulate_tty: Whether it writes to a terminal, in place of a pipe.
+        cwd: Working directory; None for the current one.
+        emulate_tty: Whether the command writes to a terminal, in place of a pipe.
     """
 
     words: Sequence[str]
@@ -47,14 +47,14 @@ def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> t
     """Run a command to its end, or kill it after a timeout.
 
     Args:
-        command: What to run.
+        command: Command and arguments.
         say: Receives its output lines, each with whether it came from its standard output.
 
     Returns:
         Its exit status, and why it was killed ("" if it was not).
 
     Raises:
-        UsageError: If it cannot be run.
+        UsageError: If the command cannot be run.
     """
     reason, errors = "", b""
     try:
@@ -89,7 +89,7 @@ def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
 
     Raises:
         subprocess.TimeoutExpired: If that takes longer than `LONGEST_RUN`; it is killed.
-        OSError: If it cannot be run.
+        OSError: If the command cannot be run.
     """
     ours, theirs = os.openpty()
     chunks: list[bytes] = []
@@ -130,7 +130,7 @@ async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Str
     """Start a command in its own process group; return it and its output.
 
     Raises:
-        UsageError: If it cannot be run.
+        UsageError: If the command cannot be run.
     """
     ours, output = os.openpty() if command.emulate_tty else (None, asyncio.subprocess.PIPE)
     try:

@@ -50,7 +50,7 @@ class ComposableNode:
         self._condition = condition
 
     def condition(self) -> Any:
-        """Condition for loading it; None for always."""
+        """Condition for loading the component; None for always."""
         return self._condition
 
 
@@ -143,7 +143,7 @@ class ComposableNodeContainer(Node):
         self.composable_node_descriptions = list(composable_node_descriptions or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start it if it is a Python program, and load its components."""
+        """Start the container if it is a Python program, and load its components."""
         self._perform_substitutions(context)
         reason = self._missing(context)
         if reason:
@@ -158,7 +158,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Return why it is not a Python program; "" if it is."""
+        """Return why the container is not a Python program; "" if it is."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

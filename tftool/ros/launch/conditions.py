@@ -19,11 +19,11 @@ class Condition:
         self._predicate = predicate
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether it is true."""
+        """Whether the condition is true."""
         return self._predicate is not None and self._predicate(context)
 
     def describe(self) -> str:
-        """Return its text form."""
+        """Return the condition as text."""
         return f"{type(self).__name__}()"
 
 
@@ -52,7 +52,7 @@ class _TextCondition(Condition):
         self._expression = predicate_expression
 
     def describe(self) -> str:
-        """Return its text form: IfCondition('expression')."""
+        """Return the condition as text: IfCondition('expression')."""
         return f"{type(self).__name__}({describe(self._expression)})"
 
 

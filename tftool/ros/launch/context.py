@@ -24,9 +24,9 @@ class LaunchContext:
         environment: Environment variables, a copy.
         environments: Environments saved by PushEnvironment.
         files: The launch file one is in, last, after those that include it.
-        node_names: How many nodes of each full name were started.
+        node_names: Number of nodes of each full name were started.
         load: Reads a launch file, for those that include one; None outside of a launch.
-        launch: The launch that runs it.
+        launch: Launch that executes the description.
         argv: Arguments of the launch's command line.
         noninteractive: Whether questions are left out, as in ROS 2: here none is ever asked.
     """
@@ -96,7 +96,7 @@ class LaunchContext:
 
         Raises:
             UsageError: If nothing is launched.
-            ValueError: If it was not registered.
+            ValueError: If the handler was not registered.
         """
         self._launched().handlers.remove(event_handler)
 
@@ -133,7 +133,7 @@ class LaunchContext:
         """Set the current launch file.
 
         Raises:
-            UsageError: If it is included too deep to be meant.
+            UsageError: If files include each other too deeply.
         """
         if len(self.files) >= DEEPEST:
             raise UsageError(f"'{path}' is included {DEEPEST} deep: does it include itself?")

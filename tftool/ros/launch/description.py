@@ -17,11 +17,11 @@ class LaunchDescriptionEntity:
     """Base of actions and descriptions."""
 
     def visit(self, context: LaunchContext) -> Any:
-        """Execute it; return the next actions."""
+        """Execute the entity; return the next actions."""
         return None
 
     def describe(self) -> str:
-        """Return its text form."""
+        """Return the entity as text."""
         raise NotImplementedError
 
     def describe_sub_entities(self) -> Sequence[Any]:
@@ -41,7 +41,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     """List of actions of a launch.
 
     Attributes:
-        entities: Its actions.
+        entities: Actions.
         deprecated_reason: Why it should be used no more, None where it may be.
     """
 
@@ -56,15 +56,15 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether it is deprecated."""
+        """Whether the description is deprecated."""
         return self.deprecated_reason is not None
 
     def describe(self) -> str:
-        """Return its text form."""
+        """Return the description as text."""
         return f"{type(self).__name__}()"
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Return its actions."""
+        """Return the actions of the description."""
         return self.entities
 
     def add_action(self, action: Any) -> None:
@@ -74,7 +74,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     add_entity = add_action
 
     def visit(self, context: LaunchContext) -> Sequence[Any]:
-        """Return its actions."""
+        """Return the actions of the description."""
         return self.entities
 
 
@@ -112,11 +112,11 @@ class Action(LaunchDescriptionEntity):
     Long work is passed to the launch (`context.launch`).
 
     Attributes:
-        condition: Whether it is done at all; None for always.
+        condition: Condition for executing the action; None for always.
         where: "file:line" where the launch file says it.
-        takes_time: Whether it is done only some time after `execute`; the launch says when.
-        is_begun: Whether it was carried out.
-        is_awaited: Whether a handler waited for its end when it began.
+        takes_time: Whether the action ends some time after `execute`; the launch reports the end.
+        is_begun: Whether the action was executed.
+        is_awaited: Whether a handler for the action's end existed when it began.
     """
 
     takes_time: ClassVar[bool] = False
@@ -159,5 +159,5 @@ class Action(LaunchDescriptionEntity):
         return None
 
     def describe(self) -> str:
-        """Return its text form."""
+        """Return the action as text."""
         return f"{type(self).__name__}()"

@@ -22,8 +22,8 @@ class Element:
     """One element: a tag of XML, a key of YAML.
 
     Attributes:
-        tag: Its tag.
-        values: Its attributes.
+        tag: Tag.
+        values: Attributes.
         children: Child elements.
         where: "file:line".
         asked: Attributes that were asked for: those it may have.
@@ -46,7 +46,7 @@ class Element:
         """Return a required attribute, under one of its names.
 
         Raises:
-            InputError: If it is missing.
+            InputError: If the attribute is missing.
         """
         for name in names:
             self.asked.add(name)
@@ -210,7 +210,7 @@ class _Yaml:
         """Convert a key.
 
         Raises:
-            InputError: If it is not a single word.
+            InputError: If the value is not a single word.
         """
         if not isinstance(node, yaml.ScalarNode):
             raise InputError(f"{self.where(node)}: a key is one word, not a list or a mapping")
@@ -220,7 +220,7 @@ class _Yaml:
         """Convert an attribute's value.
 
         Raises:
-            InputError: If it is none that YAML knows by itself.
+            InputError: If the value has another type than YAML's own.
         """
         try:
             return yaml_guard.construct(node)

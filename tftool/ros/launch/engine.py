@@ -83,14 +83,14 @@ class Launch(Node):
             arguments: Values for the arguments it declares.
             say: Takes the launch's lines.
             context: State of the launch; a new one when None.
-            name: Its own name in the world.
+            name: Own name in the world.
             contained: Whether a fault of the description ends the launch alone: not the world.
                 On simulated time its system commands then run beside the nodes, and time
                 passes as really while they do.
-            keep_alive: Whether it goes on when nothing of it runs any more.
+            keep_alive: Whether the launch goes on when none of its processes runs any more.
 
         Raises:
-            InputError: If it cannot be read.
+            InputError: If the file cannot be read.
             UsageError: If an argument is passed that it does not declare.
         """
         self.context = context or LaunchContext(workspace)
@@ -273,7 +273,7 @@ class Launch(Node):
         self._guarded(lambda: self.emit(event))
 
     def shut_down(self, reason: str) -> None:
-        """End everything it started, then itself."""
+        """End everything that the launch started, then the launch."""
         self._guarded(lambda: self.emit(Shutdown(reason=reason)))
 
     def info(self, text: str) -> None:
@@ -398,7 +398,7 @@ class Launch(Node):
 
         Args:
             action: Action that started it, for events.
-            name: Its name in the log, before its number.
+            name: Name in the log, before the number.
             command: Executable or command to start.
             respawn: As for `start_node`.
         """
@@ -443,8 +443,8 @@ class Launch(Node):
         """Run a function as a program of the world; return its label.
 
         Args:
-            action: What asked for it, for events.
-            argv: Its command line; the first word is its name in the log.
+            action: Action that starts the program, for events.
+            argv: Command line; the first word is the name in the log.
             body: The function.
             respawn: As for `start_node`.
         """

@@ -30,11 +30,11 @@ class RunningProcessEvent(Event):
 
     Attributes:
         action: Action that started it.
-        process_name: Its name in the log.
-        cmd: Its words; none where it is a program of the session.
-        cwd: Its folder, None for that of the launch.
-        env: Its environment, None for that of the launch.
-        pid: Its number, 0 where it has none of its own.
+        process_name: Name in the log.
+        cmd: Command line; empty for a program of the session.
+        cwd: Folder, None for that of the launch.
+        env: Environment, None for that of the launch.
+        pid: Process number, 0 for a program without a process.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class ProcessExited(RunningProcessEvent):
     """Event of a process's end.
 
     Attributes:
-        returncode: Its exit status.
+        returncode: Exit status.
     """
 
     name = "launch.events.process.ProcessExited"
@@ -81,8 +81,8 @@ class ProcessIO(RunningProcessEvent):
     Attributes:
         text: The line, as bytes.
         from_stdin: Whether it went to its standard input.
-        from_stdout: Whether it came from its standard output.
-        from_stderr: Whether it came from its standard error.
+        from_stdout: Whether the text came from the standard output.
+        from_stderr: Whether the text came from the standard error.
     """
 
     name = "launch.events.process.ProcessIO"
@@ -106,7 +106,7 @@ class SignalProcess(ShutdownProcess):
     """Event that sends a signal to processes.
 
     Attributes:
-        signal: Its number.
+        signal: Number.
     """
 
     name = "launch.events.process.SignalProcess"
@@ -152,7 +152,7 @@ class EventHandler:
     """Does something when a matching event occurs.
 
     Attributes:
-        entities: What it does then, as far as it is known before.
+        entities: Entities to execute then, as far as known before.
     """
 
     def __init__(
@@ -168,7 +168,7 @@ class EventHandler:
         self.handle_once = handle_once
 
     def matches(self, event: Event) -> bool:
-        """Whether it matches."""
+        """Whether the handler reacts to this event."""
         return self._matcher(event)
 
     def handle(self, event: Event, context: Any) -> Any:

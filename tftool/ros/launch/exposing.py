@@ -22,7 +22,7 @@ class Entity:
     """One element of a launch file.
 
     Attributes:
-        type_name: Its tag.
+        type_name: Tag.
         parent: Enclosing entity, None at the top.
     """
 
@@ -33,7 +33,7 @@ class Entity:
 
     @property
     def children(self) -> list["Entity"]:
-        """Return its child elements."""
+        """Return the child elements."""
         return [Entity(one, self) for one in self.element.all_inside()]
 
     def get_attr(
@@ -47,8 +47,8 @@ class Entity:
         """Return an attribute; with `List[Entity]`, the child elements of that name.
 
         Raises:
-            AttributeError: If it is missing.
-            TypeError: If it is of another type.
+            AttributeError: If the attribute is missing.
+            TypeError: If the attribute has another type.
         """
         if typing.get_args(data_type) == (Entity,):
             inside = [Entity(one, self) for one in self.element.inside(name)]

@@ -393,7 +393,8 @@ def load_file(path: Path) -> LaunchDescription:
     """Return the description in a launch file.
 
     Raises:
-        InputError: If it cannot be read, is none, or raises; the user's own line is shown.
+        InputError: If the file cannot be read, is no launch file, or raises; the user's line is
+            shown.
     """
     if path.suffix in (".xml", ".yaml", ".yml"):
         return LaunchDescription(actions_of(read(path)))

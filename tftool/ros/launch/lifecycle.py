@@ -96,7 +96,7 @@ class LifecycleNode(Node):
         self.autostart = autostart
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start it, and subscribe to its transitions."""
+        """Start the node, and subscribe to its transitions."""
         self._perform_substitutions(context)
         context.launch.handlers.append(
             EventHandler(matcher=self._is_meant, entities=lambda event, _: [self._change(event)])

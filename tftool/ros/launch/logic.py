@@ -14,7 +14,7 @@ def _holds(context: LaunchContext, value: Any) -> bool:
     """Return whether a text means true.
 
     Raises:
-        SubstitutionFailure: If it is neither true nor false.
+        SubstitutionFailure: If the text is neither true nor false.
     """
     try:
         return is_true(perform(context, value))

@@ -26,9 +26,9 @@ class Node(Startable):
     """A node: a package's executable, or a file.
 
     Attributes:
-        node_name: Its full name, once it is known when the launch runs.
-        expanded_node_namespace: Its namespace then; "" where none was given.
-        expanded_remapping_rules: Its remappings and those of its scope then, None before.
+        node_name: Full name, known when the launch runs.
+        expanded_node_namespace: Namespace then; "" where none was given.
+        expanded_remapping_rules: Remappings of the node and its scope once started; None before.
     """
 
     UNSPECIFIED_NODE_NAME: Final = "<node_name_unspecified>"
@@ -72,12 +72,12 @@ class Node(Startable):
 
     @property
     def node_package(self) -> Any:
-        """Its package."""
+        """Package of the node."""
         return self.package
 
     @property
     def node_executable(self) -> Any:
-        """Its executable."""
+        """Executable of the node."""
         return self.executable
 
     def is_node_name_fully_specified(self) -> bool:
@@ -87,7 +87,7 @@ class Node(Startable):
         )
 
     def _perform_substitutions(self, context: LaunchContext) -> None:
-        """Evaluate its name, namespace and remappings, as subclasses expect."""
+        """Evaluate name, namespace and remappings, as subclasses expect."""
         name = self.UNSPECIFIED_NODE_NAME
         if self.name is not None:
             name = perform(context, self.name)
@@ -98,7 +98,7 @@ class Node(Startable):
         self.expanded_remapping_rules = remaps_in(context, self.remappings)
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start it."""
+        """Start the node."""
         self._perform_substitutions(context)
         options, _ = names.parse(
             ["--ros-args", *(perform(context, one) for one in self.ros_arguments)]

@@ -28,7 +28,7 @@ class ParameterValue:
         """Take a value, or texts only known during the launch.
 
         Raises:
-            TypeError: If it is a value already, and of another type.
+            TypeError: If a plain value has another type.
         """
         self.value_type = value_type
         # A list of texts is one text where one value is wanted.
@@ -44,7 +44,7 @@ class ParameterValue:
         """Return the value.
 
         Raises:
-            ValueError: If it is not of that type.
+            ValueError: If the value is not of that type.
         """
         if _is_text(self.value):
             self.value = _typed(perform(context, self.value), self.value_type)
@@ -64,7 +64,7 @@ class ParameterDescription:
 
     @property
     def value(self) -> Any:
-        """Its value."""
+        """Value of the parameter."""
         return self._value.value
 
     @property
@@ -73,7 +73,7 @@ class ParameterDescription:
         return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Return its name and value.
+        """Return name and value of the parameter.
 
         Raises:
             ValueError: If the value is not of its type.
@@ -86,8 +86,8 @@ class ParameterFile:
     """A parameter file; with `allow_substs` its text may contain `$(…)`.
 
     Attributes:
-        param_file: Its path: texts until it is evaluated.
-        allow_substs: Whether its text may hold `$(…)`.
+        param_file: Path of the file; substitutions until evaluated.
+        allow_substs: Whether the file may contain `$(…)`.
     """
 
     def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
@@ -97,7 +97,7 @@ class ParameterFile:
         self._made: Path | None = None
 
     def read(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
-        """Return what it sets: (node, name, value).
+        """Return the parameters in the file: (node, name, value).
 
         Raises:
             InputError: If it cannot be read, or is laid out otherwise.
@@ -134,7 +134,7 @@ def normalize_parameters(parameters: Any) -> list[Any]:
     """Normalise a node's parameters: mappings from dotted names to values, and files.
 
     Raises:
-        TypeError: If they are no list, or one of them can be no parameter.
+        TypeError: If the argument is no list, or an item can be no parameter.
     """
     if not isinstance(parameters, Sequence) or isinstance(parameters, str | bytes):
         raise TypeError(f"a node's parameters are a list of mappings and files, not {parameters!r}")
@@ -305,7 +305,7 @@ def _parts_of(value: Any) -> list[Substitution]:
 
 
 def _is_text(value: Any) -> bool:
-    """Whether it is a text that is only known during the launch."""
+    """Whether a value is a text that only the launch can evaluate."""
     if isinstance(value, Substitution):
         return True
     return _is_parts(value) and any(isinstance(one, Substitution) for one in value)

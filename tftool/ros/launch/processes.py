@@ -35,12 +35,12 @@ class Executable:
     """An executable ready to start.
 
     Attributes:
-        package: Its package; None for a file.
-        name: Its name there, or the file.
-        arguments: Its own arguments.
+        package: Package; None for a file.
+        name: Name there, or the file.
+        arguments: Own arguments.
         options: ROS 2's.
         label: Its name in the log, before its number.
-        argv: Its command line, if that is not the one that launch_ros gives a node.
+        argv: Command line, if that is not the one that launch_ros gives a node.
     """
 
     package: str | None
@@ -67,8 +67,8 @@ class Startable(Action):
     """Action that starts something, which ends some time and may be restarted.
 
     Attributes:
-        process_details: Its name in the log and its words, once it has started; None before.
-        return_code: Its exit status, once it has ended; None before.
+        process_details: Name in the log and command line, once started; None before.
+        return_code: Exit status, once ended; None before.
         output_lines: With `cached_output`, the lines it has written, each with whether it
             wrote it to its standard output.
     """
@@ -98,11 +98,11 @@ class Startable(Action):
         self.respawn, self.respawn_delay = respawn, respawn_delay
 
     def get_stdout(self) -> str:
-        """Return what it has written to its standard output, with `cached_output`."""
+        """Return the process's standard output so far, if `cached_output` is set."""
         return "".join(line for is_stdout, line in self.output_lines if is_stdout)
 
     def get_stderr(self) -> str:
-        """Return what it has written to its standard error, with `cached_output`."""
+        """Return the process's standard error so far, if `cached_output` is set."""
         return "".join(line for is_stdout, line in self.output_lines if not is_stdout)
 
     def get_output(self) -> str:
@@ -110,7 +110,7 @@ class Startable(Action):
         return "".join(line for _, line in self.output_lines)
 
     def handle_exit(self, context: LaunchContext) -> None:
-        """Handle its end."""
+        """Handle the end of the process."""
         if self.on_exit is not None:
             context.launch.handlers.append(
                 OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
@@ -139,7 +139,7 @@ def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
     """Parse a number of seconds.
 
     Raises:
-        UsageError: If it is none.
+        UsageError: If the value is no duration.
     """
     text = perform(context, value)
     try:
@@ -172,7 +172,7 @@ class ExecuteProcess(Startable):
         self.shell = shell
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start it."""
+        """Start the process."""
         words = [perform(context, word) for word in self.cmd]
         if not words or not words[0].strip():
             raise UsageError("ExecuteProcess is given no command")

@@ -23,7 +23,7 @@ def is_namespace_absolute(ns: str) -> bool:
 
 
 def is_root_namespace(ns: str) -> bool:
-    """Whether it is the root namespace."""
+    """Whether a namespace is the root."""
     return ns == "/"
 
 
@@ -51,7 +51,7 @@ def namespace_in(context: LaunchContext, own: Any) -> str | None:
         own: Namespace of the node itself, or None.
 
     Raises:
-        UsageError: If it is not a namespace.
+        UsageError: If the text is not a namespace.
     """
     given = None if own is None else perform(context, own)
     base = context.launch_configurations.get(_NAMESPACE)
@@ -65,7 +65,7 @@ def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
     """Return a remapping as two lists of substitutions.
 
     Raises:
-        TypeError: If it is not a pair.
+        TypeError: If the rule is not a pair.
     """
     if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
         raise TypeError(f"a remapping is a pair like ('old', 'new'), not {remap_rule!r}")
@@ -157,8 +157,8 @@ class SetParameter(Action):
     """Sets a parameter for all nodes of the scope.
 
     Attributes:
-        name: Its name: texts.
-        value: Its value, or texts.
+        name: Name: texts.
+        value: Value, or texts.
     """
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:

@@ -61,7 +61,7 @@ class LaunchService:
         """Start the launch, which goes on by itself.
 
         Args:
-            keep_alive: Whether it goes on when nothing of it runs any more.
+            keep_alive: Whether the launch goes on when none of its processes runs any more.
         """
         self._owner = owner = program.current()
 
@@ -89,7 +89,7 @@ class LaunchService:
         return self._launch
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run it beside other coroutines; a cancellation ends the launch."""
+        """Run the launch beside other coroutines; a cancellation ends it."""
         launch = self.begin(keep_alive=not shutdown_when_idle)
         self._threads.add(threading.get_ident())
         try:

@@ -34,7 +34,7 @@ class Substitution:
         raise NotImplementedError
 
     def describe(self) -> str:
-        """Return its text form."""
+        """Return the substitution as text."""
         return f"{type(self).__name__}()"
 
     def __truediv__(self, other: Any) -> "PathJoinSubstitution":
@@ -73,7 +73,7 @@ def is_true(text: str) -> bool:
     """Return a text's truth value by launch's rules.
 
     Raises:
-        UsageError: If it is neither true nor false.
+        UsageError: If the text is neither true nor false.
     """
     word = text.strip().lower()
     if word in ("true", "1"):
@@ -283,7 +283,7 @@ class FindPackageShare(Substitution):
         self.package = package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return its path: in a workspace, the package's sources."""
+        """Return the path of the share directory: in a workspace, the package's sources."""
         return str(context.workspace.share(perform(context, self.package)))
 
     @staticmethod
@@ -306,7 +306,7 @@ class FindExecutable(Substitution):
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """Return its path."""
+        """Return the path of the executable."""
         name = perform(context, self.name)
         if name in (ROS2, XACRO):
             # ExecuteProcess carries out the one itself, and Command the other.
@@ -340,7 +340,7 @@ class ExecutableInPackage(Substitution):
         self.executable, self.package = executable, package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return its file in the sources; for a console script its path after installation."""
+        """Return the file in the sources; of a console script the path after installation."""
         name = perform(context, self.executable)
         package = context.workspace.package(perform(context, self.package))
         if name in package.scripts:
@@ -355,7 +355,7 @@ def _expanded(words: list[str]) -> str:
     """Return the output of `xacro FILE NAME:=VALUE …`, without ROS.
 
     Raises:
-        SubstitutionFailure: If it is no such command line, or the file cannot be expanded.
+        SubstitutionFailure: If the command line is not xacro's, or the file cannot be expanded.
     """
     from tftool.base.errors import InputError, UsageError
     from tftool.robots.urdf import expand_xacro
@@ -387,7 +387,7 @@ class Command(Substitution):
         self.on_stderr = on_stderr
 
     def perform(self, context: LaunchContext) -> str:
-        """Return its output."""
+        """Run the command; return its output."""
         import shlex
         import subprocess
 

@@ -44,7 +44,7 @@ def ensure_argument_type(
     """Check that an argument has one of some types.
 
     Raises:
-        TypeError: If it is not, or the types are none.
+        TypeError: If the argument has another type, or the types are no types.
     """
     allowed = types if isinstance(types, Iterable) else [types]
     if not any(is_a(argument, one) for one in allowed):
@@ -67,7 +67,7 @@ def is_a_subclass(obj: object, entity_type: type) -> bool:
 
 
 def isclassinstance(obj: object) -> bool:
-    """Whether it has a class, as every object has."""
+    """Whether an object has a class, as every object has."""
     return hasattr(obj, "__class__")
 
 

@@ -27,7 +27,7 @@ class ReadyToTest(Action):
     """Starts the tests.
 
     Attributes:
-        callbacks: What is called then.
+        callbacks: Functions called when the tests may start.
     """
 
     def __init__(self) -> None:
@@ -35,7 +35,7 @@ class ReadyToTest(Action):
         self.callbacks: list[Callable[[], object]] = []
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start them."""
+        """Start the tests."""
         for callback in self.callbacks:
             callback()
 
@@ -61,7 +61,7 @@ class Test(ExecuteProcess):
         self.timeout = timeout
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start it, and its timeout."""
+        """Start the test and its timeout."""
         following = super().execute(context)
         if self.timeout is not None:
             # Not a TimerAction, which would keep the launch alive after the process's end.
@@ -79,7 +79,7 @@ class GTest(Test):
     """A test made with GoogleTest.
 
     Attributes:
-        path: Its executable.
+        path: Executable.
     """
 
     def __init__(self, *, path: Any, **kwargs: Any) -> None:
@@ -175,7 +175,7 @@ def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]
     """Return a decorator that launches a description once for each set of values.
 
     Args:
-        argnames: The names of its parameters, with commas between them.
+        argnames: Names of the parameters, separated by commas.
         argvalues: A value, or a tuple of values, for each launch.
     """
     names = [name.strip() for name in argnames.split(",") if name.strip()]
@@ -199,7 +199,7 @@ def retry_on_failure(*, times: int, delay: float | None = None) -> Callable[[Any
     """Return a decorator that repeats a test whose assertion fails.
 
     Args:
-        times: How often it may run.
+        times: Largest number of runs.
         delay: Seconds between two runs; None for none.
     """
 

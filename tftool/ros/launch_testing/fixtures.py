@@ -21,9 +21,9 @@ class LaunchedService(LaunchService):
     """The launch of a fixture.
 
     Attributes:
-        event_loop: Where its tests' coroutines run; None once it has ended.
-        auto_shutdown: Whether it is shut down after its tests.
-        waiting: The tests that go on after its end, by their function.
+        event_loop: Event loop of the tests' coroutines; None once the launch has ended.
+        auto_shutdown: Whether the launch is shut down after its tests.
+        waiting: Tests that continue after the launch's end, by their function.
     """
 
     def __init__(self) -> None:
@@ -36,7 +36,7 @@ class LaunchedService(LaunchService):
         """Launch a description, and wait until its tests may start.
 
         Raises:
-            AssertionError: If it says at several places when that is.
+            AssertionError: If the description has several ReadyToTest actions.
         """
         program.current()  # for a fixture of a module, the program that lasts as long
         self.event_loop = UserEventLoop()
@@ -55,10 +55,10 @@ class LaunchedService(LaunchService):
         wait_for_first((ready, launch.ended))
 
     def finish(self) -> None:
-        """Shut it down unless it ends by itself, and wait for its end.
+        """Shut the launch down unless it ends by itself, and wait for its end.
 
         Raises:
-            AssertionError: If it has failed.
+            AssertionError: If the launch has failed.
         """
         if self.event_loop is None:
             return
@@ -71,7 +71,7 @@ class LaunchedService(LaunchService):
             raise AssertionError("the launch has failed: its lines above say why")
 
     def _is_idle(self) -> bool:
-        """Whether it has ended; the examples of launch_pytest ask."""
+        """Whether the launch has ended; launch_pytest's examples ask."""
         return self.event_loop is None
 
 
@@ -124,7 +124,7 @@ def fixture(
         decorated: The function.
         args: As for `pytest.fixture`.
         shutdown_when_idle: Whether the launch ends once nothing of it runs any more.
-        auto_shutdown: Whether it is shut down after its tests.
+        auto_shutdown: Whether the launch is shut down after its tests.
         kwargs: As for `pytest.fixture`.
     """
     scope = kwargs.get("scope", "function")
@@ -163,8 +163,8 @@ def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable
     """Return an ordinary test function for a function, coroutine or generator of any kind.
 
     Args:
-        test: What the user wrote.
-        after_end: Whether it runs after the end of the launch.
+        test: The user's test function.
+        after_end: Whether the test runs after the end of the launch.
         second: Whether this is the part of a generator after its `yield`, as a test of its own.
     """
     takes = inspect.signature(test)
@@ -243,7 +243,7 @@ def _end(steps: Iterator[None], test: Any) -> None:
     """Run the rest of a generator.
 
     Raises:
-        AssertionError: If it yields once more.
+        AssertionError: If the generator yields once more.
     """
     if next(steps, steps) is not steps:
         kind = "a generator" if inspect.isgeneratorfunction(test) else "an async gen"

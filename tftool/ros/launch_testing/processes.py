@@ -27,7 +27,7 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
     """Return a coroutine function that waits for a condition, and its twin.
 
     Args:
-        condition: What they wait for.
+        condition: Condition to wait for.
         otherwise: Called where it does not come to hold in time.
     """
 

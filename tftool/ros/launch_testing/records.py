@@ -1,4 +1,4 @@
-"""launch_testing's records of processes and of their output, and assertions about them."""
+"""launch_testing's records of processes and their output, and assertions about these."""
 
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
@@ -80,7 +80,7 @@ class ProcInfoHandler(_Record):
         """Wait for the end of a process.
 
         Raises:
-            AssertionError: If it does not end in time.
+            AssertionError: If the process does not end in time.
         """
 
         def has_ended() -> bool:
@@ -97,7 +97,7 @@ class ProcInfoHandler(_Record):
         """Wait for the start of a process.
 
         Raises:
-            AssertionError: If it does not start in time.
+            AssertionError: If the process does not start in time.
         """
         assert self.holds_within(
             lambda: bool(resolveProcesses(self, process=process, cmd_args=cmd_args)), timeout
@@ -123,7 +123,7 @@ class IoHandler(_Record):
         timeout: float | None = 10,
         **options: Any,
     ) -> bool:
-        """Wait for output; return whether it came in time.
+        """Wait for a text in the output; return whether it came in time.
 
         Args:
             expected_output: A text, a pattern, or a list of these in order.
@@ -152,7 +152,7 @@ class IoHandler(_Record):
         """Wait for output as `waitFor` does.
 
         Raises:
-            AssertionError: If it does not come in time.
+            AssertionError: If the text does not come in time.
         """
         assert self.waitFor(*args, **kwargs), "Waiting for output timed out"
 
@@ -264,7 +264,7 @@ def assertInStream(
         stream: "stdout" or "stderr".
 
     Raises:
-        AssertionError: If it is in none of their outputs.
+        AssertionError: If the text is in none of the outputs.
         ValueError: If there is no such stream.
     """
     if stream not in ("stdout", "stderr"):
@@ -317,7 +317,7 @@ class SequentialTextChecker:
         """Check that a text follows.
 
         Raises:
-            AssertionError: If it does not.
+            AssertionError: If the text does not follow in the output.
         """
         column = self._column
         for piece in range(self._piece, len(self._output)):
@@ -366,13 +366,13 @@ class ProcessProxy:
         self._info, self._output, self._filter = proc_info, proc_output, output_filter
 
     def wait_for_shutdown(self, timeout: float | None = None) -> bool:
-        """Wait for its end; return whether it came in time."""
+        """Wait for the end of the process; return whether it came in time."""
         return self._info.holds_within(lambda: self.terminated, timeout)
 
     def wait_for_output(
         self, condition: Callable[[str], bool] = lambda _: True, timeout: float | None = None
     ) -> bool:
-        """Wait until its output is as a function says; return whether it is in time."""
+        """Wait until a function accepts the output; return whether it did in time."""
         return self._output.holds_within(lambda: self.running and condition(self.output), timeout)
 
     def _text(self, *streams: bool) -> str:
@@ -382,17 +382,17 @@ class ProcessProxy:
 
     @property
     def stdout(self) -> str:
-        """Return what it has written to its standard output."""
+        """Return the process's standard output so far."""
         return self._text(True)
 
     @property
     def stderr(self) -> str:
-        """Return what it has written to its standard error."""
+        """Return the process's standard error so far."""
         return self._text(False)
 
     @property
     def output(self) -> str:
-        """Return what it has written."""
+        """Return the process's output so far."""
         return self._text(True, False)
 
     def _is(self, state: type) -> bool:
@@ -401,17 +401,17 @@ class ProcessProxy:
 
     @property
     def running(self) -> bool:
-        """Whether it runs."""
+        """Whether the process runs."""
         return self._is(ProcessStarted)
 
     @property
     def terminated(self) -> bool:
-        """Whether it has ended."""
+        """Whether the process has ended."""
         return self._is(ProcessExited)
 
     @property
     def exit_code(self) -> int:
-        """Its exit status."""
+        """Exit status of the process."""
         return int(self._info[self.target_process_action].returncode)
 
 

@@ -82,12 +82,12 @@ class TestRun:
     """A launch with its tests.
 
     Attributes:
-        name: What it is called.
-        param_args: The values it was parametrized with.
-        pre_shutdown_tests: The tests that run beside it.
-        post_shutdown_tests: Those that run after its end.
+        name: Name of the run.
+        param_args: Values of the parameters.
+        pre_shutdown_tests: Tests that run beside the launch.
+        post_shutdown_tests: Tests that run after the launch's end.
         timeout: Seconds that its processes have to start.
-        markers: Those of its description.
+        markers: Markers of the description.
     """
 
     __test__ = False
@@ -121,20 +121,20 @@ class TestRun:
         return f"[{', '.join(map(str, self.param_args.values()))}]" if self.param_args else ""
 
     def all_cases(self) -> Iterator[Any]:
-        """Yield its tests."""
+        """Yield the tests of the run."""
         yield from _cases(self.pre_shutdown_tests)
         yield from _cases(self.post_shutdown_tests)
 
     def normalized_test_description(
         self, *, ready_fn: Callable[[], object]
     ) -> tuple[LaunchDescription, dict[str, Any]]:
-        """Return its description, and the values for its tests.
+        """Return the launch description, and the values for the tests.
 
         Args:
             ready_fn: Called when the tests may start.
 
         Raises:
-            UsageError: If it says nowhere when that is.
+            UsageError: If the description has no ReadyToTest action.
         """
         made = self._function()
         description, values = made if isinstance(made, tuple) else (made, {})
@@ -148,14 +148,14 @@ class TestRun:
         return description, values
 
     def get_launch_description(self) -> LaunchDescription:
-        """Return its description, to look at."""
+        """Return the launch description, to be displayed."""
         return self.normalized_test_description(ready_fn=lambda: None)[0]
 
     def check(self) -> None:
         """Check that its description takes what it is parametrized with.
 
         Raises:
-            UsageError: If it does not.
+            UsageError: If a test's arguments do not match.
         """
         takes = inspect.getfullargspec(inspect.unwrap(self._function))
         names = {*takes.args, *takes.kwonlyargs}
@@ -167,7 +167,7 @@ class TestRun:
             raise UsageError(f"{MAKES} has unexpected extra argument '{name}'")
 
     def run(self, arguments: Mapping[str, str], preamble: Sequence[Any] = ()) -> TestResult:
-        """Launch it, and run its tests.
+        """Launch the description, and run its tests.
 
         Args:
             arguments: Values for the arguments of the launch.
@@ -229,7 +229,7 @@ def wait_for_first(
 def _run(
     tests: unittest.TestSuite, given: Mapping[str, Any], attributes: Mapping[str, Any]
 ) -> TestResult:
-    """Run tests with values for their arguments, and some as attributes too."""
+    """Run tests; pass values as arguments, and some as attributes too."""
     tests = copy.deepcopy(tests)
     classes = dict.fromkeys(type(case) for case in _cases(tests))
     for test_class in classes:
@@ -332,7 +332,7 @@ def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> lis
     """Return the runs of a file of launch tests: several if its description is parametrized.
 
     Raises:
-        InputError: If it has no description.
+        InputError: If the module has no description.
     """
     function = getattr(module, MAKES, None)
     if function is None:
@@ -358,8 +358,8 @@ def load_tests(path: Path, arguments: Sequence[str]) -> LaunchTestRunner:
         arguments: Values for the arguments of its launch, `name:=value`.
 
     Raises:
-        InputError: If it cannot be read or has no description.
-        UsageError: If its description has other arguments than it is given.
+        InputError: If the file cannot be read or has no description.
+        UsageError: If the description has other arguments than those given.
     """
     module = user_code.load_module(path)
     runner = LaunchTestRunner(LoadTestsFromPythonModule(module, name=path.stem), arguments)
@@ -372,7 +372,7 @@ def run_tests(path: Path, arguments: Sequence[str]) -> None:
 
     Raises:
         InputError: If the file cannot be read or has no description.
-        UsageError: If its description has other arguments than it is given.
+        UsageError: If the description has other arguments than those given.
         SystemExit: If a test fails.
     """
     results = load_tests(path, arguments).run().values()

@@ -55,7 +55,7 @@ class WaitForTopics:
         Args:
             topic_tuples: The topics, each with the type of its messages.
             timeout: Seconds to wait at most.
-            messages_received_buffer_length: How many messages of each are kept; None for all.
+            messages_received_buffer_length: Number of messages of each are kept; None for all.
         """
         self.topic_tuples, self.timeout = list(topic_tuples), timeout
         self._kept = messages_received_buffer_length
@@ -81,7 +81,7 @@ class WaitForTopics:
         self._state.change(lambda: kept.append(message))
 
     def shutdown(self) -> None:
-        """Destroy its node."""
+        """Destroy the node that waits."""
         self._pump.stop()
         self._node.destroy_node()
         self._context.try_shutdown()
@@ -132,7 +132,7 @@ class DataRepublisher:
             node: The node that does it.
             listen_topic: Where messages come from.
             publish_topic: Where they go.
-            msg_type: Their type.
+            msg_type: Type.
             transform_fn: Returns the changed message, or None for one to drop.
         """
         self._node, self._change = node, transform_fn

@@ -43,7 +43,7 @@ class ServerGoalHandle:
     Attributes:
         request: The goal message.
         is_cancel_requested: Whether a cancellation was requested and accepted.
-        goal_id: Its id.
+        goal_id: Id.
     """
 
     def __init__(self, server: "ActionServer", goal: WorldGoal, request: Any) -> None:
@@ -57,12 +57,12 @@ class ServerGoalHandle:
 
     @property
     def is_active(self) -> bool:
-        """Whether it has not ended."""
+        """Whether the goal has not ended."""
         return self._status is None and not self._goal.done
 
     @property
     def status(self) -> int:
-        """Its status, a number of GoalStatus."""
+        """Status of the goal, a number of GoalStatus."""
         if self._status is not None:
             return int(STATUS[self._status])
         if self.is_cancel_requested:
@@ -94,7 +94,7 @@ class ServerGoalHandle:
         self._status = "canceled"
 
     def execute(self, execute_callback: Any = None) -> None:
-        """Start executing it."""
+        """Start executing the goal."""
         self._executing = True
         self._server.execute(self, execute_callback)
 

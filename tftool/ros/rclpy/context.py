@@ -48,7 +48,7 @@ class Context:
         self._valid = True
 
     def ok(self) -> bool:
-        """Return whether it is initialised and not shut down."""
+        """Return whether the context is initialised and not shut down."""
         return self._valid and not self._program.interrupted
 
     def shutdown(self) -> None:

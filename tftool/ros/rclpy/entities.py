@@ -54,10 +54,10 @@ class NodeEntity:
         raise NotImplementedError
 
     def withdraw(self) -> None:
-        """Close it (in the loop's thread)."""
+        """Close the entity (in the loop's thread)."""
 
     def destroy(self) -> None:
-        """Close it, and remove it from the node."""
+        """Close the entity, and remove it from the node."""
         self.seat.forget(self)
 
     @property
@@ -191,7 +191,7 @@ class CallbackGroup:
         """Do nothing: entities know their group."""
 
     def has_entity(self, entity: Any) -> bool:
-        """Return whether an entity belongs to it."""
+        """Return whether an entity belongs to the group."""
         return getattr(entity, "callback_group", None) is self
 
     def can_execute(self, entity: Any) -> bool:
@@ -242,7 +242,7 @@ class TimerInfo:
 
 
 class Timer(NodeEntity):
-    """Calls back at multiples of its period, first one period after its creation."""
+    """Timer that calls back at multiples of its period, first one period after its creation."""
 
     is_a_callback = True
 
@@ -277,11 +277,11 @@ class Timer(NodeEntity):
         self.seat.program.ask(change)
 
     def ready(self) -> bool:
-        """Return whether it is due."""
+        """Whether the timer is due."""
         return not self._canceled and self.due <= self.seat.world.clock.now()
 
     def is_ready(self) -> bool:
-        """Return whether it is due."""
+        """Return whether the timer is due."""
         return self.ready()
 
     def take(self) -> Work:
@@ -313,7 +313,7 @@ class Timer(NodeEntity):
         self._canceled = True
 
     def is_canceled(self) -> bool:
-        """Return whether it was cancelled."""
+        """Return whether the timer was cancelled."""
         return self._canceled
 
     def reset(self) -> None:

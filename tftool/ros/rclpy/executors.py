@@ -47,7 +47,7 @@ class Executor:
     """Executes the callbacks of its nodes.
 
     Attributes:
-        spins_once: Whether it is in `spin_once`, which any traffic ends.
+        spins_once: Whether the executor is in `spin_once`, which any traffic ends.
     """
 
     def __init__(self, *, context: Context | None = None) -> None:
@@ -68,7 +68,7 @@ class Executor:
 
     @property
     def context(self) -> Context:
-        """Context whose shutdown ends it."""
+        """Context whose shutdown ends the executor."""
         return self._context
 
     def __enter__(self) -> "Executor":
@@ -107,7 +107,7 @@ class Executor:
         self._program.ask(remove)
 
     def get_nodes(self) -> list[Any]:
-        """Return its nodes."""
+        """Return the nodes of the executor."""
         return [seat.ros_node for seat in self._seats]
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:

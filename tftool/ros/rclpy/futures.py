@@ -70,11 +70,11 @@ class Future:
         return self._done
 
     def cancelled(self) -> bool:
-        """Return whether it was cancelled."""
+        """Return whether the future was cancelled."""
         return self._cancelled
 
     def cancel(self) -> None:
-        """Cancel it; does nothing once it is done."""
+        """Cancel the future; does nothing once it is done."""
         with self._mutex:
             if self._done:
                 return
@@ -139,7 +139,7 @@ class Future:
             call(callback)
 
     def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
-        """Remove `callback`; return whether it was registered."""
+        """Remove `callback`; return whether it had been registered."""
         with self._mutex:
             found = callback in self._callbacks
             self._callbacks[:] = [one for one in self._callbacks if one != callback]
@@ -187,7 +187,7 @@ class Task(Future):
             self._handler = lambda: function(*(args or ()), **(kwargs or {}))
 
     def __call__(self) -> Any:
-        """Run until it waits or ends; return what it waits for, if anything."""
+        """Run until the task waits or ends; return the awaited object, if any."""
         if self._done or self._cancelled:
             return None
         beneath, _STEPPING.beneath = _STEPPING.beneath, _asyncio_task()
@@ -215,7 +215,7 @@ class Task(Future):
         return self._is_stepping
 
     def cancel(self) -> None:
-        """Cancel it; a coroutine is closed."""
+        """Cancel the task; a coroutine is closed."""
         if self._coroutine is not None and not self._done:
             self._coroutine.close()
         super().cancel()

@@ -111,7 +111,7 @@ class StateMachine:
         """Start a transition by its name or number.
 
         Raises:
-            RuntimeError: If it does not begin here.
+            RuntimeError: If the transition does not begin in the current state.
         """
         for one in self.available_transitions:
             if wanted in (one.label, one.number):
@@ -144,18 +144,18 @@ class SimpleManagedEntity(ManagedEntity):
     _enabled = False
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Enable it."""
+        """Enable the entity."""
         self._enabled = True
         return SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Disable it."""
+        """Disable the entity."""
         self._enabled = False
         return SUCCESS
 
     @property
     def is_activated(self) -> bool:
-        """Whether it is enabled."""
+        """Whether the entity is enabled."""
         return self._enabled
 
     @staticmethod

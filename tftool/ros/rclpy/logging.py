@@ -169,7 +169,7 @@ class _Call:
         """Check that the options are the same as before.
 
         Raises:
-            ValueError: If it does not.
+            ValueError: If the request does not fit.
         """
         if severity != self._severity:
             raise ValueError("Logger severity cannot be changed between calls.")

@@ -102,11 +102,11 @@ class Node(NodeGraph, NodeParameters):
     # Who it is
 
     def get_name(self) -> str:
-        """Return its name."""
+        """Return the node's name."""
         return self._tftool.name
 
     def get_namespace(self) -> str:
-        """Return its namespace, with a leading slash."""
+        """Return the node's namespace, with a leading slash."""
         return f"/{self._tftool.namespace}"
 
     def get_fully_qualified_name(self) -> str:
@@ -114,11 +114,11 @@ class Node(NodeGraph, NodeParameters):
         return f"/{names.join(self._tftool.namespace, self._tftool.name)}"
 
     def get_logger(self) -> RcutilsLogger:
-        """Return its logger."""
+        """Return the node's logger."""
         return self._logger
 
     def get_clock(self) -> Clock:
-        """Return its clock."""
+        """Return the node's clock."""
         return self._clock
 
     @property
@@ -347,32 +347,32 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """Its publishers; its loggers' /rosout publisher is not among them, as in ROS."""
+        """Publishers of the node, without its logger's /rosout publisher, as in ROS."""
         yield from (one for one in self.__all(Publisher) if one is not self._tftool.rosout)
 
     @property
     def subscriptions(self) -> Iterator[Subscription]:
-        """Its subscriptions."""
+        """Subscriptions of the node."""
         yield from self.__all(Subscription)
 
     @property
     def clients(self) -> Iterator[Client]:
-        """Its clients."""
+        """Clients of the node."""
         yield from self.__all(Client)
 
     @property
     def services(self) -> Iterator[Service]:
-        """Its services."""
+        """Services of the node."""
         yield from self.__all(Service)
 
     @property
     def timers(self) -> Iterator[Timer]:
-        """Its timers."""
+        """Timers of the node."""
         yield from self.__all(Timer)
 
     @property
     def guards(self) -> Iterator[GuardCondition]:
-        """Its guard conditions."""
+        """Guard conditions of the node."""
         yield from self.__all(GuardCondition)
 
     def __all(self, kind: type[E]) -> list[E]:

@@ -47,7 +47,7 @@ class ParameterType(IntEnum):
         """Return the type of a Python value.
 
         Raises:
-            TypeError: If it can be no parameter.
+            TypeError: If the value can be no parameter.
         """
         if value is None:
             return cls.NOT_SET
@@ -102,11 +102,11 @@ class Parameter:
         return self.value
 
     def get_parameter_value(self) -> Any:
-        """Return it as an rcl_interfaces ParameterValue."""
+        """Return the value as an rcl_interfaces ParameterValue."""
         return value_message(self.value, int(self.type_))
 
     def to_parameter_msg(self) -> Any:
-        """Return it as an rcl_interfaces Parameter."""
+        """Return the parameter as an rcl_interfaces Parameter."""
         return INTERFACES.message("rcl_interfaces/Parameter")(
             name=self.name, value=self.get_parameter_value()
         )
@@ -121,7 +121,7 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
     """Return the Python value of a ParameterValue; None if it is not set.
 
     Raises:
-        RuntimeError: If its type is not a type of a parameter.
+        RuntimeError: If the type is not that of a parameter.
     """
     try:
         return value_of(parameter_value)
@@ -147,7 +147,7 @@ def parameter_dict_from_yaml_file(
     """Return the parameters in a file as messages, by name.
 
     Args:
-        parameter_file: Its path.
+        parameter_file: Path.
         use_wildcard: Whether entries under `/**` count, too.
         target_nodes: The nodes whose parameters are wanted, all without any.
         namespace: Prefix of the parameters' names.
@@ -217,7 +217,7 @@ class NodeParameters:
         `value` is a default, or a `Parameter.Type` when there is none.
 
         Raises:
-            ParameterAlreadyDeclaredException: If it is known.
+            ParameterAlreadyDeclaredException: If the parameter is declared already.
             ValueError: If the type is NOT_SET, or a type is given with `dynamic_typing`.
             InvalidParameterTypeException: If the given value is of another type.
         """
@@ -299,14 +299,14 @@ class NodeParameters:
     # Reading
 
     def has_parameter(self, name: str) -> bool:
-        """Return whether it is declared."""
+        """Return whether a parameter is declared."""
         return name in self._parameters
 
     def get_parameter(self, name: str) -> Parameter:
         """Return a declared parameter.
 
         Raises:
-            ParameterNotDeclaredException: If it is not declared, with the nearest name.
+            ParameterNotDeclaredException: If the parameter is not declared, with the nearest name.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None)
@@ -452,8 +452,8 @@ class NodeParameters:
             The ParameterValue it has then.
 
         Raises:
-            ParameterNotDeclaredException: If it is not declared.
-            ParameterImmutableException: If it is read-only.
+            ParameterNotDeclaredException: If the parameter is not declared.
+            ParameterImmutableException: If the parameter is read-only.
             InvalidParameterValueException: If neither value fits; all stays as it was.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:

@@ -221,7 +221,7 @@ class ParameterEventHandler:
         """Remove the callback.
 
         Raises:
-            RuntimeError: If it was not registered.
+            RuntimeError: If the callback was not registered.
         """
         _remove(self._of_one, handle)
 
@@ -229,7 +229,7 @@ class ParameterEventHandler:
         """Remove the callback.
 
         Raises:
-            RuntimeError: If it was not registered.
+            RuntimeError: If the callback was not registered.
         """
         _remove(self._of_all, handle)
 

@@ -17,7 +17,7 @@ class _Policy(IntEnum):
 
     @property
     def short_key(self) -> str:
-        """Its name in lower case."""
+        """Name of the policy in lower case."""
         return self.name.lower()
 
     @classmethod
@@ -146,7 +146,7 @@ def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
 
     Args:
         profile: The profile.
-        offered: Whether it is a publisher's. The best that is available is then the best
+        offered: Whether the quality is a publisher's. The best that is available is then the best
             there is; of a subscription it is whatever it can get.
     """
     reliability, durability = profile.reliability, profile.durability
@@ -226,7 +226,7 @@ def profile_of(given: "QoSProfile | int") -> QoSProfile:
     """Return a profile from a profile or a depth.
 
     Raises:
-        TypeError: If it is neither.
+        TypeError: If the argument is neither a profile nor a depth.
         ValueError: If the depth is negative.
     """
     if isinstance(given, QoSProfile):

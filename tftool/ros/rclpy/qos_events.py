@@ -112,7 +112,7 @@ class Silence:
 
         Args:
             seat: Seat of the node whose clock is used.
-            limit: How long is too long, nanoseconds; None for never.
+            limit: Longest allowed silence, nanoseconds; None for any.
             told: Is called on the loop's thread, once until there is a sign again.
         """
         self._seat = seat

@@ -26,13 +26,13 @@ class NodeSeat:
 
     Attributes:
         program: Program of the node.
-        world: Its world.
+        world: World.
         name: Name after renaming.
-        namespace: Its namespace, without slashes at its ends.
+        namespace: Namespace, without slashes at the ends.
         options: Options of `--ros-args` for it.
-        context: The rclpy context it lives by.
+        context: rclpy's context of the node.
         ros_node: The node as the user holds it.
-        executor: The executor that serves it, None while none does.
+        executor: Executor of the node; None without one.
         was_served: Whether an executor has ever served it.
         rosout: Publisher of its log messages, None without one.
         entities: Entities that can become ready, in the order of creation.
@@ -89,7 +89,7 @@ class NodeSeat:
         """Return a topic's or service's full name, without leading slash.
 
         Raises:
-            NameValidationException: If it can be none.
+            NameValidationException: If ROS 2 refuses the name.
         """
         validate_topic_name(name, is_service=is_service)
         full = names.expand(name, self.name, self.namespace)
@@ -216,7 +216,7 @@ def seat_of(node: Any) -> NodeSeat:
     """Return the seat of a user's node.
 
     Raises:
-        TypeError: If it is not a node, or one whose `__init__` did not call `super().__init__`.
+        TypeError: If the object is no node, or its `__init__` did not call `super().__init__`.
     """
     seat = getattr(node, "_tftool", None)
     if not isinstance(seat, NodeSeat):

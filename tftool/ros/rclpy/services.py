@@ -74,7 +74,7 @@ class Client(_Introspected, Requester):
         Unlike in ROS 2 this may be called inside a callback.
 
         Raises:
-            TimeoutError: If it takes longer than allowed.
+            TimeoutError: If the call takes longer than allowed.
         """
         future = self.call_async(request)
         wait_for(self.seat, future, timeout_sec)

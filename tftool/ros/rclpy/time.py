@@ -77,7 +77,7 @@ class Duration:
         return Duration(nanoseconds=self._nanoseconds * factor)
 
     def to_msg(self) -> Any:
-        """Return it as a builtin_interfaces Duration."""
+        """Return the duration as a builtin_interfaces Duration."""
         return values.time_message(self._nanoseconds, "Duration")
 
     @classmethod
@@ -170,7 +170,7 @@ class Time:
         return self._nanoseconds < self._alike(other)
 
     def to_msg(self) -> Any:
-        """Return it as a builtin_interfaces Time."""
+        """Return the time as a builtin_interfaces Time."""
         return values.time_message(self._nanoseconds)
 
     @classmethod
@@ -459,7 +459,7 @@ class Rate:
             raise ROSInterruptException
 
     def destroy(self) -> None:
-        """Destroy it, and wake sleeping threads."""
+        """Destroy the rate, and wake sleeping threads."""
         self.timer.destroy()
 
     def _end(self) -> None:

@@ -17,7 +17,7 @@ USE_SIM_TIME_NAME = "use_sim_time"
 
 
 class TimeSource:
-    """Sets its clocks from `/clock` while its node's `use_sim_time` is true."""
+    """Source that sets clocks from `/clock` while its node's `use_sim_time` is true."""
 
     def __init__(self, *, node: Any = None) -> None:
         self._node: Any = None
@@ -62,7 +62,7 @@ class TimeSource:
         """Follow a node's parameter `use_sim_time`.
 
         Raises:
-            TypeError: If it is not a node.
+            TypeError: If the object is not a node.
         """
         if not isinstance(node, Node):
             raise TypeError("Node must be of type rclpy.node.Node")
@@ -91,10 +91,10 @@ class TimeSource:
         self._node = None
 
     def attach_clock(self, clock: Any) -> None:
-        """Add a clock to set.
+        """Add a clock that the source shall set.
 
         Raises:
-            ValueError: If it is none of ROS time.
+            ValueError: If the clock is not of ROS time.
         """
         if not isinstance(clock, ROSClock):
             raise ValueError("Only clocks with type ROS_TIME can be attached.")

@@ -25,7 +25,7 @@ def serialize_message(message: Any) -> bytes:
     """Return the bytes of a message.
 
     Raises:
-        TypeError: If it is not a message.
+        TypeError: If the object is not a message.
     """
     if not isinstance(message, Message):
         raise TypeError(f"expected a message, got {type(message).__name__}")
@@ -36,7 +36,7 @@ def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
     """Return the message of some bytes.
 
     Raises:
-        MalformedMessage: If they are not one of that type.
+        MalformedMessage: If the bytes are no message of that type.
     """
     return codec(message_type).decode(bytes(serialized_message))
 
@@ -81,7 +81,7 @@ class Publisher(NodeEntity):
         """Send a message, or a message's bytes.
 
         Raises:
-            TypeError: If it is of another type.
+            TypeError: If the message has another type.
             InvalidHandle: If this publisher is destroyed.
         """
         if self._withdrawn:
@@ -266,7 +266,7 @@ class RosoutPublisher(Publisher):
         Args:
             seat: The node's.
             logger: The name of the node's logger; those of its children begin with it.
-            profile: How to publish, None as ROS 2 does.
+            profile: Quality of service; None for ROS 2's default.
         """
         kind: Any = INTERFACES.message("rcl_interfaces/Log")
         super().__init__(seat, kind, "/rosout", "rosout", profile or qos_profile_rosout_default)

@@ -25,7 +25,7 @@ def validate_node_name(node_name: str) -> bool:
     """Return True for a valid node name; else raise.
 
     Raises:
-        InvalidNodeNameException: If it cannot.
+        InvalidNodeNameException: If ROS 2 refuses the name.
     """
     return _valid(node_name, names.node_name_fault(node_name), InvalidNodeNameException)
 
@@ -34,7 +34,7 @@ def validate_namespace(namespace: str) -> bool:
     """Return True for a valid absolute namespace; else raise.
 
     Raises:
-        InvalidNamespaceException: If it cannot.
+        InvalidNamespaceException: If ROS 2 refuses the namespace.
     """
     return _valid(namespace, names.namespace_fault(namespace), InvalidNamespaceException)
 
@@ -66,7 +66,7 @@ def validate_parameter_name(name: str) -> bool:
     """Return True for a valid parameter name; else raise.
 
     Raises:
-        InvalidParameterException: If it cannot.
+        InvalidParameterException: If ROS 2 refuses the name.
     """
     if not isinstance(name, str) or not name:
         raise InvalidParameterException(f"Invalid parameter name: {name!r}", str(name))

@@ -130,7 +130,7 @@ class _Arrivals(NodeEntity):
         return self._any
 
     def take(self) -> Work:
-        """Do nothing: they are already in the buffer."""
+        """Do nothing: the transforms are already in the buffer."""
         self._any = False
         return lambda: None
 

@@ -136,7 +136,7 @@ class BufferInterface:
         """Transform stamped data to another frame.
 
         Raises:
-            TypeException: If it is not registered how to transform such data.
+            TypeException: If no transformation is registered for this type.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
@@ -190,13 +190,13 @@ class LookupRequest:
         return frames.lookup_transform_full(*self._full)
 
     def why_not(self, frames: Frames) -> str:
-        """Return why it fails; "" if it succeeds."""
+        """Return why the lookup fails; "" if it succeeds."""
         if self.fixed is None:
             return frames.why_not(self.target, self.source, self.time)
         return frames.why_not_full(*self._full)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:
-        """Return as soon as it succeeds; raise as soon as it never can."""
+        """Return as soon as the lookup succeeds; raise as soon as it never can."""
         if self.fixed is None:
             await waiting.wait_for_transform(frames, clock, self.target, self.source, self.time)
         else:
@@ -241,7 +241,7 @@ def stamp(time: Any) -> Stamp:
     """Return the nanoseconds of an rclpy or builtin_interfaces Time.
 
     Raises:
-        TypeError: If it is neither.
+        TypeError: If the value is no stamp.
     """
     if isinstance(time, Time):
         return time.nanoseconds
@@ -257,7 +257,7 @@ def length(timeout: Any) -> int:
     """Return the nanoseconds of a Duration.
 
     Raises:
-        TypeError: If it is none.
+        TypeError: If the value is no duration.
     """
     if isinstance(timeout, Duration):
         return timeout.nanoseconds
@@ -340,7 +340,7 @@ class BufferCore:
         """Return the pose of source in target as a geometry_msgs TransformStamped.
 
         Raises:
-            TransformException: If it cannot be given.
+            TransformException: If the transform is not available.
         """
         return self.answer(question(*asked, **named))
 
@@ -348,7 +348,7 @@ class BufferCore:
         """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
-            TransformException: If it cannot be given.
+            TransformException: If the transform is not available.
         """
         return self.answer(full_question(*asked, **named))
 
@@ -409,7 +409,7 @@ class Buffer(BufferCore, BufferInterface):
         With a timeout the thread waits, at most for that long by the world's clock.
 
         Raises:
-            TransformException: If it cannot be given.
+            TransformException: If the transform is not available.
         """
         asked = question(target_frame, source_frame, time)
         self._wait(asked, timeout)
@@ -427,7 +427,7 @@ class Buffer(BufferCore, BufferInterface):
         """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
-            TransformException: If it cannot be given.
+            TransformException: If the transform is not available.
         """
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(asked, timeout)

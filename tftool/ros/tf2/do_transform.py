@@ -151,7 +151,7 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     """Transform a PointCloud2; other fields, layout and stamp are kept.
 
     Raises:
-        AssertionError: If it has no fields x, y and z.
+        AssertionError: If the cloud has no fields x, y and z.
     """
     import numpy as np
 

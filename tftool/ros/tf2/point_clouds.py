@@ -123,7 +123,7 @@ def read_points_numpy(
     """Return the points as a plain array, one row per point; the fields have one type.
 
     Raises:
-        AssertionError: If they are not, or as `read_points` says.
+        AssertionError: If the fields have several types; also as in `read_points`.
     """
     wanted = _named(cloud.fields)
     if field_names is not None:
@@ -152,8 +152,8 @@ def create_cloud(
     """Return a PointCloud2 of points.
 
     Args:
-        header: Its header.
-        fields: Its PointFields.
+        header: Header.
+        fields: PointFields.
         points: Tuples with a number for each field; or an array, structured or one row a
             point. An array of rows of points makes an organized cloud.
         step: Bytes from one point to the next, if more than the fields take.

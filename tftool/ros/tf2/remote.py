@@ -76,7 +76,8 @@ class BufferClient(BufferInterface):
         """Return the pose of source in target from the server's buffer.
 
         Raises:
-            TransformException: If it cannot be given, or the server does not answer in time.
+            TransformException: If the transform is not available, or the server does not answer
+                in time.
         """
         return self._ask(question(target_frame, source_frame, time), timeout)
 
@@ -92,7 +93,8 @@ class BufferClient(BufferInterface):
         """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
-            TransformException: If it cannot be given, or the server does not answer in time.
+            TransformException: If the transform is not available, or the server does not answer
+                in time.
         """
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._ask(asked, timeout)
@@ -189,7 +191,7 @@ class BufferServer:
         return result
 
     async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until it is found, at most `limit` nanoseconds."""
+        """Wait until the transform is found, at most `limit` nanoseconds."""
         if found.done() or limit.nanoseconds <= 0:
             return
         over = Future()

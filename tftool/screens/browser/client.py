@@ -19,7 +19,7 @@ class TreeMessage:
     """The names of one state of the tree, as sent.
 
     Attributes:
-        revision: Its number.
+        revision: Number.
         text: The message.
         shown: Shown frames of the snapshot.
     """
@@ -57,7 +57,7 @@ class PageClient:
     """One open page: what it shows, and what it receives next.
 
     Attributes:
-        at: The moment it looks at; None follows the present.
+        at: Time shown by the page; None for the present.
         pair: Target and source whose transform it is sent.
         sent: Poses sent so far.
         skipped: Poses not sent because the page was busy.

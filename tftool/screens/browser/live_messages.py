@@ -38,7 +38,7 @@ class _HeardTopic:
     """One subscribed topic.
 
     Attributes:
-        drawn: Its drawing on the page; its one message is the last one.
+        drawn: Drawing on the page; its one message is the last one.
         quality: Quality of service of its subscription.
         stop: Ends the subscription.
         held: Messages that are not drawn yet, and when each arrived; the last one only, unless

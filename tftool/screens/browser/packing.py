@@ -59,7 +59,7 @@ class PackedBlock:
         self._known: dict[bytes, dict[str, Any]] = {}
 
     def section(self, content: bytes) -> list[int]:
-        """Append bytes; return where they are."""
+        """Append bytes; return their place in the block."""
         where = [self._length, len(content)]
         padded = content + bytes(-len(content) % 8)
         self._sections.append(padded)
@@ -123,12 +123,12 @@ class PackedBlock:
 
         Args:
             header: JSON in front of it.
-            most: How many bytes it may take.
+            most: Largest number of bytes.
             progress: Called with the progress.
-            level: How hard to try, from 1 to 9.
+            level: Level of compression, 1 to 9.
 
         Raises:
-            TooLarge: If it takes more.
+            TooLarge: If the result is larger.
         """
         head = _head(header)
         squeeze = zlib.compressobj(level)

@@ -37,8 +37,8 @@ class Request:
     """Message of a page.
 
     Attributes:
-        kind: Its type, one of `REQUESTS`.
-        fields: Its checked values by name.
+        kind: Type, one of `REQUESTS`.
+        fields: Checked values by name.
     """
 
     kind: str
@@ -232,7 +232,7 @@ def parse(message: str | bytes) -> Request:
     """Parse a message from a page.
 
     Raises:
-        InputError: If it is none of `REQUESTS`; names the mistake.
+        InputError: If the text is none of `REQUESTS`; names the mistake.
     """
     if isinstance(message, bytes):
         raise InputError("the page sends text, not bytes")

@@ -76,8 +76,8 @@ def encode_names(
         epoch: The clock's.
         revision: Counts how often the names have changed.
         frames: Shown frames.
-        total: How many there are.
-        rate: How fast the clock runs, for playing back.
+        total: Number of names.
+        rate: Rate of the clock, for playback.
         begin: The moment to open with, where everything was recorded before.
     """
     place = {frame.frame: index for index, frame in enumerate(frames)}

@@ -63,10 +63,10 @@ class DrawnTopic:
     """Messages of one topic.
 
     Attributes:
-        topic: Its name.
+        topic: Name.
         type: Type of its messages.
         messages: In the order of their stamps.
-        count: How many were recorded.
+        count: Number of were recorded.
         faults: Faults of messages, each with its count.
     """
 

@@ -30,7 +30,7 @@ class ShownRobot:
     """A robot on the page.
 
     Attributes:
-        robot: Its description.
+        robot: Description.
         folders: Folders of its meshes.
         mover: Node that moves its joints, if it is ours; else None.
         prefix: Prefix of the names of its links.

@@ -43,7 +43,7 @@ class StandaloneData:
         epoch: The moment from which the page counts; not 0.
         now: The last moment.
         begin: First shown moment; None for the latest transforms.
-        robot: The robot among them, and where its meshes lie.
+        robot: Robot among the frames, with the folders of its meshes.
         tracks: Messages that are drawn beside the frames.
         view: First settings, as in the page's address after #.
     """
@@ -63,7 +63,7 @@ class StandalonePage:
     """A file that shows the frames in any browser.
 
     Attributes:
-        content: Its bytes: HTML.
+        content: Bytes: HTML.
         is_rounded: Whether numbers lost digits, so that it is not too large.
     """
 
@@ -77,7 +77,7 @@ def standalone_page(
     """Build the file.
 
     Args:
-        data: Its contents.
+        data: Contents.
         most: From how many bytes on numbers are rounded, to a micrometre and 1e-7 in
             quaternions. A rounded value may still be larger.
         progress: Called with the progress.

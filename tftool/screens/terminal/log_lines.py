@@ -25,12 +25,12 @@ class _Entry:
     forgotten: int = 0
 
     def times(self, until: Stamp) -> int:
-        """Return how often it had been logged by a time."""
+        """Return how often the line had been logged by a time."""
         later = sum(1 for stamp in self.stamps if stamp > until)
         return 0 if later == len(self.stamps) else self.forgotten + len(self.stamps) - later
 
     def last(self, until: Stamp) -> Stamp:
-        """Return when it had last been logged by a time."""
+        """Return when the line had last been logged by a time."""
         return max((stamp for stamp in self.stamps if stamp <= until), default=0)
 
 
@@ -75,8 +75,8 @@ class Journal:
             start: The moment that counts as 0.
             width: Cells across.
             height: Lines.
-            look: How to paint.
-            back: How many of the newest lines to leave out.
+            look: Style of the text.
+            back: Number of newest lines to leave out.
         """
         told = self._told(until)
         told = told[: max(len(told) - back, 1)]
@@ -99,7 +99,7 @@ class Journal:
             until: The moment shown.
             start: The moment that counts as 0.
             width: Cells across.
-            look: How to paint.
+            look: Style of the text.
             most: Lines; what does not fit into them is cut.
         """
         told = self._told(until)

@@ -56,11 +56,11 @@ def tree(
 
     Args:
         moment: Contents to show.
-        listed: Its frames, as `rows` gives them.
+        listed: Frames of the tree, as `rows` returns them.
         cursor: The frame the cursor is on; it is kept in view.
         width: Cells across.
         height: Lines.
-        look: How to paint.
+        look: Style of the text.
     """
     dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
     if not listed:
@@ -419,7 +419,7 @@ class PairPlot:
             scene: Scene in which the pair is looked up.
             width: Cells across.
             height: Lines.
-            look: How to paint.
+            look: Style of the text.
         """
         now = moment.stamp + moment.behind
         # Until there is so much of it, the curve grows from the left.

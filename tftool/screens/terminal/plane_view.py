@@ -50,7 +50,7 @@ class Camera:
         """Zoom in by some steps; out if negative.
 
         Args:
-            steps: How many.
+            steps: Number of steps.
             at: The column and row that stays where it is; the middle if None.
         """
         columns, rows = self._size

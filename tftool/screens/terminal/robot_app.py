@@ -67,11 +67,11 @@ class RobotApp(PanelApp):
 
     Args:
         world: World with the robot's frames.
-        sliders: Its joints.
+        sliders: Joints.
         link: The link whose pose is shown; the one farthest from the root if None.
         prefix: Prefix of the names of every link.
-        setting: How to show it.
-        solids: The shapes of its links, where they are drawn.
+        setting: Options of the screen.
+        solids: Shapes of the links, if drawn.
         missing: Why some of them are not, a sentence each.
     """
 

@@ -47,8 +47,8 @@ class SceneMoment:
 
     Attributes:
         stamp: The moment shown.
-        behind: How long before now that is; 0 when live.
-        elapsed: How long after the scene's start that is.
+        behind: Time before now, nanoseconds; 0 if live.
+        elapsed: Time since the scene's start.
         snapshot: All frames at that moment.
         ages: For each frame, seconds since its latest stamp changed; 0 for static ones.
         picture: The frames, seen from above in one of them.
@@ -73,11 +73,11 @@ class SimulatedTurtle(Protocol):
 
     @property
     def pose(self) -> Any:
-        """Its last Pose message."""
+        """Last Pose message of the turtle."""
 
     @property
     def wall_hits(self) -> int:
-        """Return how often it hit the wall."""
+        """Return how often the turtle hit the wall."""
 
 
 class Simulator(Protocol):

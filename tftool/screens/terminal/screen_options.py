@@ -39,7 +39,7 @@ def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting)
     """Complete `wanted` with what the environment says about the terminal.
 
     Args:
-        environment: Its TERM, NO_COLOR, COLORFGBG and LC_ALL count.
+        environment: TERM, NO_COLOR, COLORFGBG and LC_ALL count.
         encoding: Encoding of the terminal's text.
         wanted: The wish; it is only ever restricted.
     """
@@ -87,11 +87,11 @@ class ScreenLayout:
     Attributes:
         small: Whether there is room for nothing.
         alone: Whether the picture fills the screen, without panels.
-        portrait: Whether they stand under it.
+        portrait: Whether the panels are below the picture.
         field: The picture's width and height.
         tree: The tree's height.
         pair: The echo's height.
-        log: The log's height when it is open.
+        log: Height of the open log.
     """
 
     small: bool = False
@@ -107,10 +107,10 @@ def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
     """Divide a screen among its panels.
 
     Args:
-        width: Its columns.
-        height: Its rows.
-        banner: How many of them a banner takes.
-        frames: How many lines the tree would like.
+        width: Columns.
+        height: Rows.
+        banner: Number of rows of a banner.
+        frames: Number of lines the tree would like.
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:
         return ScreenLayout(small=True)

@@ -36,8 +36,8 @@ class Slider:
         joint: The joint.
         position: Radians or metres; None while nothing is known.
         range: The least and greatest position it is slid to.
-        is_chosen: Whether keys move it.
-        follows: Whether it mimics another.
+        is_chosen: Whether keys move the slider.
+        follows: Whether the joint mimics another.
     """
 
     joint: RobotJoint
@@ -48,7 +48,7 @@ class Slider:
 
     @property
     def share(self) -> float | None:
-        """Position between its limits, from 0 to 1; None without limits."""
+        """Position of the slider between its limits, from 0 to 1; None without limits."""
         lower, upper = self.range
         if self.position is None or upper <= lower:
             return None

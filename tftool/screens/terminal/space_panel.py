@@ -59,7 +59,7 @@ class SpacePanel(Panel):
 
     Attributes:
         camera: From where they are seen.
-        in_space: Whether the panel shows them; off, it is a panel of text.
+        in_space: Whether the panel shows frames in 3-D, in place of text.
     """
 
     def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
@@ -122,7 +122,7 @@ class SpacePanel(Panel):
         """Handle a key; return whether it has a meaning here.
 
         Args:
-            key: Its name.
+            key: Name.
             chosen: The frame that "y" keeps in the middle.
         """
         if not self.in_space:
@@ -186,7 +186,7 @@ def frames_in_space(
 
     Args:
         snapshot: The frames.
-        fixed: The frame they are seen from.
+        fixed: Fixed frame of the picture.
         ages: Seconds since there was news of each.
         lookup: Gives their poses; the snapshot itself if None.
     """

@@ -39,7 +39,7 @@ def wrapped(
     Args:
         words: The sentence; it may hold strangers' names.
         width: Cells a line may take.
-        style: How to paint it.
+        style: Style of the text.
         first: Cells the first line may take, where that is another number.
     """
     width = max(1, width)

@@ -54,7 +54,7 @@ class TurtleApp(PanelApp):
     Args:
         scene: Scene to look at.
         press: Takes a key that drives: "up", "g", ...; None where nothing can be driven.
-        setting: How to show it.
+        setting: Options of the screen.
         idle: Draws while no key is pressed, where something does.
 
     Attributes:

@@ -131,10 +131,10 @@ class WorldApp(App[None]):
 
     Attributes:
         world: The world.
-        setting: How to show it.
+        setting: Options of the screen.
         ready: Set once it shows.
-        failure: Its error, for the caller to report once the terminal is restored.
-        interrupted: Whether Ctrl-C ended it.
+        failure: Error, for the caller to report once the terminal is restored.
+        interrupted: Whether Ctrl-C ended the app.
     """
 
     ENABLE_COMMAND_PALETTE = False
@@ -150,9 +150,9 @@ class WorldApp(App[None]):
         """Make the screen.
 
         Args:
-            world: Its contents.
-            setting: How to show it.
-            terminal_colors: Whether it is drawn in the terminal's own colours.
+            world: Contents.
+            setting: Options of the screen.
+            terminal_colors: Whether to draw in the terminal's own colours.
         """
         self.setting = setting or Setting()
         # Without this, textual shows greys where NO_COLOR asks for none.

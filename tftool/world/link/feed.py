@@ -138,8 +138,8 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
     """Return a topic's type on the wire, and the conversion to CDR; None if already CDR.
 
     Raises:
-        InputError: If it cannot be sent, with the reason.
-        MalformedMessage: If its type cannot be written.
+        InputError: If the message cannot be sent, with the reason.
+        MalformedMessage: If the type cannot be written.
     """
     if not is_plain(topic.name.strip("/")):
         raise InputError("its name is not valid in ROS 2")

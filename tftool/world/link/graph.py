@@ -28,11 +28,11 @@ class GraphEntity:
     Attributes:
         kind: One of `KINDS`.
         domain: Number of the ROS domain.
-        session: The process it is of, by the middleware's name for it.
+        session: Process of the entity, by the middleware's name.
         node: The node's name, with its namespace, without the leading slash.
         name: The topic's or service's name without the leading slash; of a node, "".
-        ros_type: Its type, "tf2_msgs/msg/TFMessage"; of a node, "".
-        quality: Its quality of service; of a node, the default one.
+        ros_type: Type, "tf2_msgs/msg/TFMessage"; of a node, "".
+        quality: Quality of service; of a node, the default one.
         gid: Bytes that identify it; they stand beside the messages of a publisher.
         type_hash: The hash of the type, where it is shown; else "".
     """
@@ -68,11 +68,11 @@ class Process:
 
     Attributes:
         domain: Number of its ROS domain.
-        session: The middleware's name for it.
-        since: When it joined, by its own clock.
+        session: The middleware's name of the process.
+        since: Time of joining, by the process's clock.
         pid: Its process number on its machine.
-        role: Its role for the others.
-        command: Its command: "demo", "echo".
+        role: Role for the others.
+        command: Command: "demo", "echo".
     """
 
     domain: int

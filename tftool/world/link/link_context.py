@@ -24,13 +24,13 @@ class LinkContext:
     """State shared by the parts of a link: the middleware, the world, and its errors.
 
     Attributes:
-        options: How the process takes part.
+        options: Options of the process's participation.
         middleware: Middleware that carries everything.
         graph: Graph of the other processes.
         endpoints: Endpoints of others, as entered in the world.
         refused: Received messages that were malformed.
         received: Messages that were taken in.
-        heard_statics: The gids of those who have sent static transforms.
+        heard_statics: Gids of publishers that have sent static transforms.
     """
 
     def __init__(self, options: Options, middleware: Middleware) -> None:

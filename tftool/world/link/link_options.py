@@ -36,7 +36,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
         given: The values of the middlewares' options, by the names of their parameters.
 
     Raises:
-        UsageError: If they contradict each other.
+        UsageError: If options contradict each other.
         InputError: If a file is missing, or not of the stated kind.
         TypeError: If an option is none of theirs.
     """
@@ -53,7 +53,7 @@ def reach_at(word: str) -> Reach | None:
     """Return the reach to a session by its address; None for other words.
 
     Raises:
-        UsageError: If it is an address that is written wrong.
+        UsageError: If the address is malformed.
     """
     found = (one.at(word) for one in REACHES)
     return next((one for one in found if one is not None), None)
@@ -64,7 +64,7 @@ class Options:
     """Options of a process in a session.
 
     Attributes:
-        command: Its command: "demo", "echo".
+        command: Command: "demo", "echo".
         domain: Number of the ROS domain.
         reach: Middleware, and reach beyond this machine's own processes.
         read_only: Only look: declare no publisher, no service and no token.
@@ -80,7 +80,7 @@ def domain_here() -> int:
     """Return the domain in ROS_DOMAIN_ID, else 0.
 
     Raises:
-        UsageError: If it is not a domain.
+        UsageError: If the number is not a domain.
     """
     text = os.environ.get("ROS_DOMAIN_ID", "")
     if not text:

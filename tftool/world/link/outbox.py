@@ -33,7 +33,7 @@ class Outbox:
     """Calls that send, made in order in one thread.
 
     Attributes:
-        dropped: How many were dropped because too much waited for a sender that is stuck.
+        dropped: Number of were dropped because too much waited for a sender that is stuck.
     """
 
     def __init__(self) -> None:

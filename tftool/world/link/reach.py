@@ -20,7 +20,7 @@ class LinkOption:
     Attributes:
         kind: The type of its value: bool, `list[str] | None` or `Path | None`.
         flag: The flag as typed, "--listen".
-        text: Its help.
+        text: Help.
         metavar: Name of its value in the help; None for a flag.
     """
 
@@ -59,7 +59,7 @@ class Reach:
         """Return the reach to the session whose address a word is; None for other words.
 
         Raises:
-            UsageError: If it begins as such an address, and is wrong.
+            UsageError: If the text begins as such an address, and is malformed.
         """
         return None
 
@@ -68,7 +68,7 @@ class Reach:
         """Combine the values of its options.
 
         Raises:
-            UsageError: If they contradict each other.
+            UsageError: If options contradict each other.
             InputError: If a file is missing, or not of the stated kind.
         """
         raise NotImplementedError

@@ -20,8 +20,8 @@ class Arrived(NamedTuple):
     """A received message.
 
     Attributes:
-        payload: Its CDR.
-        sender: The gid of its publisher; b"" where it does not say.
+        payload: CDR.
+        sender: Gid of the publisher; b"" if unknown.
     """
 
     payload: bytes
@@ -51,7 +51,7 @@ class WireRequest(Protocol):
 
     @property
     def payload(self) -> bytes:
-        """Its CDR."""
+        """CDR bytes of the request."""
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
         """Send the response, once."""
@@ -170,7 +170,7 @@ class Middleware:
 
         Args:
             name: The topic.
-            ros_type: Its type; publishers of another one are not heard.
+            ros_type: Type; publishers of another one are not heard.
             on_message: Called with every message.
             is_latched: Whether to ask for earlier messages.
         """

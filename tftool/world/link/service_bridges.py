@@ -97,7 +97,7 @@ def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answeri
 
     Args:
         link: The link.
-        node: The node that serves it, "" where that is not said.
+        node: Node that serves it; "" if unknown.
         name: The service's name.
         kind: The service's class.
     """
@@ -120,7 +120,7 @@ class ServiceClient:
         )
 
     def close(self) -> None:
-        """Remove it from our world."""
+        """Remove the service from our world."""
         self._withdraw()
         self._asking.close()
 
@@ -221,7 +221,7 @@ class ActionClient:
         )
 
     def close(self) -> None:
-        """Remove it from our world; running goals end as aborted."""
+        """Remove the action from our world; running goals end as aborted."""
         self._withdraw()
         self._stop_feedback()
         self._tasks.cancel()

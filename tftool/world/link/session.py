@@ -44,7 +44,7 @@ class Link(LinkContext):
     """A process's connection to a session, which carries its world's traffic.
 
     Attributes:
-        departures: How many processes that sent transforms have left.
+        departures: Number of processes that sent transforms have left.
     """
 
     def __init__(self, options: Options) -> None:

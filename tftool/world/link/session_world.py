@@ -37,12 +37,12 @@ class Session:
     """A world to work in, and what keeps it running.
 
     Attributes:
-        world: Its frames and topics.
-        is_hosted: Whether this process runs it.
-        name: Its name in sentences: "scenario 'turtles'".
+        world: Frames and topics.
+        is_hosted: Whether this process hosts the session.
+        name: Name in sentences: "scenario 'turtles'".
         live: Lives the world through, for ever or until a moment.
-        head_start: How much of it is lived through before work begins.
-        duration: How long its scenario lasts; None where nothing says so.
+        head_start: Part that is simulated before work begins.
+        duration: Duration of the scenario; None if unlimited.
         link: Link to other processes; None for a world of its own.
         tell: Takes every line of the world's log while it lives.
     """
@@ -79,7 +79,7 @@ class Session:
 
         Raises:
             NodeFailed: If a node of the world raised first.
-            KeyboardInterrupt: If a signal ended it.
+            KeyboardInterrupt: If a signal ended the session.
         """
         return run(self.world.clock, self.along(work, on_interrupt))
 
@@ -148,9 +148,9 @@ def joined_session(
 
     Args:
         link: Leads there.
-        clock: Its time.
+        clock: Time.
         place: Description of the others, for sessions whose processes have no name.
-        cache_time: How far back its buffer remembers.
+        cache_time: Cache time of the session's buffer, nanoseconds.
         tell: Takes every line of its log.
     """
     world = World(clock, cache_time=cache_time or CACHE_TIME)

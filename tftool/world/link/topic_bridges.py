@@ -366,7 +366,7 @@ class ClockFollower:
 
         Args:
             world: World of the topics.
-            clock: Its clock.
+            clock: Clock.
         """
         self._world = world
         self._clock = clock

@@ -165,7 +165,7 @@ def require_period(period: Duration) -> Duration:
     """Return the period, or refuse it.
 
     Raises:
-        UsageError: If it is not positive.
+        UsageError: If the period is not positive.
     """
     if period <= 0:
         raise UsageError(f"a period must be longer than 0 s, not {period / NANOSECONDS:g} s")
@@ -242,9 +242,9 @@ class Noise(Node):
         Args:
             world: World to join.
             name: The node's name.
-            parent: The frame it hangs from.
+            parent: Parent frame.
             child: The frame that is broadcast.
-            offset: Its true position in the parent, in metres.
+            offset: True position in the parent, in metres.
             position: Standard deviation of each coordinate, in metres.
             angle: Standard deviation about each axis, in radians.
             drift: Standard deviation of x and y after one second of drift, in metres.

@@ -50,7 +50,7 @@ class Follower(Node):
             leader: The frame to follow.
             follower: The turtle to steer; its frame has its name.
             period: Nanoseconds between two commands.
-            delay: How long ago, in nanoseconds, the leader is looked for.
+            delay: Age of the leader's pose that is followed, nanoseconds.
             fixed_frame: The frame that carries the question over the delay; None asks
                 where both were back then, which steers by the follower's own past.
             distance_gains: From metres to m/s.

@@ -93,7 +93,7 @@ class RobotStatePublisher(Node):
             topics: Topics of joint states and of the description.
 
         Raises:
-            UsageError: If the frequency is none it takes.
+            UsageError: If the frequency is out of range.
         """
         if not 0.0 <= publish_frequency <= FASTEST:
             raise UsageError(
@@ -220,7 +220,7 @@ class JointStatePublisher(Node):
             name: The node's name.
             robot: The robot; if None, wait for its description.
             positions: First positions of joints, radians or metres.
-            rate: How often to publish, hertz.
+            rate: Rate of publishing, hertz.
             sources: Topics with joint states of others, which move the same joints.
             topics: Topics of joint states and of a description.
 
@@ -313,7 +313,7 @@ class MovingRobot(RobotStatePublisher):
             recording: The recording of recorded motion.
             cycle: How long there and back takes; for each joint a little longer than for
                 the one before it, so that no two move alike.
-            period: How often joint states are published.
+            period: Period of the joint states.
             frame_prefix: Prefix of every link's name.
 
         Raises:

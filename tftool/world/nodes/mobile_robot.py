@@ -218,7 +218,7 @@ class ScanMatcher(_Observer):
             world: World to join.
             name: The node's name.
             origin: The frame of the first scan.
-            child: The laser as the scans show it.
+            child: Frame of the laser as estimated from the scans.
             mount: x, y and heading of the laser on the robot, in truth.
             position: Standard deviation of x and of y, metres.
             angle: Standard deviation of the heading, radians.

@@ -36,9 +36,9 @@ class Player(Node):
     Its moments are on the clock of the recording's stamps.
 
     Attributes:
-        rate: How many of the recording's seconds pass in a real one.
-        is_paused: Whether it is paused.
-        laps: How often it has started over.
+        rate: Seconds of the recording for each real second.
+        is_paused: Whether the player is paused.
+        laps: Number of restarts.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -67,7 +67,7 @@ class Player(Node):
             timeline: Timeline to send.
             pace: Clock of real time, or a test's substitute.
             span: From where to where to play; all of it if None.
-            rate: How many of the recording's seconds pass in one of `pace`.
+            rate: Seconds of the recording for each second of `pace`.
             is_paused: Whether to begin standing still.
             is_looping: Whether to start over at the end.
             is_restamped: Whether to move stamps to the moment at which they are sent, and publish

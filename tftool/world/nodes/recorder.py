@@ -84,7 +84,7 @@ class Recorder:
         self.refresh()
 
     def refresh(self) -> None:
-        """Subscribe to new topics; call it now and then.
+        """Subscribe to new topics; to be called regularly.
 
         Raises:
             InputError: If a message could not be taken.
@@ -232,7 +232,7 @@ def recorded(world: World, path: Path, *, force: bool = False) -> "Iterator[Roll
 
     Raises:
         UsageError: If something has that name and `force` is not given.
-        InputError: If it cannot be written.
+        InputError: If the file cannot be written.
     """
     # Writers bring numpy along, which a demonstration that is not recorded starts without.
     from tftool.recordings.decompression import best_compression

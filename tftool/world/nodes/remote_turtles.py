@@ -42,10 +42,10 @@ class FarTurtle:
     """Known facts about a turtle of another process.
 
     Attributes:
-        name: Its name.
-        pose: The Pose message it sent last.
-        heard: When that came.
-        wall_hits: How often it met the wall, which no topic tells.
+        name: Name.
+        pose: Last Pose message.
+        heard: Time of its arrival.
+        wall_hits: Number of wall hits, which no topic carries.
     """
 
     name: str

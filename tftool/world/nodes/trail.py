@@ -42,8 +42,8 @@ class Trail:
 
     Attributes:
         segments: The newest segments, oldest first.
-        drawn: How many segments were drawn since the last wipe.
-        wipes: How often the layer was wiped.
+        drawn: Number of segments were drawn since the last wipe.
+        wipes: Number of times the layer was wiped.
     """
 
     def __init__(self) -> None:
@@ -200,7 +200,7 @@ class FarDrawing:
     """Copy of a trail in another process, as far as it was received.
 
     Attributes:
-        is_whole: Whether it was complete at the last answer.
+        is_whole: Whether the copy was complete at the last answer.
     """
 
     def __init__(self, trail: Trail) -> None:

@@ -56,7 +56,7 @@ def require_turtle_name(name: str) -> str:
     """Return the name, or refuse it: it becomes part of topic names and a frame.
 
     Raises:
-        UsageError: If it is not a letter or '_' followed by letters, digits and '_'.
+        UsageError: If the name is not a letter or '_' followed by letters, digits and '_'.
     """
     if _NAME.fullmatch(name) is None:
         raise UsageError(
@@ -75,13 +75,13 @@ class Turtle:
     """A turtle's state; only the simulator changes it, everybody may read it.
 
     Attributes:
-        name: Its name, which is its frame's name too.
+        name: Name of the turtle and of its frame.
         pose: The Pose message published last, rounded to 32-bit floats.
-        place: Its exact pose.
+        place: Exact pose.
         forward: Speed along its heading in m/s; negative when reversing.
         sideways: Speed to its left in m/s.
         turn: Turn rate in rad/s.
-        pen_on: Whether it draws.
+        pen_on: Whether the turtle draws.
         color: Colour of its pen.
         width: Width of its pen in pixels.
         wall_hits: In how many updates it met the wall.
@@ -458,7 +458,7 @@ def requested_placement(request: Any) -> Placement:
     """Round x, y and theta of a request for Spawn or TeleportAbsolute to 32 bits.
 
     Raises:
-        UsageError: If one of them is NaN, infinite or too large for that.
+        UsageError: If a number is NaN, infinite or too large for a 32-bit float.
     """
     return Placement(
         float32_finite(request.x, "x"),
@@ -471,7 +471,7 @@ def require_byte(value: int, what: str) -> int:
     """Return a colour channel's value, or refuse it by name.
 
     Raises:
-        UsageError: If it is not a whole number from 0 to 255.
+        UsageError: If the number is not a whole number from 0 to 255.
     """
     if not (isinstance(value, int) and 0 <= value <= 255):
         raise UsageError(f"{what} must be a whole number from 0 to 255, not {value!r}")

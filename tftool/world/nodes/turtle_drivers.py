@@ -32,8 +32,8 @@ class DrawSquare(Node):
     """Drives a turtle along squares: forward, stop, turn, stop, one check per tick.
 
     Attributes:
-        state: Its present phase.
-        goal: Its goal; None before the first pose.
+        state: Present phase.
+        goal: Goal; None before the first pose.
     """
 
     def __init__(
@@ -181,7 +181,7 @@ class IdleDrawing(Node):
     `touch`, and while `is_alone` reports that others are there.
 
     Attributes:
-        is_drawing: Whether it does now.
+        is_drawing: Whether it is drawing now.
     """
 
     def __init__(
@@ -199,7 +199,7 @@ class IdleDrawing(Node):
             world: World to join.
             name: The node's name.
             turtle: Turtle that draws.
-            patience: How long it must have been left alone, nanoseconds.
+            patience: Time without commands before it draws, nanoseconds.
             is_alone: Whether no other process could drive it, or looks on.
         """
         super().__init__(world, name)

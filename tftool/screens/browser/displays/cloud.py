@@ -16,7 +16,7 @@ def draw(message: Any, arrival: Arrival) -> DrawnMessage:
     """Return the points.
 
     Raises:
-        InputError: If it has no x, y and z in floats, or fewer bytes than stated.
+        InputError: If the cloud has no x, y and z in floats, or fewer bytes than stated.
     """
     fields = {field.name: field for field in message.fields}
     order = ">" if message.is_bigendian else "<"

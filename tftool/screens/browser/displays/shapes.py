@@ -21,18 +21,19 @@ class Shape:
     """One shape of a message.
 
     Attributes:
-        kind: How the page draws it: the name of a function in `page/displays/`.
+        kind: Name of the function in `page/displays/` that draws the shape.
         frame: Frame of its positions.
-        stamp: When its frame is looked up, nanoseconds, 0 for the latest; None if the shape moves
+        stamp: Time at which the frame is looked up, nanoseconds, 0 for the latest; None if the
+            shape moves
             with its frame.
         places: Positions, all finite.
         colors: Red, green, blue and opacity of each position, 0 to 255, shape (n, 4); None for
             the colour of the topic.
         turn: Orientation of what is drawn at each position.
         size: Extent of what is drawn at each position, metres along its own axes.
-        text: Its words.
-        key: Its name within its topic; a later shape of the same name replaces it.
-        until: When it disappears, nanoseconds; None for never.
+        text: Words.
+        key: Name within the topic; a later shape of the same name replaces this one.
+        until: Time at which the shape disappears, nanoseconds; None for never.
         placement: Root above its frame at its stamp, and the frame's pose in it: translation and
             rotation; None each if unknown. None before the lookup.
     """
@@ -70,7 +71,7 @@ class DrawnMessage:
     """One message in drawable form.
 
     Attributes:
-        stamp: Its moment, nanoseconds.
+        stamp: Moment, nanoseconds.
         shapes: Everything its topic shows from then on.
         faults: Reasons why parts of the message are not drawn.
     """
@@ -94,8 +95,8 @@ class Arrival:
     """Facts about a message that a display may use besides it.
 
     Attributes:
-        stamp: When the message arrived, nanoseconds.
-        most: How many positions of a cloud of points are drawn.
+        stamp: Time of the message's arrival, nanoseconds.
+        most: Number of positions of a cloud of points are drawn.
         before: The message that the topic showed until now; None before the first.
     """
 

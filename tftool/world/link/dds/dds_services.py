@@ -79,7 +79,7 @@ class CycloneServer:
         Args:
             part: State that both sides share.
             name: The service's name.
-            ros_type: Its type.
+            ros_type: Type.
             on_request: Called with every request.
             on_stranger: Called with the name of a library whose requests cannot be read.
         """

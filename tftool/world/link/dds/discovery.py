@@ -82,7 +82,7 @@ class Information:
         """Encode a participant's announcement.
 
         Args:
-            participant: Its GUID.
+            participant: GUID.
             nodes: GUIDs of the readers and the writers of each of its nodes.
         """
         said: Any = self.kind()
@@ -96,7 +96,7 @@ class Information:
         """Decode a participant's announcement: GUID, nodes by the GUIDs of endpoints, all nodes.
 
         Raises:
-            MalformedMessage: If it is none of this form.
+            MalformedMessage: If the bytes have another form.
         """
         said: Any = self._codec.decode(payload)
         nodes, found = [], {}
@@ -127,7 +127,7 @@ class Discovery:
 
     Attributes:
         graph: Graph of the other processes.
-        participants: How many of them.
+        participants: Number of participants.
     """
 
     def __init__(self, participant: Participant, domain: int) -> None:

@@ -43,7 +43,7 @@ class DdsSample:
     """A received message.
 
     Attributes:
-        payload: Its CDR.
+        payload: CDR.
         writer: The library's number of the writer that sent it.
     """
 
@@ -62,7 +62,7 @@ class Domains:
         """Use a domain; it is closed after as many calls of `leave`.
 
         Raises:
-            LinkError: If it is there with another configuration, or cannot be made.
+            LinkError: If the domain exists with another configuration, or cannot be made.
         """
         config = network.xml()
 
@@ -100,7 +100,7 @@ class Participant:
 
     Attributes:
         entity: The library's participant.
-        gid: Its GUID, 16 bytes.
+        gid: GUID, 16 bytes.
         oversized: Messages that were larger than `LARGEST`.
     """
 
@@ -163,7 +163,7 @@ class Participant:
 
         Args:
             topic: The name of the topic in DDS.
-            kind: The class of its messages.
+            kind: Class of the messages.
             quality: Requested quality of service.
             on_sample: Called with every message.
             on_refused: Called with the number of the policy that makes a writer incompatible.
@@ -203,7 +203,7 @@ class Participant:
 
         Args:
             topic: The name of the topic in DDS.
-            kind: The class of its messages.
+            kind: Class of the messages.
             quality: Offered quality of service.
             user_data: User data sent with it: the hash of its type.
         """
@@ -232,7 +232,7 @@ class Participant:
         return BuiltinDataReader(self.entity, topic, listener=Telling())
 
     def tell(self, user_data: bytes) -> None:
-        """Change its user data."""
+        """Change the participant's user data."""
         self.entity.set_qos(Qos(Policy.Userdata(user_data)))
 
     def at_close(self, close: Callable[[], None]) -> None:
@@ -289,7 +289,7 @@ class TopicWriter:
     """A writer, until it is closed; as a publisher see `seam.WirePublisher`.
 
     Attributes:
-        gid: Its GUID, 16 bytes.
+        gid: GUID, 16 bytes.
         hide: Withdraws the announcement of the node that it belongs to.
     """
 

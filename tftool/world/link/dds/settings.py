@@ -147,7 +147,7 @@ def _checked(place: str) -> str:
     """Check an interface's name or address, or resolve a host's name.
 
     Raises:
-        LinkError: If it is neither.
+        LinkError: If the value is neither.
     """
     if place in _interfaces():
         return place

@@ -142,7 +142,7 @@ class FoxgloveClient:
         """Wait until the server has announced its channels.
 
         Raises:
-            LinkError: If it cannot be reached, or is no such server.
+            LinkError: If the server cannot be reached, or is no Foxglove server.
         """
         self._first.wait(TIMEOUT + PATIENCE)
         if self._failure or not self._first.is_set():
@@ -164,8 +164,8 @@ class FoxgloveClient:
 
         Args:
             name: The topic without a leading slash.
-            ros_type: Its type.
-            again: Whether to ask anew where it is subscribed, for messages the server keeps.
+            ros_type: Type.
+            again: Whether to subscribe again, for messages that the server keeps.
         """
         self._call(self._want, (name, ros_type), again)
 

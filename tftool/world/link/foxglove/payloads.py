@@ -31,7 +31,7 @@ class RosTopic(NamedTuple):
 
     Attributes:
         name: The topic without a leading slash.
-        type: Its type, "sensor_msgs/msg/LaserScan"; as the server has it where ROS has none.
+        type: Type, "sensor_msgs/msg/LaserScan"; the server's name if ROS has none.
     """
 
     name: str
@@ -109,7 +109,7 @@ def _definitions(channel: FoxgloveChannel) -> Interfaces | None:
     """Return the server's definitions of a channel's type; None if it gives none.
 
     Raises:
-        InputError: If they are wrong, contain themselves or have too many fields.
+        InputError: If definitions are wrong, contain themselves or have too many fields.
     """
     if channel.schema_encoding not in ("ros1msg", "ros2msg") or not channel.definition.strip():
         return None

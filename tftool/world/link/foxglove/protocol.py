@@ -49,11 +49,11 @@ class FoxgloveChannel:
     """One topic of a server with one schema.
 
     Attributes:
-        number: Its number on this connection.
+        number: Number on this connection.
         topic: The topic, as the server writes it.
-        encoding: How messages are written: "cdr", "ros1", "protobuf", "json".
+        encoding: Encoding of messages: "cdr", "ros1", "protobuf", "json".
         type: The type, as the server writes it.
-        schema_encoding: How its definition is written: "ros2msg", "ros1msg", "protobuf".
+        schema_encoding: Language of the definition: "ros2msg", "ros1msg", "protobuf".
         definition: The definition; "" where it is left out or not remembered.
     """
 
@@ -70,9 +70,9 @@ class ServerState:
     """Everything a server has announced on one connection.
 
     Attributes:
-        name: Its name for itself; "" until it has said it.
+        name: Name of the server; "" until received.
         capabilities: Capabilities besides topics.
-        channels: Its channels by number.
+        channels: Channels by number.
         publishers: Names of each topic's publishers.
         subscribers: Names of each topic's subscribers.
         providers: Names of each service's nodes.
@@ -97,7 +97,7 @@ class ServerState:
         """Process one JSON message; return its operation, "" for one without meaning here.
 
         Raises:
-            ProtocolError: If it is none of the protocol.
+            ProtocolError: If the message violates the protocol.
         """
         if len(text) > LARGEST_TEXT:
             raise ProtocolError(f"a text of {len(text)} characters")
@@ -214,7 +214,7 @@ def message_data(frame: bytes) -> tuple[int, bytes] | None:
     """Return a binary message's subscription and payload; None for other kinds.
 
     Raises:
-        ProtocolError: If it ends too early.
+        ProtocolError: If the message ends too early.
     """
     if not frame or frame[0] != 1:
         return None
@@ -227,7 +227,7 @@ def server_time(frame: bytes) -> Stamp | None:
     """Return the time in a binary message; None for other kinds.
 
     Raises:
-        ProtocolError: If it is cut off, or no time of 32-bit seconds.
+        ProtocolError: If the message is cut off, or the time exceeds 32-bit seconds.
     """
     if not frame or frame[0] != 2:
         return None

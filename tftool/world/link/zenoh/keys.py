@@ -42,7 +42,7 @@ def type_hash(ros_type: str) -> str:
     """Return a type's hash (RIHS01); a type that was used once keeps its definition.
 
     Raises:
-        InputError: If its definition is not known.
+        InputError: If the definition is unknown.
     """
     return hashes.type_hash(INTERFACES, ros_type)
 
@@ -68,7 +68,7 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
     Args:
         domain: Number of the ROS domain.
         name: Name of the topic or service.
-        ros_type: Its type.
+        ros_type: Type.
         its_hash: The hash that the other side has for the type, which may be of another
             release; ours if "".
     """
@@ -109,7 +109,7 @@ def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
     Args:
         entity: The entity; without a type hash it has ours.
         node_id: Number of its node within the session.
-        entity_id: Its own number within the session; of a node, the same.
+        entity_id: Own number within the session; of a node, the same.
     """
     namespace, _, node = entity.node.rpartition("/")
     parts = [LIVELINESS, str(entity.domain), entity.session, str(node_id), str(entity_id)]
@@ -190,7 +190,7 @@ class Attachment:
 
     Attributes:
         sequence: Number of the message, or of the question that is answered.
-        stamp: When it was sent, by the sender's clock.
+        stamp: Time of sending, by the sender's clock.
         gid: Id of the sender, 16 bytes.
     """
 
@@ -199,7 +199,7 @@ class Attachment:
     gid: bytes
 
     def encode(self) -> bytes:
-        """Return its bytes."""
+        """Return the attachment as bytes."""
         return _ATTACHMENT.pack(self.sequence, self.stamp, 16, self.gid)
 
 
@@ -212,7 +212,7 @@ def parse_attachment(raw: bytes) -> Attachment:
     """Parse a payload's metadata, in the present form or the named one of early Jazzy.
 
     Raises:
-        MalformedMessage: If it is neither.
+        MalformedMessage: If the bytes have another form.
     """
     if len(raw) == _ATTACHMENT.size:
         sequence, stamp, length, gid = _ATTACHMENT.unpack(raw)

@@ -324,7 +324,7 @@ class ZenohRequest:
 
     @property
     def payload(self) -> bytes:
-        """Its CDR."""
+        """CDR bytes of the request."""
         return self._query.payload
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:

@@ -29,7 +29,7 @@ class Certificates:
 
     Attributes:
         certificate: Our certificate, PEM.
-        key: Its private key, PEM.
+        key: Private key, PEM.
         authority: The certificate that signed the other side's, PEM.
     """
 
@@ -135,7 +135,7 @@ class ZenohReach(Reach):
         return bool(self.listen or self.connect or self.config is not None)
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Whether it goes to another machine's session."""
+        """Whether the session is on another machine."""
         return bool(self.connect)
 
     @staticmethod
@@ -154,7 +154,7 @@ class ZenohReach(Reach):
         return rendezvous.frames_known(domain)
 
     def place(self, domain: int) -> str:
-        """Return its endpoints as text."""
+        """Return the endpoints as text."""
         return ", ".join(self.connect)
 
     def join(self, options: "Options") -> "Middleware":

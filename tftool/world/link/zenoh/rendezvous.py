@@ -236,7 +236,7 @@ def _make_private(path: Path) -> None:
     """Create a folder that only its owner may enter, or check that it is one.
 
     Raises:
-        LinkError: If it cannot be made, or others may enter it.
+        LinkError: If the folder cannot be made, or others may enter it.
     """
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)

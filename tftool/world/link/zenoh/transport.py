@@ -80,7 +80,7 @@ class Wire:
     """An open zenoh session.
 
     Attributes:
-        zid: Its name, in hexadecimal.
+        zid: Name, in hexadecimal.
         oversized: Number of messages above the size limit.
     """
 
@@ -135,7 +135,7 @@ class Wire:
 
         Args:
             key: The key, without wildcards.
-            quality: Whether they may be lost, and how many are kept for those who come late.
+            quality: Reliability, and number of messages kept for late subscribers.
         """
         congestion, reliability = self._zenoh.CongestionControl, self._zenoh.Reliability
         reliable = quality.is_reliable
@@ -344,7 +344,7 @@ def import_zenoh() -> Any:
     """Import the library.
 
     Raises:
-        LinkError: If it is missing.
+        LinkError: If zenoh is missing.
     """
     try:
         import zenoh
