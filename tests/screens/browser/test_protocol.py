@@ -17,7 +17,7 @@ from tftool.screens.browser import protocol
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.page_messages import (
     ANSWERS,
-    Request,
+    PageRequest,
     answer,
     as_javascript,
     parse,
@@ -63,7 +63,7 @@ TRAILS = '{"type": "trails", "fixed": "map", "frames": %s, "from": 1, "to": 2, "
     ],
 )
 def test_what_the_page_may_say(said, kind, fields):
-    assert parse(said) == Request(kind, fields)
+    assert parse(said) == PageRequest(kind, fields)
 
 
 @pytest.mark.parametrize(
@@ -158,8 +158,8 @@ def test_a_jump_is_marked_where_there_is_a_robot_and_not_among_turtles(moving, m
 def test_every_field_of_an_answer_has_the_type_of_the_table():
     filled = buffer()
     snapshot = filled.snapshot(seconds(1004))
-    asked = Request("series", {"target": "world", "source": "camera", **span(0.5, 3.5, 4)})
-    wanted = Request(
+    asked = PageRequest("series", {"target": "world", "source": "camera", **span(0.5, 3.5, 4)})
+    wanted = PageRequest(
         "trails", {"fixed": "world", "frames": ("camera", "nobody"), **span(0.5, 3.5, 4)}
     )
     answers = [
@@ -304,7 +304,7 @@ def test_trails_leave_out_what_is_too_far_away_to_be_rounded():
         far.set_transform(
             TransformStamped(seconds(second), "world", "turtle", Transform((x, 0.0, 0.0))), "me"
         )
-    asked = Request("trails", {"fixed": "world", "frames": ("turtle",), **span(1.0, 2.0, 2)})
+    asked = PageRequest("trails", {"fixed": "world", "frames": ("turtle",), **span(1.0, 2.0, 2)})
 
     told = json.loads(protocol.encode_trails(far, EPOCH, asked), parse_constant=pytest.fail)
 
@@ -312,7 +312,7 @@ def test_trails_leave_out_what_is_too_far_away_to_be_rounded():
 
 
 def test_trails_to_a_moment_that_no_stamp_holds_are_answered():
-    asked = Request("trails", {"fixed": "world", "frames": ("turtle",), **span(1.0, 1e12, 2)})
+    asked = PageRequest("trails", {"fixed": "world", "frames": ("turtle",), **span(1.0, 1e12, 2)})
 
     told = json.loads(protocol.encode_trails(buffer(), EPOCH, asked))
 
@@ -320,7 +320,7 @@ def test_trails_to_a_moment_that_no_stamp_holds_are_answered():
 
 
 def test_trails_are_places_at_even_moments_and_null_where_none_is_known():
-    asked = Request(
+    asked = PageRequest(
         "trails", {"fixed": "world", "frames": ("turtle", "camera", "nobody"), **span(1.0, 4.0, 4)}
     )
 

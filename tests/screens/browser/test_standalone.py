@@ -17,7 +17,7 @@ from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import page_messages, protocol
-from tftool.screens.browser.page_messages import HEADER, Request
+from tftool.screens.browser.page_messages import HEADER, PageRequest
 from tftool.screens.browser.standalone import (
     MOST_BYTES,
     StandaloneData,
@@ -102,14 +102,14 @@ def test_every_answer_is_the_servers(tmp_path, seed):
         moment - EPOCH for moment in protocol.moments(buffer.snapshot(now).frames)
     ]
     span = {"from": -0.25, "to": 3.3, "count": 301}
-    asked = Request("series", {"target": "map", "source": "laser", **span})
+    asked = PageRequest("series", {"target": "map", "source": "laser", **span})
     wanted = json.loads(protocol.encode_series(buffer, EPOCH, asked))
     assert told["series"].keys() == wanted.keys()
     for key in ("times", *protocol.SERIES):
         found, known = (np.array(one[key], dtype=float) for one in (told["series"], wanted))
         assert 10 < np.isnan(known).sum() < 200 or key == "times"
         np.testing.assert_allclose(found, known, rtol=1e-9, atol=1e-12)
-    asked = Request("trails", {"fixed": "map", "frames": ("laser", "base", "nobody"), **span})
+    asked = PageRequest("trails", {"fixed": "map", "frames": ("laser", "base", "nobody"), **span})
     wanted = json.loads(protocol.encode_trails(buffer, EPOCH, asked))
     assert told["trails"].keys() == wanted.keys()
     for frame, places in wanted["places"].items():

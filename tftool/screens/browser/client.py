@@ -78,7 +78,7 @@ class PageClient:
         self._displays: dict[str, bytes] = {}
         self._wake = asyncio.Event()
 
-    def hear(self, request: page_messages.Request, epoch: Stamp) -> None:
+    def hear(self, request: page_messages.PageRequest, epoch: Stamp) -> None:
         """Handle a request to show a moment or a pair, or an acknowledgement."""
         if request.kind == "got":
             self._drawn = max(self._drawn, min(request["sequence"], self.sent))

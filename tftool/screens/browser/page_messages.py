@@ -33,7 +33,7 @@ ARROWS: Final = ("up", "down", "left", "right")
 
 
 @dataclass(frozen=True, slots=True)
-class Request:
+class PageRequest:
     """Message of a page.
 
     Attributes:
@@ -228,7 +228,7 @@ NUMBERS: Final = ("x", "y", "z", "qx", "qy", "qz", "qw", "newest", "oldest", "ra
 span, its rate in hertz, and its number of samples."""
 
 
-def parse(message: str | bytes) -> Request:
+def parse(message: str | bytes) -> PageRequest:
     """Parse a message from a page.
 
     Raises:
@@ -254,7 +254,7 @@ def parse(message: str | bytes) -> Request:
         raise InputError("a pair is two names of frames, or null twice")
     if "from" in fields and not fields["from"] < fields["to"]:
         raise InputError("a series goes from one moment to a later one")
-    return Request(kind, fields)
+    return PageRequest(kind, fields)
 
 
 def answer(kind: str, fields: Mapping[str, Any]) -> dict[str, Any]:

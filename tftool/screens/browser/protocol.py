@@ -15,7 +15,7 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import grow
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.screens.browser.page_messages import HEADER, MAGIC, Request, answer
+from tftool.screens.browser.page_messages import HEADER, MAGIC, PageRequest, answer
 
 HISTORY = 120
 """Moments that tell what the buffer remembers; fewer where there are many frames."""
@@ -174,7 +174,7 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
     return json.dumps(answer("pair", told))
 
 
-def encode_series(buffer: Buffer, epoch: Stamp, asked: Request) -> str:
+def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
     """Serialise a pair's transform at evenly spread times, null where there is none."""
     stamps = _stamps(epoch, asked)
     told: dict[str, Any] = {
@@ -198,7 +198,7 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: Request) -> str:
     return json.dumps(answer("series", told | dict(zip(SERIES, columns, strict=True))))
 
 
-def encode_trails(buffer: Buffer, epoch: Stamp, asked: Request) -> str:
+def encode_trails(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
     """Serialise frames' positions at evenly spread times, null where unknown."""
     stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
     places: dict[str, list[list[float] | None]] = {}
@@ -222,7 +222,7 @@ def encode_trails(buffer: Buffer, epoch: Stamp, asked: Request) -> str:
 _TRAIL_DIGITS = 5
 
 
-def _stamps(epoch: Stamp, asked: Request) -> list[Stamp]:
+def _stamps(epoch: Stamp, asked: PageRequest) -> list[Stamp]:
     """Return evenly spread times over the requested span."""
     first, last = stamp_at(epoch, asked["from"]), stamp_at(epoch, asked["to"])
     steps = asked["count"] - 1
