@@ -297,7 +297,7 @@ def as_javascript() -> str:
         + " };",
         "",
         "/**",
-        " * The head of binary poses.",
+        " * Head of a binary message with poses.",
         " * @param {DataView} view",
         " */",
         "export const head = (view) => ({",

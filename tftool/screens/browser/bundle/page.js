@@ -1,4 +1,4 @@
-/* tftool view; three.js: see three-LICENSE.txt; sources a9e1647c32c8244d082295a4d90de82cfa0654a876afd61765591a9cbb563ac5 */
+/* tftool view; three.js: see three-LICENSE.txt; sources 85f02c17d3795fe4570185a3e0ca84c9411552908added5dc76d48dbe382dd8b */
 "use strict";(()=>{/**
  * @license
  * Copyright 2010-2026 Three.js Authors

@@ -1,15 +1,15 @@
 // @ts-check
-// The box around everything that was drawn, for a camera that keeps it in view.
+// Bounding box of everything drawn, for a camera that keeps it in view.
 
 /** @typedef {{ low: number[], high: number[] }} Box corners, metres */
 
 const LEAST = 0.5; // metres; a single frame has no size
 const MARGIN = 0.1; // of the largest side
-const MOST = 0.6; // of the points are what a picture is of
-const FAR = 2000; // times as far as those, and a point is not looked at with them
+const MOST = 0.6; // share of the points that must be in the picture
+const FAR = 2000; // points farther than this many times their distance are left out
 
 /**
- * The length of a box's longest side, metres.
+ * Length of a box's longest side, metres.
  * @param {Box} box
  */
 export function spread(box) {
@@ -32,10 +32,10 @@ export function boxOf(points) {
 }
 
 /**
- * How far from the middle of a box a camera with perspective sees all of it.
+ * Distance from the middle of a box at which a perspective camera sees all of it.
  * @param {{ low: number[], high: number[] }} box
- * @param {{ right: number[], upward: number[], away: number[] }} seen where the picture's sides and the camera lie
- * @param {{ x: number, y: number }} slope metres that are seen to a side, at a metre's distance
+ * @param {{ right: number[], upward: number[], away: number[] }} seen directions of the picture's sides and of the camera
+ * @param {{ x: number, y: number }} slope metres seen to each side, at a distance of one metre
  */
 export function distanceFor({ low, high }, { right, upward, away }, slope) {
   const middle = low.map((value, side) => (value + high[side]) / 2);
@@ -49,9 +49,9 @@ export function distanceFor({ low, high }, { right, upward, away }, slope) {
 }
 
 /**
- * Those of a picture's points that can be looked at together: where most lie close by, one that is
- * thousands of times as far, as utm is from a robot, would leave nothing of them to be seen.
- * @param {number[][]} points places, whatever may stand behind their three numbers
+ * Points that fit into one picture: if most points are close together, a point thousands of times
+ * as far away (as utm from a robot) would shrink them to nothing.
+ * @param {number[][]} points places; numbers after the first three are ignored
  */
 export function together(points) {
   if (spread(boxOf(points)) < FAR * LEAST) return points;
@@ -72,7 +72,7 @@ export class Bounds {
   }
 
   /**
-   * Grow around points; the box if one of them lay outside of it, else null.
+   * Grow the box to contain points; return it if one was outside, else null.
    * @param {number[][]} points
    */
   grow(points) {
@@ -82,7 +82,7 @@ export class Bounds {
     if (box && now.low.every((value, side) => value >= box.low[side]) && now.high.every((value, side) => value <= box.high[side])) {
       return null;
     }
-    // Somewhat further at once, or the camera would creep along with every step.
+    // A margin, so that the camera does not move with every step.
     const margin = MARGIN * spread(now);
     const old = box ?? now;
     this.box = {

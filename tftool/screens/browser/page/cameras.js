@@ -6,7 +6,7 @@ const REACH = 1e5; // metres
 const AWAY = 50; // metres; without perspective it makes no difference
 
 /**
- * Where each looks from and what is up, in the axes of ROS: x forward, y left, z up.
+ * Direction of view and upward direction of each camera, in ROS's axes: x forward, y left, z up.
  * @type {Record<string, { from: [number, number, number], up: [number, number, number] }>}
  */
 export const FLAT = {
@@ -23,7 +23,7 @@ export function flatCamera(name) {
   return camera;
 }
 
-/** A picture without perspective is moved and zoomed, and not turned. */
+/** A picture without perspective can be moved and zoomed, but not turned. */
 export function panOnly(controls) {
   controls.enableRotate = false;
   controls.screenSpacePanning = true;
@@ -59,7 +59,7 @@ export function fitFlat(name, camera, controls, { middle, size }, free, inset, h
 }
 
 /**
- * What lies under a pixel: where a ray begins, and where it goes.
+ * Ray through a pixel: its origin and direction.
  * @param {import("three").Camera} camera
  * @param {number} x share of the picture from the left, 0 to 1
  * @param {number} y share from the top

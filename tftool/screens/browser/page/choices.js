@@ -1,19 +1,19 @@
 // @ts-check
-// What a person has chosen: switches, frames, filters, numbers. The address carries all of it.
+// The user's choices: switches, frames, filters, numbers. The page's address contains all of them.
 
-/** Least and most of the numbers that can be typed. */
+/** Limits of the numbers that can be typed. */
 export const LIMITS = { interval: [0, 60], timeout: [1, 1e6], length: [1, 60], side: [180, 640] };
 
-/** What can be plotted of the pair. */
+/** Quantities of the pair that can be plotted. */
 export const PLOTTED = ["xyz", "distance", "rpy", "none"];
 
-/** From where one looks: three without perspective, and one that turns. */
+/** Views: three without perspective, and one that turns. */
 export const VIEWS = ["top", "side", "front", "orbit"];
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 /**
- * A name filter as typed: the expression, or null for an empty field; or what is wrong with it.
+ * Parse a name filter: the expression, null for an empty field, or the fault.
  * @param {string} text
  * @returns {{ expression: RegExp | null, error: string }}
  */
@@ -27,7 +27,7 @@ export function compile(text) {
 
 export class Choices {
   /**
-   * @param {Record<string, any>} given what the address says, as `share.read` returns it
+   * @param {Record<string, any>} given choices in the address, as `share.read` returns them
    * @param {"light" | "dark"} theme the theme this person's system prefers
    */
   constructor(given = {}, theme = "dark") {
@@ -35,7 +35,7 @@ export class Choices {
     this.axes = given.axes ?? true;
     this.arrows = given.arrows ?? true;
     this.grid = given.grid ?? true;
-    // What was not chosen by hand is left to the page: see opening.js.
+    // The page chooses everything that the user has not: see opening.js.
     this.byHand = {
       trails: given.trails !== undefined,
       whole: given.whole !== undefined || given.length !== undefined,
@@ -53,18 +53,18 @@ export class Choices {
     this.interval = 0; // seconds
     this.timeout = 15; // seconds
     this.length = 10; // of trails, seconds
-    this.whole = given.whole ?? false; // trails of all that is known, and not of a length
+    this.whole = given.whole ?? false; // trails of the whole history, not of a length
     /** @type {number | undefined} */
-    this.side = undefined; // width of the list of frames, pixels; undefined: as wide as its names
+    this.side = undefined; // width of the list of frames, pixels; undefined: fits the names
     for (const id of Object.keys(LIMITS)) this.setNumber(id, given[id]);
     this.plot = PLOTTED.includes(given.plot) ? given.plot : "xyz";
     this.speed = SPEEDS.includes(given.speed) ? given.speed : 1;
     /** @type {number | undefined} */
     this.scale = given.scale; // of the markers; undefined: by the size of the scene
     /** @type {string | undefined} */
-    this.fixed = given.fixed; // the one in force
+    this.fixed = given.fixed; // the current one
     /** @type {string | undefined} */
-    this.wanted = given.fixed; // the one a person chose
+    this.wanted = given.fixed; // the user's choice
     /** @type {string | undefined} */
     this.target = given.target;
     /** @type {string | undefined} */
@@ -72,7 +72,7 @@ export class Choices {
     /** @type {string | undefined} */
     this.chosen = given.chosen;
     /** @type {string | undefined} */
-    this.followed = given.followed; // the frame the camera goes along with
+    this.followed = given.followed; // the frame that the camera follows
     this.hidden = new Set(given.hidden);
     this.closed = new Set(given.closed);
     this.trailed = new Set(given.trailed);
@@ -86,7 +86,7 @@ export class Choices {
   }
 
   /**
-   * Keep a number within its limits; anything that is none changes nothing.
+   * Keep a number within its limits; ignore a value that is no number.
    * @param {string} id
    * @param {number | undefined} value
    */
@@ -96,7 +96,7 @@ export class Choices {
   }
 
   /**
-   * Filter names by a regular expression; a wrong one leaves the last right one in force.
+   * Filter names by a regular expression; an invalid one keeps the last valid one.
    * @param {string} id `only` or `not`
    * @param {string} text
    * @returns {string} what is wrong with it, empty if nothing is
@@ -123,8 +123,8 @@ export class Choices {
   }
 
   /**
-   * See that the fixed frame exists: the one a person chose; without that, the one in force, or else
-   * the root of the biggest tree.
+   * Choose a fixed frame that exists: the user's choice, else the current one, else
+   * the root of the largest tree.
    * @param {import("./model.js").Model} model
    * @returns {boolean} whether it is another one now
    */
@@ -135,7 +135,7 @@ export class Choices {
     return this.fixed !== before;
   }
 
-  /** The fixed frame a person chose, while another stands in for it. */
+  /** The fixed frame that the user chose, while another replaces it. */
   get missed() {
     return this.wanted === this.fixed ? undefined : this.wanted;
   }
@@ -143,7 +143,7 @@ export class Choices {
   /**
    * @param {string | undefined} target
    * @param {string | undefined} source
-   * @param {boolean} byHand whether a person chose it
+   * @param {boolean} byHand whether the user chose it
    */
   setPair(target, source, byHand = true) {
     this.byHand.pair ||= byHand;
@@ -152,7 +152,7 @@ export class Choices {
   }
 
   /**
-   * Put a name into one of the sets, or take it out.
+   * Add a name to a set, or remove it.
    * @param {"hidden" | "closed" | "trailed" | "bare" | "undrawn"} set
    * @param {string} name
    * @param {boolean} on
@@ -163,9 +163,9 @@ export class Choices {
   }
 
   /**
-   * Everything the address carries, for `share.write`.
+   * All choices in the address, for `share.write`.
    * @param {number | null} at moment shown; null for the present
-   * @param {number[] | undefined} camera undefined while the page moves it by itself
+   * @param {number[] | undefined} camera undefined while the page moves the camera
    */
   shared(at, camera) {
     return {

@@ -1,16 +1,16 @@
 // @ts-check
-// The ruler and the plot on the page: ask for what they show, draw it, and go where one clicks.
+// Ruler and plot: request their data, draw them, and go to the clicked time.
 import { number } from "./format.js";
 import { $ } from "./panels.js";
 import { bounds, extended, levels, linesOf, newestOf, placeOf, PLOTS, runs, Scale, shownGaps, ticks, valueAt } from "./ruler.js";
 
-const THUMB = 8; // pixels from the slider's end to the middle of its handle there
-const GUTTER = 46; // pixels at the left, for values; the page's style has it too
+const THUMB = 8; // pixels from the slider's end to the middle of its handle
+const GUTTER = 46; // pixels at the left, for values; the same number is in page.css
 const NEAR = 5; // pixels
 const DRAGGED = 3; // pixels
-const ZOOM = 0.0015; // of a pixel of the wheel
-const LEGEND = 15; // pixels above the lines, for what they are called
-// Of lines and of what they are called, which has to be read.
+const ZOOM = 0.0015; // zoom for each pixel of the wheel
+const LEGEND = 15; // pixels above the lines, for the legend
+// Colours of lines and of their names, which must be readable.
 const [RED, GREEN, BLUE, BROWN] = [0, 1, 2, 3];
 const TONES = {
   dark: ["#ff7a80", "#4cc38a", "#7fa8ff", "#e0a83a"],
@@ -19,8 +19,8 @@ const TONES = {
 const TONE_OF = { x: RED, y: GREEN, z: BLUE, roll: RED, pitch: GREEN, yaw: BLUE, distance: BROWN };
 const SEVERITIES = { error: "#e5484d", warning: "#d08700", note: "#7a8699" };
 const MOST_MOMENTS = 1000;
-const SERIES_EVERY = 500; // milliseconds, while the present goes on
-const ZOOMED_EVERY = 120; // milliseconds, while a person zooms or pans
+const SERIES_EVERY = 500; // milliseconds, while live
+const ZOOMED_EVERY = 120; // milliseconds, while the user zooms or pans
 const MOST_LATER = 5000; // poses kept beyond the series
 const MARKS_EVERY = 5000;
 
@@ -47,13 +47,13 @@ export class Course {
     this.gaps = [];
     /** @type {[number, number]} */
     this.limits = [-1, 1];
-    this.legended = ""; // what is written above the lines
+    this.legended = ""; // text above the lines
     this.scale = new Scale({ oldest: 0, newest: 0 }, 0, 1);
     for (const canvas of [this.ruler, this.plot]) this.wire(canvas);
     $("line").addEventListener("wheel", (event) => this.turn(event), { passive: false });
   }
 
-  /** A click goes to a moment, a drag too; on a plot that is zoomed in a drag pans. */
+  /** A click or a drag goes to a time; in a zoomed plot a drag pans. */
   wire(canvas) {
     /** @type {{ x: number, moved: boolean } | null} */
     let held = null;
@@ -87,7 +87,7 @@ export class Course {
     this.hooks.redraw();
   }
 
-  /** The wheel zooms about the moment under the pointer; sideways, or with Shift, it pans. */
+  /** The wheel zooms around the time under the pointer; sideways, or with Shift, it pans. */
   turn(event) {
     event.preventDefault();
     const sideways = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
@@ -99,7 +99,7 @@ export class Course {
     this.hooks.redraw();
   }
 
-  /** Go to a pixel's moment; to the finding's own where there is one under it. */
+  /** Go to a pixel's time, or to that of the finding under it. */
   go(pixel) {
     this.timeline.scrub(this.finding(pixel)?.since ?? this.scale.moment(pixel));
   }
@@ -110,7 +110,7 @@ export class Course {
     );
   }
 
-  /** Say what is under the pointer. */
+  /** Show the values under the pointer. */
   tell(canvas, pixel) {
     const moment = this.scale.moment(pixel);
     const finding = this.finding(pixel);
@@ -121,14 +121,14 @@ export class Course {
     canvas.title = lines.join("\n");
   }
 
-  /** What was asked for has come. */
+  /** Take in requested data. */
   setSeries(message) {
     this.series = message;
     const from = message.times[0];
     this.later = this.later.filter(({ moment }) => moment >= from);
   }
 
-  /** Add the pair's newest pose to what is plotted: the series is asked for more rarely. */
+  /** Add the pair's newest pose to the plot: the series is requested less often. */
   add({ found, target, source, moment, translation, rpy }) {
     const last = this.later[this.later.length - 1];
     if (last && (last.target !== target || last.source !== source || last.moment > moment)) this.later = [];
@@ -143,20 +143,20 @@ export class Course {
     this.marks = message;
   }
 
-  /** The connection was made anew, or the tree is another: ask again. */
+  /** After a reconnection or a change of the tree: request everything again. */
   forget() {
     this.asked = { key: "", span: "", end: "", series: -Infinity, marks: -Infinity, zoomed: 0 };
   }
 
   /**
-   * Ask for what is shown, where that is not known or has grown old.
+   * Request shown data that is unknown or old.
    * @param {{ target?: string, source?: string, plot: string }} choices
    */
   ask({ target, source, plot }) {
     const now = this.hooks.now();
     const { reach, zoomed, span: { oldest, newest } } = this.timeline;
     if (!(newest > oldest)) return;
-    // A recording is asked about once; of what goes on there is soon more.
+    // A recording's data is requested once, a session's regularly.
     const end = `${reach.oldest} ${reach.newest}`;
     if (now - this.asked.marks > MARKS_EVERY && this.asked.end !== end) {
       this.asked.marks = now;
@@ -281,7 +281,7 @@ export class Course {
     }
   }
 
-  /** Each line's name and value under the pointer, at the moment, or in the present its newest, above the lines at the right. */
+  /** Name and value of each line (under the pointer, at the shown time, or the newest), above the lines at the right. */
   legend(pen, ink, times, lines, at, unit) {
     const moment = this.pointer === null ? at : this.scale.moment(this.pointer);
     const place = moment === null ? null : placeOf(times, moment);
@@ -301,7 +301,7 @@ export class Course {
   }
 }
 
-/** A canvas as large as it is shown, empty. */
+/** Clear a canvas, and give it the size in which it is shown. */
 function fresh(canvas) {
   const width = canvas.clientWidth;
   const height = canvas.clientHeight;

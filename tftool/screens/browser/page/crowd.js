@@ -45,7 +45,7 @@ export const [FINE, COARSE] = [
 
 export class Crowd {
   constructor() {
-    // One side, so that three draws them in one go.
+    // One side, so that three.js draws them in one call.
     const material = new MeshBasicMaterial({ vertexColors: true, transparent: true });
     this.mesh = new Mesh(new BufferGeometry(), material);
     this.mesh.frustumCulled = false;

@@ -1,5 +1,5 @@
 // @ts-check
-// Points, paths, clouds, scans and markers in the picture, and the switches for them.
+// Points, paths, clouds, scans and markers in the picture, with their switches.
 import { Group, Quaternion, Vector3 } from "three";
 import { ball } from "./displays/ball.js";
 import { line, segments } from "./displays/line.js";
@@ -29,7 +29,7 @@ export class Displays {
   }
 
   /**
-   * Put every topic's message where it was.
+   * Place the message of every topic.
    * @param {number | null} moment null for the present
    * @param {import("./model.js").Model} model solved for the fixed frame
    * @param {Set<string>} undrawn topics that are switched off
@@ -72,7 +72,7 @@ export class Displays {
   }
 
   /**
-   * The frame and the place of the nearest point a ray meets; null if it meets none.
+   * Frame and place of the nearest point on a ray; null if there is none.
    * @param {import("three").Raycaster} ray
    */
   pick(ray) {
@@ -83,7 +83,7 @@ export class Displays {
         if (!part.visible) return;
         part.updateMatrixWorld();
         for (const { point, distance, index } of ray.intersectObject(part, true)) {
-          // Of a cloud, three.js returns the place on the ray that is nearest to the point.
+          // For a cloud, three.js returns the place on the ray nearest to the point.
           if (part.type === "Points" && index !== undefined) {
             point.fromBufferAttribute(part.geometry.attributes.position, index).applyMatrix4(part.matrixWorld);
           }
@@ -109,7 +109,7 @@ export class Displays {
     this.shown.delete(topic);
   }
 
-  /** What is in the picture, by topic: its message's stamp, how many places, and the kinds of shapes. */
+  /** Contents of the picture by topic: stamp of the message, number of places, kinds of shapes. */
   drawn() {
     const found = {};
     for (const [topic, { message, parts }] of this.shown) {
@@ -122,7 +122,7 @@ export class Displays {
     return found;
   }
 
-  /** The switches, and what is wrong with a topic. */
+  /** Draw the switches, and the faults of topics. */
   list(undrawn) {
     const topics = [...this.tracks.topics.values()];
     $("displays").hidden = topics.length === 0;
@@ -150,7 +150,7 @@ export class Displays {
 }
 
 /**
- * Where a shape's frame was in the fixed frame, at its own stamp where that is known.
+ * Pose of a shape's frame in the fixed frame, at the shape's stamp if known.
  * @param {import("./tracks.js").Shape} shape
  * @param {import("./model.js").Model} model
  */

@@ -1,18 +1,18 @@
 // @ts-check
-// Meshes and textures: from our own server, or from the file the page came in.
+// Meshes and textures, from our server or from the saved page.
 import { DefaultLoadingManager } from "three";
 import { secured } from "./secret.js";
 
 /** @type {Map<string, Blob> | null} */
 let kept = null;
 
-// Textures and buffers that a mesh names are loaded by three's own loaders.
+// three.js's loaders load textures and buffers that a mesh names.
 DefaultLoadingManager.setURLModifier((address) =>
   /^(data|blob):/.test(address) ? address : secured(address),
 );
 
 /**
- * Give out what is packed into the page from now on, and nothing else.
+ * Serve files from the saved page from now on, and from nowhere else.
  * @param {import("./packed.js").Packed} packed
  */
 export function keepFiles(packed) {

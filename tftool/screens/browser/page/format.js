@@ -2,7 +2,7 @@
 // Numbers as text.
 
 /**
- * A number with fixed decimals; a dash for what is not known.
+ * Number with fixed decimals; a dash if unknown.
  * @param {number | null} value
  * @param {number} digits
  */
@@ -13,17 +13,17 @@ export function number(value, digits) {
 }
 
 /**
- * What is said in place of a rate of a frame that the model's `statics` holds.
- * @param {number} still 1 where nothing moves it, 2 where its slider alone does
+ * Text in place of the rate of a frame in the model's `statics`.
+ * @param {number} still 1 for a static frame, 2 for one that only its slider moves
  */
 export const stillness = (still) => (still === 2 ? "joint" : "static");
 
-const LONG = 20; // characters; a name as long as this may have no room beside what is told of it
+const LONG = 20; // characters; a longer name may have no space beside its rate
 const TAIL = 12;
 
 /**
- * A name in two parts, of which the second is always to be seen: names of a device differ at
- * their ends. Only what is written from left to right, a character a place, is parted.
+ * Split a name in two parts, the second always visible: names of one device differ at
+ * their ends. Only left-to-right text of simple characters is split.
  * @param {string} name
  */
 export const halves = (name) =>

@@ -1,20 +1,20 @@
 // @ts-check
-// What picture and list say of every frame, from the model and the choices.
+// Appearance of every frame in picture and list, from the model and the choices.
 import { number } from "./format.js";
 import { fade } from "./model.js";
 
 const MOST_TRAILS = 60;
 const HUES = [207, 332, 140, 32, 268, 180, 354, 80, 238, 300];
-// A frame is late after so many of its periods, and after so long at least; red a while later.
+// A frame is late after this number of its periods, and at least this time; red later.
 const LATE = { periods: 3, seconds: 1 };
-const BESIDE = 0.4; // how much is left of frames beside the chain
+const BESIDE = 0.4; // opacity of frames outside of the chain
 const DEAD = { periods: 10, seconds: 5 };
 
 /**
- * pose, parent: in the fixed frame, null where not known or without a parent. grey, alpha: how far
- * it has faded. shown: whether it is in the picture. trouble: why it cannot be. told: rate or age.
- * late: "late" or "dead" where data stopped coming. color: its own, in the list and of its trail.
- * dim: 1, and less beside the pair's chain.
+ * pose, parent: in the fixed frame, null if unknown or without a parent. grey, alpha: degree of
+ * fading. shown: whether it is in the picture. trouble: why it cannot be. told: rate or age.
+ * late: "late" or "dead" if data stopped. color: of the name in the list and of the trail.
+ * dim: 1, or less outside of the pair's chain.
  * @typedef {{
  *   index: number, name: string, pose: number[] | null, parent: number[] | null,
  *   grey: number, alpha: number, filtered: boolean, shown: boolean, lost: boolean,
@@ -23,21 +23,21 @@ const DEAD = { periods: 10, seconds: 5 };
  */
 
 /**
- * A frame's own colour: the first frames get those that differ most.
+ * Colour of a frame: the first frames get those that differ most.
  * @param {number} place of the frame, see `placesOf`
  * @param {string} theme
  */
 export function colorOf(place, theme) {
-  // Where all hues are given out, they come again in another tone.
+  // After the last hue they repeat in another tone.
   const tone = [0, -14, 10][Math.floor(place / HUES.length) % 3];
-  // With commas: three reads no other way of writing it.
+  // With commas: three.js parses no other form.
   return `hsl(${HUES[place % HUES.length]}, 85%, ${(theme === "dark" ? 66 : 45) + tone}%)`;
 }
 
 /**
- * How late a link is: "" while its samples come, then "late", then "dead".
+ * Lateness of a link: "" while samples arrive, then "late", then "dead".
  * @param {number} age seconds since its newest sample
- * @param {number} rate its samples a second; 0 where it is not known
+ * @param {number} rate samples per second; 0 if unknown
  */
 export function lateness(age, rate) {
   const beyond = ({ periods, seconds }) => age > Math.max(seconds, rate > 0 ? periods / rate : 0);
@@ -79,7 +79,7 @@ export function describe(model, choices, past, pair = null) {
   });
 }
 
-/** Why there is no pose, in rviz's words, with the reason where there is one. */
+/** Why there is no pose, in rviz's words, with the reason if known. */
 function trouble(model, index, fixed, past) {
   const refusal = `No transform from [${model.names[index]}] to [${fixed}]`;
   if (!model.index.has(fixed)) return `${refusal}: frame [${fixed}] does not exist`;
@@ -88,7 +88,7 @@ function trouble(model, index, fixed, past) {
 }
 
 /**
- * Bring rates and ages up to date, and nothing else.
+ * Update rates and ages only.
  * @param {import("./model.js").Model} model
  * @param {Frame[]} frames
  * @param {boolean} past whether a past moment is shown
@@ -106,7 +106,7 @@ function lateOf(model, index, past) {
   return lateness(model.behind(index), model.poses.rateOf(index));
 }
 
-/** How often a frame comes, or how old it is where it stopped coming. */
+/** Rate of a frame, or its age if samples have stopped. */
 function told(model, index, late) {
   const { poses } = model;
   if (!poses || model.parents[index] < 0 || model.statics[index]) return "";
@@ -114,7 +114,7 @@ function told(model, index, late) {
 }
 
 /**
- * The frames that leave trails: those chosen for one, and all that move if switched on.
+ * Frames with trails: the chosen ones, and all moving ones if switched on.
  * @param {import("./model.js").Model} model
  * @param {Frame[]} drawn
  * @param {import("./choices.js").Choices} choices
@@ -127,7 +127,7 @@ export function trailing(model, drawn, choices) {
 }
 
 /**
- * A frame's trail up to a moment, from poses the page has kept, or finer ones where those are known.
+ * Trail of a frame up to a time, from stored poses, or finer ones if known.
  * @param {import("./model.js").Model} model
  * @param {Frame} frame
  * @param {import("./choices.js").Choices} choices
@@ -140,13 +140,13 @@ export function trail(model, { index, name, color, pose }, choices, until, fine 
   return { name, color, points, ahead: /** @type {number[][]} */ ([]), whole: choices.whole };
 }
 
-/** Whether a frame moves; unasked, what is mounted on something that moves leaves no trail beside it. */
+/** Whether a frame gets a trail by default: it moves, and is not just mounted on something that moves. */
 function leaves(model, index, choices) {
   return model.moves(index) && (choices.byHand.trails || !model.statics[index]);
 }
 
 /**
- * The poses along a found pair's chain; none where one of them is not known.
+ * Poses along a found pair's chain; empty if one is unknown.
  * @param {import("./model.js").Model} model
  * @param {{ found: boolean, chain: string[] } | null} pair
  * @returns {number[][]}

@@ -1,13 +1,13 @@
 // @ts-check
-// Whether what is shown is of now.
+// Whether the picture shows the present.
 
 const STALE = { periods: 30, seconds: 5 };
 
-/** Whether a server still speaks: one that is stopped, or hangs, keeps its connection. */
+/** Whether a server still sends: a stopped or hanging one keeps its connection. */
 export class Hearing {
   constructor() {
-    this.at = 0; // when it was heard last, milliseconds
-    this.last = 0; // the pause before that, and the longest of late that did not come alone
+    this.at = 0; // time of the last message, milliseconds
+    this.last = 0; // the pause before that, and the longest recent pause that was not single
     this.pause = 0;
   }
 
@@ -20,7 +20,7 @@ export class Hearing {
   }
 
   /**
-   * Begin anew, where what was not heard says nothing.
+   * Start again: earlier silence has no meaning.
    * @param {number} now
    */
   begin(now) {
@@ -28,7 +28,7 @@ export class Hearing {
   }
 
   /**
-   * Whether it has said nothing for longer than one that runs would.
+   * Whether the silence is longer than that of a running server.
    * @param {number} now
    */
   isOver(now) {
@@ -37,11 +37,11 @@ export class Hearing {
 }
 
 /**
- * "wait" before anything came, "gone" without a server, "silent" where one says nothing, "stale" where a server sends the same again
- * and again although its time goes on, "stored" where all there is is in the page, "past" and "live".
+ * "wait" before the first data, "gone" without a server, "silent" if it sends nothing, "stale" if it repeats the same data
+ * although its time advances, "stored" for a saved page, "past" and "live".
  * @param {"wait" | "open" | "silent" | "ended" | "stored"} connection
  * @param {import("./model.js").Model} model
- * @param {boolean} past whether a moment of the past is looked at
+ * @param {boolean} past whether a past time is shown
  * @returns {"wait" | "stored" | "gone" | "silent" | "stale" | "past" | "live"}
  */
 export function freshness(connection, model, past) {
@@ -50,11 +50,11 @@ export function freshness(connection, model, past) {
   return isStale(model) ? "stale" : "live";
 }
 
-/** Whether there are links that move, and not one of them has had a sample lately. */
+/** Whether there are moving links, and none has had a recent sample. */
 function isStale(model) {
   const { poses } = model;
   if (!poses || poses.at !== null || poses.count !== model.names.length) return false;
-  let rate = 0; // of the link that comes most often; one that came but once does not come late
+  let rate = 0; // period of the fastest link; a link with one sample is never late
   for (let index = 0; index < poses.count; index++) {
     if (model.parents[index] < 0 || model.statics[index] || poses.samplesOf(index) < 2) continue;
     rate = Math.max(rate, poses.rateOf(index));

@@ -1,9 +1,9 @@
 // @ts-check
-// The grid below everything: cells as large as one can tell apart, as far as the world reaches.
+// The grid on the ground: cells large enough to be distinguished, as far as the world extends.
 import { BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineSegments } from "three";
 import { cellFor, linesOf } from "./scale.js";
 
-/** What can be drawn without all else. */
+/** Parts that can be drawn alone. */
 export const LAYER = 1;
 
 const AXES = { x: "#c4474c", y: "#3f9a52" };
@@ -25,8 +25,8 @@ export class Ground {
   /**
    * @param {boolean} shown
    * @param {number} level metres above the origin
-   * @param {{ pixel: number, middle: number[], reach: number, flat: boolean }} seen metres of a pixel, where one
-   *   looks, and how far from there one sees or the world goes, metres; flat: seen from above
+   * @param {{ pixel: number, middle: number[], reach: number, flat: boolean }} seen metres per pixel, the point
+   *   looked at, and the extent of the view or the world around it, metres; flat: seen from above
    * @param {string[]} colors of strong and weak lines
    */
   draw(shown, level, { pixel, middle, reach, flat }, colors) {

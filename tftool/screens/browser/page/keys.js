@@ -1,7 +1,7 @@
 // @ts-check
-// What the keys do: one table for the keyboard and for the page that tells of it.
+// Key bindings: one table for the keyboard and for the help on the page.
 
-/** Key, the control it stands for, and what that does. */
+/** Key, its control, and the control's action. */
 export const KEYS = [
   ["t", "top", "from above"],
   ["s", "side", "from the side"],
@@ -22,7 +22,7 @@ export const KEYS = [
   ["?", "ask", "this page"],
 ];
 
-/** Keys of the list of frames and of fields, told beside the others. */
+/** Keys of the list of frames and of fields, shown with the others. */
 export const OTHERS = [
   ["/", "find a frame"],
   ["↑ ↓ ← →", "drive the turtle; in the list of frames, move through it"],
@@ -31,7 +31,7 @@ export const OTHERS = [
 ];
 
 /**
- * The control that a key stands for; undefined where the key belongs to what has the focus.
+ * Control of a key; undefined if the focused element uses the key.
  * @param {{ key: string, ctrlKey?: boolean, metaKey?: boolean, altKey?: boolean }} event
  * @param {"text" | "button" | "other"} focus text: letters are typed; button: space presses it
  * @returns {string | undefined}

@@ -1,16 +1,16 @@
 // @ts-check
-// Where a robot's joints put its links, from the description that lies in the file.
+// Forward kinematics of a robot, from the description in the saved page.
 import { compose } from "./maths.js";
 
 /**
- * frame: the child's. turns: about its axis, else it slides along it. leader: the joint whose position
- * decides, its own name unless it mimics another; its position times factor plus offset is this one's.
+ * frame: child frame. turns: whether it turns about its axis, else it slides. leader: joint whose position
+ * counts, itself unless it mimics another; position = leader's position * factor + offset.
  * @typedef {{ frame: string, turns: boolean, origin: number[], axis: number[], leader: string, factor: number,
  *   offset: number }} Joint
  */
 
 /**
- * The child's pose in its parent; radians or metres.
+ * Pose of the child in its parent, for a position in radians or metres.
  * @param {Joint} joint
  * @param {number} position
  */
@@ -21,7 +21,7 @@ export function posed({ turns, origin, axis: [x, y, z] }, position) {
 }
 
 /**
- * The links that go along with a joint, and where each comes to be in its parent.
+ * Links that move with a joint, and their new poses in their parents.
  * @param {Joint[]} joints
  * @param {string} moved the joint
  * @param {number} position

@@ -1,18 +1,18 @@
 // @ts-check
-// Where names stand in the picture: beside their frames, moved aside where others stand already.
+// Placement of names: beside their frames, moved aside if the place is taken.
 
 const CELL = 8; // pixels
 const GAP = 2; // pixels between two names
 
 /**
  * @typedef {{ x: number, y: number, width: number, height: number, first?: boolean, was?: number }} Wanted
- *   x, y: the frame's pixel; width, height: of the name; first: it stands whatever happens;
- *   was: where it stood in the picture before
+ *   x, y: the frame's pixel; width, height: of the name; first: always placed;
+ *   was: place in the previous picture
  * @typedef {{ left: number, top: number, place: number, moved: boolean }} Stand
- *   place: number of the place it got, for the next picture; moved: it needs a line to its frame
+ *   place: number of the place, for the next picture; moved: needs a line to its frame
  */
 
-/** Places round a frame as shifts of the name's middle, in units of its half size: below first. */
+/** Places around a frame: shifts of the name's middle, in units of its half size, below first. */
 const PLACES = [[0, 1, 9], [0, -1, 9], [1, 0, 10], [-1, 0, 10]];
 for (const ring of [24, 40, 58, 80]) {
   for (let step = 0; step < 8; step++) {
@@ -20,7 +20,7 @@ for (const ring of [24, 40, 58, 80]) {
     PLACES.push([Math.cos(angle), Math.sin(angle), ring]);
   }
 }
-/** Names; among so many none is led far away. */
+/** Number of names from which none is moved far away. */
 export const MANY = 80;
 const FEW = 12;
 const NEAREST = 4; // of the places need no line
@@ -71,7 +71,7 @@ export function standAt({ x, y, width, height }, place) {
 }
 
 /**
- * Give every name a place in the picture; null for one that finds none. The first in the list choose first.
+ * Give every name a place in the picture, in the order of the list; null if there is none.
  * @param {Wanted[]} wanted
  * @param {{ width: number, height: number }} picture
  * @param {number[][]} [reserved] left, top, width and height of what no name may cover
@@ -84,7 +84,7 @@ export function arrange(wanted, picture, reserved = []) {
   return wanted.map((one) => {
     const { width, height, first, was } = one;
     const stand = (place) => standAt(one, place);
-    // A name that stood well stays: names that jump cannot be read.
+    // A name keeps a good place: jumping names cannot be read.
     for (let turn = was ? -1 : 0; turn < places; turn++) {
       const place = turn < 0 ? (was ?? 0) : turn;
       const found = stand(place);

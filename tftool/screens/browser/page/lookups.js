@@ -1,5 +1,5 @@
 // @ts-check
-// What the server's buffer answers, from packed samples: the same numbers, the same refusals.
+// Lookups in packed samples: the same results and refusals as those of the server's buffer.
 // Moments are whole nanoseconds since the epoch; null is the latest.
 import { compose, normalized, rpy } from "./maths.js";
 import { FIELDS } from "./messages.js";
@@ -7,8 +7,8 @@ import { Poses } from "./wire.js";
 
 const NANOSECONDS = 1e9;
 const MOST_DEPTH = 1000;
-const SHORTEST = 100_000; // nanoseconds: tf2 divides by no less when it tells a rate
-const HISTORY = 120; // moments that tell what is remembered
+const SHORTEST = 100_000; // nanoseconds: tf2 divides by at least this for a rate
+const HISTORY = 120; // times that represent the history
 
 /** A moment in seconds as whole nanoseconds; halves go to the even one, as in Python. */
 export function nanoseconds(moment) {
@@ -18,10 +18,10 @@ export function nanoseconds(moment) {
   return below % 2 === 0 ? below : below + 1;
 }
 
-/** Why a lookup has no answer, in the server's words. */
+/** Error of a lookup, in the server's words. */
 export class Refusal extends Error {}
 
-/** A frame, and what joins it to its parent over time. */
+/** A frame and its samples in its parent. */
 export class Link {
   /**
    * @param {import("./packed.js").PackedFrame} frame
@@ -48,7 +48,7 @@ export class Link {
   }
 
   /**
-   * Hold the frame elsewhere from now on, at all times.
+   * Replace the frame's pose from now on, at all times.
    * @param {number[]} pose in its parent
    */
   hold(pose) {
@@ -100,7 +100,7 @@ export class Link {
   }
 }
 
-/** The pose on the way from one to another; the rotation turns along the shorter arc. */
+/** Interpolate between two poses; the rotation follows the shorter arc. */
 export function interpolate(one, other, share) {
   if (share === 0) return one;
   let cosine = one[3] * other[3] + one[4] * other[4] + one[5] * other[5] + one[6] * other[6];
@@ -117,14 +117,14 @@ export function interpolate(one, other, share) {
   return [...place, ...[3, 4, 5, 6].map((at) => keep * one[at] + take * other[at])];
 }
 
-/** The second pose as seen from the first. */
+/** The second pose relative to the first. */
 function between(first, second) {
   const [x, y, z] = [0, 1, 2].map((at) => second[at] - first[at]);
   const turned = [0, 0, 0, -first[3], -first[4], -first[5], first[6]];
   return compose(turned, [x, y, z, ...second.slice(3)]);
 }
 
-/** Of a quaternion's two signs the one tf2 gives. */
+/** Give a quaternion the sign that tf2 gives it. */
 function canonical(pose) {
   const [, , , x, y, z, w] = pose;
   const [xx, yy, zz] = [x * x, y * y, z * z];
@@ -132,7 +132,7 @@ function canonical(pose) {
   return leading < 0 ? [...pose.slice(0, 3), -x, -y, -z, -w] : pose;
 }
 
-/** Moments spread evenly from one to another, in nanoseconds. */
+/** Evenly spaced times between two, nanoseconds. */
 function spread(from, to, count) {
   const [first, last] = [nanoseconds(from), nanoseconds(to)];
   return Array.from({ length: count }, (_, step) => first + Math.floor(((last - first) * step) / (count - 1)));
@@ -155,7 +155,7 @@ export class Lookups {
     this.revisions = new Map();
   }
 
-  /** Moments spread evenly over what is remembered, oldest first. */
+  /** Evenly spaced times of the history, oldest first. */
   moments() {
     if (this.newest <= this.oldest) return [];
     const count = Math.max(2, Math.min(HISTORY, Math.floor(40_000 / this.links.length)));
@@ -163,7 +163,7 @@ export class Lookups {
     return Array.from({ length: count }, (_, step) => this.oldest + Math.floor((span * step) / (count - 1)));
   }
 
-  /** Each frame's parent at a moment, or its newest one where its samples do not reach. */
+  /** Parent of each frame at a time, or the newest parent if no sample covers that time. */
   parents(time) {
     return this.links.map((link) => {
       const parent = link.mixed ? link.parentAt(time) : -1;
@@ -171,7 +171,7 @@ export class Lookups {
     });
   }
 
-  /** All frames at one moment: the names as they are sent then, and the poses. */
+  /** All frames at one time: names and poses. */
   picture(time) {
     const parents = this.parents(time);
     const key = parents.join();
@@ -186,7 +186,7 @@ export class Lookups {
       revision,
       names: this.links.map(({ name }) => name),
       parents,
-      // 2: nothing moves it but a slider.
+      // 2: only a slider moves it.
       statics: this.links.map((link, index) => (link.isStatic && parents[index] >= 0 ? 1 + Number(link.slides) : 0)),
       authorities: this.links.map(({ authority }) => authority || "no recorded authority"),
       total: this.total,
@@ -266,7 +266,7 @@ export class Lookups {
   }
 
   /**
-   * A pair's transform at evenly spread moments, as the server writes it; null where there is none.
+   * Transform of a pair at evenly spaced times, as the server writes it; null if there is none.
    * @param {{ target: string, source: string, from: number, to: number, count: number }} asked
    */
   series({ target, source, from, to, count }) {
@@ -282,7 +282,7 @@ export class Lookups {
   }
 
   /**
-   * Where frames were at evenly spread moments, as the server writes it; null where that is not known.
+   * Poses of frames at evenly spaced times, as the server writes them; null if unknown.
    * @param {import("./past.js").Asked} asked
    */
   trails({ fixed, frames, from, to, count }) {
@@ -298,7 +298,7 @@ export class Lookups {
     return { type: "trails", fixed, from, to, places };
   }
 
-  /** The pose of `source` in `target` at a moment; null where there is none. */
+  /** Pose of `source` in `target` at a time; null if there is none. */
   pose(target, source, stamp) {
     try {
       return this.lookup(target, source, stamp).pose;
@@ -316,7 +316,7 @@ export class Lookups {
     return number;
   }
 
-  /** The poses of several links one after the other, lowest first. */
+  /** Compose the poses of several links, lowest first. */
   chained(links, time) {
     return links.reduce((pose, index) => {
       const own = this.links[index].at(time) ?? new Array(7).fill(Number.NaN);
@@ -324,7 +324,7 @@ export class Lookups {
     }, null) ?? [0, 0, 0, 0, 0, 0, 1];
   }
 
-  /** The way up to where the two sides meet, from the source and from the target. */
+  /** Links from source and target up to their common ancestor. */
   walk(target, source, time) {
     const [target_, source_] = [this.links[target].name, this.links[source].name];
     const climb = (frame, ends) => {

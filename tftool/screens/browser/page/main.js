@@ -1,5 +1,5 @@
 // @ts-check
-// The page: joins the server, the model, the choices, the time and the picture.
+// The page: connects server, model, choices, time and picture.
 import { Raycaster, Vector3 } from "three";
 import { Bounds, spread } from "./bounds.js";
 import { FLAT, ray } from "./cameras.js";
@@ -34,15 +34,15 @@ import { Tree } from "./tree.js";
 import { same, Wire } from "./wire.js";
 
 const FLIGHT = 350; // milliseconds
-const NEAR_POINT = 6; // pixels from a point of a cloud that is measured
-const LOW = 500; // pixels of a window that has no room for panels
-const STEP = 0.1; // seconds one press of [ or ] goes
+const NEAR_POINT = 6; // pixels from a measured point of a cloud
+const LOW = 500; // pixels of a window without space for panels
+const STEP = 0.1; // seconds for each press of [ or ]
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole"];
-// When the past is requested for the trails: once the tree has come to rest, and once more later,
-// because what came while the page was busy starting has gaps.
+// Times of requests for the trails' history: once the tree is stable, and once more later,
+// because data that arrived during the start has gaps.
 const PAST_AFTER = [300, 3000];
 
-// What is packed into the page, where it comes as a file of its own.
+// Data packed into a saved page.
 const inside = packed();
 if (inside) keepFiles(inside);
 const given = read(location.hash || (inside?.header.view ?? ""));
@@ -63,7 +63,7 @@ const displays = new Displays(stage.scene, tracks, (topic) => {
 /** @type {{ connection: "wait" | "open" | "silent" | "ended" | "stored", hearing: Hearing, pair: any, unacknowledged: number, recorded: boolean }} */
 const server = { connection: "wait", recorded: false, hearing: new Hearing(), pair: null, unacknowledged: 0 };
 /**
- * What is on screen: of every frame, of those drawn, the trails.
+ * Contents of the screen: all frames, drawn frames, trails.
  * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: ReturnType<typeof trail>[] }}
  */
 const shown = { frames: [], drawn: [], lines: [] };
@@ -89,7 +89,7 @@ const timeline = new Timeline(
 );
 timeline.speed = choices.speed;
 timeline.ends = inside !== null;
-// The address may ask for a file that plays by itself, as on a page of the web.
+// The address may request autoplay, as for a page on the web.
 if (inside && given.play && !calm()) timeline.playing = timeline.loops = true;
 
 const tree = new Tree($("tree"), {
@@ -133,7 +133,7 @@ const handlers = {
     const another = model.setNames(message);
     timeline.rate = model.rate;
     timeline.moves = model.names.some((_, index) => model.parents[index] >= 0 && !model.statics[index]);
-    const recorded = message.begin ?? null; // the moment to open with, where nothing more comes
+    const recorded = message.begin ?? null; // the first time shown, for a recording
     if (another) tracks.forget();
     if (recorded !== null) {
       server.recorded = timeline.ends = $("live").hidden = true;
@@ -158,7 +158,7 @@ const handlers = {
   pair(message) {
     const { pair } = server;
     if (message.target !== choices.target || message.source !== choices.source) return;
-    // The numbers of a moment that is still shown outlive the buffer's memory of it.
+    // Numbers of a shown time stay after the buffer has pruned it.
     if (timeline.forgotten && !message.found && pair?.found) return;
     server.pair = message;
     if (!timeline.past) course.add(message);
@@ -195,8 +195,8 @@ const handlers = {
     server.unacknowledged = poses.sequence;
     timeline.setReach(poses);
     redraw.data(false);
-    if (!timeline.accepts(poses.at)) return; // late: another moment is looked at by now
-    // The poses of a moment that is still shown outlive the buffer's memory of it.
+    if (!timeline.accepts(poses.at)) return; // too late: another time is shown by now
+    // Poses of a shown time stay after the buffer has pruned it.
     if (poses.at !== null && poses.at < poses.oldest && model.poses?.at === poses.at) return;
     redraw.data(!same(poses, model.poses));
     model.setPoses(poses, performance.now());
@@ -228,7 +228,7 @@ const pickers = {
 
 const sliders = new Sliders($("sliders"), (joint, position) => wire.move(joint, position));
 
-/** Tell the server that what it sent is dealt with, so that it sends what is newest then. */
+/** Acknowledge a message, so that the server sends the newest state next. */
 function acknowledge() {
   if (server.unacknowledged) wire.got(server.unacknowledged);
   server.unacknowledged = 0;
@@ -236,7 +236,7 @@ function acknowledge() {
 
 // ---- drawing
 
-/** A person chose something: show it at once, and keep it in the address. */
+/** The user chose something: show it at once, and store it in the address. */
 function changed() {
   redraw.everything();
   remember();
@@ -260,7 +260,7 @@ function render(now) {
   course.ask(choices);
   if (due.lists) {
     drawCourse();
-    if (!due.picture) retell(model, shown.frames, timeline.past); // ages go on without a picture
+    if (!due.picture) retell(model, shown.frames, timeline.past); // ages advance without a picture
     tree.refresh(shown.frames, choices, robot);
     words();
   }
@@ -283,7 +283,7 @@ function solve() {
   robot.place(shown.frames, model, choices);
 }
 
-/** The trails, finely where a past moment is looked at. @param {number | null} at */
+/** Compute the trails, with all samples for a past time. @param {number | null} at */
 function pathsTo(at) {
   const { reach, rate } = timeline;
   const frames = trailing(model, shown.drawn, choices);
@@ -291,7 +291,7 @@ function pathsTo(at) {
   if (at === null || fixed === undefined) return frames.map((frame) => trail(model, frame, choices, reach.now));
   const from = whole ? reach.oldest : Math.max(reach.oldest, at - choices.length * rate);
   const until = whole ? reach.newest : at;
-  // First of all: pieces in another fixed frame are no trail in this one.
+  // First, because pieces in another fixed frame are no trail in this one.
   past.look(fixed, frames.map(({ name }) => name), from, until, reach.newest, rate);
   return frames.map((frame) => {
     const line = trail(model, frame, choices, at, past.trail(frame.name, from, at));
@@ -300,7 +300,7 @@ function pathsTo(at) {
   });
 }
 
-/** Paint what was solved: frames, trails, names, the pair's chain. */
+/** Paint the computed frames, trails, names, and the pair's chain. */
 function paint() {
   const { drawn, lines } = shown;
   const { pair } = server;
@@ -317,7 +317,7 @@ function paint() {
   if (measure.on) paintMeasure();
 }
 
-/** How far apart the frames of the pair are, as text. */
+/** Distance of the pair's frames, as text. */
 function distance(pair) {
   const known = pair?.found && !pair.translation.includes(null);
   return `${number(known ? Math.hypot(...pair.translation) : null, 3)} m`;
@@ -349,7 +349,7 @@ function words() {
 
 // ---- the camera
 
-/** Go along with the frame that is followed. */
+/** Move the camera with the followed frame. */
 function carry() {
   const { followed: name, fixed } = choices;
   const pose = name === undefined ? null : poseOf(name);
@@ -369,7 +369,7 @@ function poseOf(name) {
   return model.absolute[model.index.get(name) ?? -1] ?? null;
 }
 
-/** What is measured from or to, under the pointer: a frame, or a place on a solid, in a cloud, on the ground. */
+/** End of a measurement under the pointer: a frame, or a place on a solid, in a cloud, on the ground. */
 function under(event) {
   const frame = nearest(event);
   if (frame) return { name: frame.name };
@@ -385,14 +385,14 @@ function under(event) {
   return point && pose && name !== undefined ? { name, place: compose(invert(pose), [...point, 0, 0, 0, 1]).slice(0, 3) } : null;
 }
 
-/** Draw what is measured, over everything else. */
+/** Draw the measurement over everything else. */
 function paintMeasure() {
   const spots = measure.places(poseOf).map((place) => place && stage.project(place[0], place[1], place[2]));
   measure.told(poseOf);
   stage.drawMeasure(spots.filter((spot) => spot !== null), measure.length);
 }
 
-/** Keep everything drawn in view, until a person takes the camera. */
+/** Keep everything drawn in view until the user moves the camera. */
 function follow() {
   const { drawn, lines } = shown;
   const solid = robot.box ? [robot.box.min.toArray(), robot.box.max.toArray()] : [];
@@ -400,7 +400,7 @@ function follow() {
   if (box) fit(box);
 }
 
-/** How many pixels of the picture lie below panels, at each side. */
+/** Pixels of the picture covered by panels, at each side. */
 function insets() {
   const side = (id) => ($(id).offsetParent ? $(id).getBoundingClientRect() : null);
   const left = side("left");
@@ -416,7 +416,7 @@ function insets() {
 /** Pixels of the window from the top of the timeline down; few where there is none. */
 const foot = () => (!$("time").offsetParent ? 2 : innerHeight - $("time").getBoundingClientRect().top);
 
-/** What panels cover of the picture: left, top, width and height of each. */
+/** Areas covered by panels: left, top, width and height of each. */
 function covered() {
   return [...document.querySelectorAll("#bar, #left, #right > .panel, #time")]
     .map((panel) => panel.getBoundingClientRect())
@@ -434,12 +434,12 @@ function fit(box) {
   }
 }
 
-/** Whether this person wants nothing to move by itself. */
+/** Whether the user's system asks for reduced motion. */
 function calm() {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
-/** Bring a frame into the middle, near enough to see its axes. */
+/** Center a frame, near enough to see its axes. */
 function flyTo(name) {
   const pose = model.absolute[model.index.get(name) ?? -1];
   if (!pose) return;
@@ -455,7 +455,7 @@ function refit() {
 // ---- choices
 
 function fillPickers() {
-  // What is asked for stays choosable while it does not exist.
+  // A requested frame stays in the list while it does not exist.
   const asked = [choices.fixed, choices.wanted, choices.target, choices.source].map((name) => name ?? "");
   const absent = asked.filter((name) => name && !model.index.has(name));
   Picker.names = [...new Set([...absent, ...model.names])];
@@ -463,7 +463,7 @@ function fillPickers() {
 }
 
 /**
- * Light a frame, in the picture and in the list.
+ * Highlight a frame in the picture and in the list.
  * @param {string | undefined} name
  */
 function hover(name) {
@@ -479,14 +479,14 @@ function choose(name) {
   changed();
 }
 
-/** Open with what there is to see, as long as a person has not chosen. */
+/** Choose an opening view, unless the user has chosen. */
 function open() {
   const pair = choices.byHand.pair ? null : naturalPair(model);
   if (pair && (pair.target !== choices.target || pair.source !== choices.source)) {
     setPair(pair.target, pair.source, false);
   }
   if (!choices.byHand.trails) setSwitch("trails", trailsPay(model), false);
-  // Of what goes on the newest part says more.
+  // For live data the newest part matters more.
   if (!choices.byHand.whole) setSwitch("whole", timeline.ends && wholePays(model), false);
 }
 
@@ -562,7 +562,7 @@ function remember() {
 }
 
 async function share() {
-  // What is shared by hand shows the very moment, even if it is being played through.
+  // A shared link shows the current time, even during playback.
   const hash = address(timeline.at);
   showAddress(hash);
   const link = linkTo(location.href, hash);
@@ -576,7 +576,7 @@ async function share() {
   toast(told(link.reach, copied));
 }
 
-/** Have the browser save what is at an address. */
+/** Let the browser save the file at an address. */
 function save(address, name) {
   const link = document.createElement("a");
   link.href = address;
@@ -584,7 +584,7 @@ function save(address, name) {
   link.click();
 }
 
-/** The picture as large as the window, whatever the pace. */
+/** Draw the picture in the window's full resolution. */
 function whole() {
   stage.scale = 1;
   paint();
@@ -682,10 +682,10 @@ $("speed").onchange = () => {
   timeline.speed = choices.speed = Number($("speed").value);
   changed();
 };
-// A link to another view, put into this very window.
+// A link to another view, opened in this window.
 addEventListener("hashchange", () => location.reload());
 
-/** What of the keyboard the focused element needs for itself. */
+/** Kind of keys that the focused element uses itself. */
 function focused(target) {
   if (!(target instanceof HTMLElement)) return "other";
   if (target.matches("textarea, input:not([type=checkbox], [type=range])")) return "text";
@@ -716,7 +716,7 @@ addEventListener("keydown", (event) => {
     $(id).click();
   }
 });
-// A button that was clicked lets go of the keyboard, so that keys go on to mean what they say.
+// A clicked button releases the focus, so that keys keep their meaning.
 addEventListener("click", (event) => {
   if (!event.detail || !(event.target instanceof Element)) return; // pressed by a key
   const button = event.target.closest("button, summary, input[type=checkbox], input[type=range]");
@@ -733,7 +733,7 @@ $("help-close").onclick = () => showHelp(false);
 $("help").onclick = (event) => event.target === $("help") && showHelp(false);
 fill($("help-keys"), [...KEYS.map(([key, , does]) => [key === " " ? "Space" : key.toUpperCase(), does]), ...OTHERS]);
 
-// In a notebook's cell there is room for the picture alone.
+// A notebook's cell has space for the picture only.
 function showPanels(on) {
   document.body.classList.toggle("alone", !on);
   $("panels").setAttribute("aria-pressed", String(on));
@@ -756,7 +756,7 @@ for (const button of document.querySelectorAll(".drawer")) {
   if (button instanceof HTMLElement) button.onclick = () => openDrawer(button.dataset.drawer ?? "");
 }
 
-// The list of frames is as wide as a person likes it.
+// The user can resize the list of frames.
 function setSide(width) {
   choices.setNumber("side", width);
   if (choices.side !== undefined) document.documentElement.style.setProperty("--side", `${choices.side}px`);
@@ -821,15 +821,15 @@ new ResizeObserver(() => {
 }).observe($("bar"));
 new ResizeObserver(() => {
   document.documentElement.style.setProperty("--foot", `${foot() + 10}px`);
-  // Less of the picture is free, or more: until a person takes the camera all of it is to be seen.
+  // The free area has changed: until the user moves the camera, everything stays in view.
   bounds.reset();
   redraw.picture();
 }).observe($("time"));
 
-// What does not come makes no picture: ages go on, and so does what is said of the server.
+// Silence causes no picture, but ages and the server's state must be updated.
 setInterval(() => {
   const now = performance.now();
-  // A page that is not seen draws nothing, and so asks for nothing.
+  // A hidden page draws nothing, and requests nothing.
   if (document.hidden) server.hearing.begin(now);
   if (server.connection === "open" && server.hearing.isOver(now)) server.connection = "silent";
   const isCut = server.connection === "ended" || server.connection === "silent";
@@ -850,7 +850,7 @@ if (timeline.at !== null) timeline.show(timeline.at);
 if (choices.target && choices.source) setPair(choices.target, choices.source);
 requestAnimationFrame(render);
 
-// What is drawn, for tests and for the curious.
+// State of the picture, for tests and for debugging.
 Object.assign(globalThis, {
   tftool: {
     robot: () => ({ waiting: robot.waiting, missing: robot.missing, ...robot.drawn() }),

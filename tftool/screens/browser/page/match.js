@@ -1,8 +1,8 @@
 // @ts-check
-// Which names something typed may mean.
+// Names that match typed text.
 
 /**
- * How well a name fits what was typed, smaller is better; null where it does not.
+ * Score of a name for typed text, smaller is better; null if it does not match.
  * @param {string} name
  * @param {string} typed in small letters
  */
@@ -11,17 +11,17 @@ function fit(name, typed) {
   if (small === typed) return 0;
   const at = small.indexOf(typed);
   if (at === 0) return 1;
-  // Where a word begins, as "link" in "laser_link".
+  // At the beginning of a word, as "link" in "laser_link".
   if (at > 0 && /[^a-z0-9]/.test(small[at - 1])) return 2;
   if (at > 0) return 3;
-  // The letters in their order, as "lslk" in "laser_link".
+  // The letters in order, as "lslk" in "laser_link".
   let place = 0;
   for (const letter of small) if (letter === typed[place]) place++;
   return place === typed.length ? 4 : null;
 }
 
 /**
- * The names that fit what was typed, best first; all of them where nothing was.
+ * Names that match typed text, best first; all if nothing was typed.
  * @param {string[]} names
  * @param {string} typed
  * @returns {string[]}

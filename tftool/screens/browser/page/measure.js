@@ -1,12 +1,12 @@
 // @ts-check
-// Measures between two points: frames, or places in frames, and goes along with them.
+// Measurement between two points (frames, or places in frames), which moves with them.
 import { number } from "./format.js";
 import { compose } from "./maths.js";
 
 /** @typedef {{ name: string, place?: number[] }} End a frame, or a place in it */
 
 /**
- * Where a ray meets a plane, in front of where it begins; null if it does not.
+ * Intersection of a ray with a plane, in front of its origin; null if there is none.
  * @param {{ origin: number[], way: number[] }} ray
  * @param {number[]} normal
  * @param {number[]} through
@@ -35,7 +35,7 @@ export class Measure {
   }
 
   /**
-   * Take an end; a third one begins anew.
+   * Set the next end; a third one starts a new measurement.
    * @param {End | null} end
    */
   click(end) {
@@ -45,7 +45,7 @@ export class Measure {
   }
 
   /**
-   * Where the ends are now; null for a frame that has no pose.
+   * Present places of the ends; null for a frame without a pose.
    * @param {(name: string) => number[] | null} poseOf
    * @returns {(number[] | null)[]}
    */
@@ -57,7 +57,7 @@ export class Measure {
   }
 
   /**
-   * What there is to say.
+   * Text of the measurement.
    * @param {(name: string) => number[] | null} poseOf
    */
   told(poseOf) {

@@ -29,7 +29,7 @@ export const FIELDS = 11; // numbers of a frame
 export const FIELD = { x: 0, y: 1, z: 2, qx: 3, qy: 4, qz: 5, qw: 6, newest: 7, oldest: 8, rate: 9, samples: 10 };
 
 /**
- * The head of binary poses.
+ * Head of a binary message with poses.
  * @param {DataView} view
  */
 export const head = (view) => ({

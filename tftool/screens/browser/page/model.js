@@ -1,5 +1,5 @@
 // @ts-check
-// What is known of the frames: tree, poses in the fixed frame, ages, trails.
+// Model of the frames: tree, poses in the fixed frame, ages, trails.
 import { IDENTITY, compose, invert, known, normalized } from "./maths.js";
 
 const HISTORY_SECONDS = 60;
@@ -18,8 +18,8 @@ const HUES = 10;
 const HALF = HUES / 2;
 
 /**
- * A number for every name, for its colour: the same for the same names, in whatever order they come, and
- * little changed by names that are added. The first ten numbers are given out first.
+ * A number for the colour of each name: the same for the same names in any order, and
+ * nearly unchanged by new names. The first ten numbers are used first.
  * @param {string[]} names
  * @returns {Map<string, number>}
  */
@@ -29,7 +29,7 @@ export function placesOf(names) {
     [...names].sort().map((name) => {
       let first = 7;
       for (const letter of name) first = (31 * first + (letter.codePointAt(0) ?? 0)) % 1_000_003;
-      // Neighbours among the first half differ most: they are given out before the second.
+      // Neighbours in the first half differ most: so they are used before the second half.
       const [one, other] = [given.slice(0, HALF), given.slice(HALF)];
       const half = Math.min(...one) <= Math.min(...other) ? 0 : HALF;
       const fewest = Math.min(...(half ? other : one));
@@ -59,7 +59,7 @@ export class Model {
     /** @type {number[]} */
     this.order = []; // parents before their children
     /** @type {number[]} */
-    this.looped = []; // what no root reaches
+    this.looped = []; // frames that no root reaches
     /** @type {number[]} */
     this.rootOf = [];
     /** @type {Map<string | undefined, number>} */
@@ -75,20 +75,20 @@ export class Model {
     this.poses = null;
     /** @type {Map<string, { stamp: number, when: number }>} */
     this.heard = new Map(); // name → { stamp, when }: when the latest common stamp last changed
-    this.heardAt = 0; // when poses of the present came last, milliseconds
-    /** When a stamp newer than all before came last, milliseconds, and what the session's time was. */
+    this.heardAt = 0; // time of the last live poses, milliseconds
+    /** Arrival of the last stamp newer than all before, milliseconds, and the session's time then. */
     this.fresh = { newest: Number.NaN, when: 0, now: 0, isFirst: true };
-    this.silence = 0; // seconds since then, while nothing can come
+    this.silence = 0; // seconds since then, while nothing can arrive
     /** @type {Map<string, number>} */
     this.places = new Map(); // of the names, see `placesOf`
     /** @type {import("./wire.js").Poses[]} */
     this.history = [];
     this.historyBytes = 0;
     /** @type {WeakMap<object, { base: number, inverse: number[] | null, known: Map<number, number[] | null> }>} */
-    this.spots = new WeakMap(); // of the history, where frames were
+    this.spots = new WeakMap(); // poses of the history
   }
 
-  /** Take in the names; true if another session speaks now. */
+  /** Take in the names; true if they are another session's. */
   setNames(message) {
     const another = this.epoch !== null && this.epoch !== message.epoch;
     if (another) {
@@ -112,9 +112,9 @@ export class Model {
     this.parents.forEach((parent, index) => (parent < 0 ? this.roots : this.children[parent]).push(index));
     this.order = [...this.roots];
     for (let at = 0; at < this.order.length; at++) this.order.push(...this.children[this.order[at]]);
-    // What no root reaches runs in a loop: listed, never walked.
+    // Frames that no root reaches form a loop: listed, never traversed.
     const reached = new Set(this.order);
-    this.forget(); // what is remembered goes by the old numbers
+    this.forget(); // the history uses the old numbers
     this.looped = this.names.map((_, index) => index).filter((index) => !reached.has(index));
     this.rootOf = new Array(this.names.length).fill(-1);
     for (const index of this.order) {
@@ -129,7 +129,7 @@ export class Model {
     this.historyBytes = 0;
   }
 
-  /** Take in poses. In the present they also make the history trails are drawn from. */
+  /** Take in poses. Live ones also extend the history of trails. */
   setPoses(poses, when) {
     this.poses = poses;
     if (poses.at !== null) return;
@@ -179,7 +179,7 @@ export class Model {
     return at;
   }
 
-  /** The root of the tree with the most frames: where a first picture starts. */
+  /** Root of the largest tree: the first fixed frame. */
   biggestRoot() {
     const sizes = new Map();
     for (const index of this.order) {
@@ -191,7 +191,7 @@ export class Model {
     return this.names[best];
   }
 
-  /** Compute every pose in the fixed frame; null where it is not known. */
+  /** Compute every pose in the fixed frame; null if unknown. */
   solve(fixed) {
     const count = this.names.length;
     this.absolute = new Array(count).fill(null);
@@ -219,12 +219,12 @@ export class Model {
     this.listen(base);
   }
 
-  /** Note for which frames the latest stamp they have in common with the fixed frame has changed. */
+  /** Note the frames whose latest common stamp with the fixed frame has changed. */
   listen(base) {
     const { poses } = this;
     if (!poses || poses.at !== null) return;
     const newest = (index) => (this.statics[index] ? Infinity : poses.newestOf(index));
-    // The least stamp on the way from the fixed frame up to each of its ancestors.
+    // Smallest stamp between the fixed frame and each of its ancestors.
     const upward = new Map();
     let least = Infinity;
     for (let at = base; at >= 0; at = this.parents[at]) {
@@ -252,19 +252,19 @@ export class Model {
     return Math.max(0, (this.heardAt - heard.when) / 1000);
   }
 
-  /** Seconds since anything new was heard; 0 while the session's time stands still. */
+  /** Seconds since the last new data; 0 while the session's time stands still. */
   unheard() {
     if (!this.poses || this.poses.now === this.fresh.now) return 0;
     return (this.heardAt - this.fresh.when) / 1000;
   }
 
-  /** The same for people: what was old when the page was opened is as old as its stamp says. */
+  /** The same for display: data that was old when the page opened has the age of its stamp. */
   quiet() {
     if (!this.poses || !this.fresh.isFirst) return this.unheard();
     return Math.max(this.unheard(), (this.poses.now - this.poses.newest) / this.rate);
   }
 
-  /** Seconds since the frame's newest stamp, the silence since the server was heard last included. */
+  /** Seconds since the frame's newest stamp, including the server's silence. */
   behind(index) {
     if (!this.poses) return 0;
     return Math.max(0, this.poses.now - this.poses.newestOf(index)) / this.rate + this.silence;
@@ -276,7 +276,7 @@ export class Model {
     return known(pose) ? normalized(pose) : null;
   }
 
-  /** Where a frame was, in the fixed frame: [[x, y, z], …], oldest first, up to `until`. */
+  /** Places of a frame in the fixed frame: [[x, y, z], …], oldest first, up to `until`. */
   trail(index, fixed, seconds, until) {
     const base = this.index.get(fixed);
     if (base === undefined || this.rootOf[index] !== this.rootOf[base]) return [];
@@ -290,7 +290,7 @@ export class Model {
     return points;
   }
 
-  /** Where a frame was at one moment of the history; worked out once. */
+  /** Place of a frame at one time of the history, computed once. */
   placed(poses, base, index) {
     let spots = this.spots.get(poses);
     if (!spots || spots.base !== base) {

@@ -1,16 +1,16 @@
 // @ts-check
-// What a view opens with where a person has chosen nothing yet: a pair, a way to look, trails.
+// Opening view if the user has chosen nothing yet: a pair, a camera, trails.
 
 const FOLLOWER = "turtle2";
-const LED = ["carrot1", "turtle1"]; // what it follows, the first that there is
-const TRAILED = 12; // frames that move; more trails than that are a tangle
+const LED = ["carrot1", "turtle1"]; // frames that turtle2 follows, the first that exists
+const TRAILED = 12; // moving frames; more trails would be a tangle
 const WHOLE = 3; // frames that move, of a robot with its odometry and a correction of it
 const FLAT = 1e-3; // of the world's size, at most, off the plane
 const LEVEL = 1e-3; // sine of half the angle out of the plane
 
 /**
- * The pair that says most: what turtle2 follows, as in the tutorial; else the frame at the end of
- * the longest chain that moves, in the root above it. Null where there are no two frames in one tree.
+ * The most informative pair: turtle2 and the frame it follows, as in the tutorial; else the end of
+ * the longest moving chain, in its root. Null if no tree has two frames.
  * @param {import("./model.js").Model} model
  * @returns {{ target: string, source: string } | null}
  */
@@ -35,7 +35,7 @@ export function naturalPair(model) {
 }
 
 /**
- * Whether all frames lie in one level plane, and turn in it only: then a map says everything.
+ * Whether all frames are in one horizontal plane and turn only in it: then a map is enough.
  * @param {(number[] | null)[]} poses in one frame
  */
 export function planar(poses) {
@@ -51,7 +51,7 @@ export function planar(poses) {
 }
 
 /**
- * Whether what moves leaves trails unasked: not in a crowd.
+ * Whether moving frames get trails by default: not if there are many.
  * @param {import("./model.js").Model} model
  */
 export function trailsPay(model) {
@@ -60,7 +60,7 @@ export function trailsPay(model) {
 }
 
 /**
- * Whether the whole path is drawn unasked: where little moves, it is the picture.
+ * Whether the whole path is drawn by default: if few frames move.
  * @param {import("./model.js").Model} model
  */
 export function wholePays(model) {

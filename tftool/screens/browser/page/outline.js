@@ -1,5 +1,5 @@
 // @ts-check
-// Which rows of the nested list are to be seen, and where a key leads from one of them.
+// Visible rows of the nested list, and moves between them by keys.
 
 /**
  * @typedef {{ children: number[][], parents: number[], order: number[], roots: number[], looped: number[] }} Forest
@@ -26,8 +26,8 @@ export function listed({ children, roots, looped }) {
 }
 
 /**
- * What a filter leaves of the list: frames that match, and those above them, without which nothing
- * would show where they hang.
+ * Rows that a filter leaves: matching frames, and those above them, without which
+ * their place in the tree would be unknown.
  * @param {Forest} forest
  * @param {(index: number) => boolean} matches
  * @returns {Set<number>}
@@ -42,11 +42,11 @@ export function kept({ parents, children }, matches) {
 }
 
 /**
- * Where a key leads in a list of what can be seen, as in any tree of a desktop.
+ * Row to which a key moves in a list of visible rows, as in a desktop's tree.
  * @param {string} key
  * @param {number} from index of a frame
  * @param {{ visible: number[], parents: number[], opened: (index: number) => boolean | null }} list
- *   opened: null where there is nothing to open
+ *   opened: null for a row without children
  * @returns {{ go?: number, open?: boolean } | null} null for a key that leads nowhere
  */
 export function led(key, from, { visible, parents, opened }) {

@@ -1,16 +1,16 @@
 // @ts-check
-// How fine the picture with depth is drawn: coarser while things move and pictures come too slowly, as
-// large as the window as soon as they rest.
+// Resolution of the 3-D picture: coarser while frames move and pictures take too long,
+// the window's own as soon as they rest.
 
 const LEVELS = [1, 0.7, 0.5]; // of the pixels to a side
 const SLOW = 30; // milliseconds a picture may take
 const FAST = 18;
-const SLOWEST = 2 * SLOW; // that counts: one hitch says little
+const SLOWEST = 2 * SLOW; // weight of the newest picture: one slow picture means little
 const REST = 250; // milliseconds without a picture
 const SHARE = 0.2; // of the newest picture in the mean
 const SETTLED = 8; // pictures until a level is judged
 const PATIENCE = 90; // fast pictures until a finer level is tried
-const HIDDEN = 1000; // milliseconds; so long takes no picture: the page was not seen
+const HIDDEN = 1000; // milliseconds; no picture takes this long: the page was hidden
 
 export class Pace {
   constructor() {
@@ -25,7 +25,7 @@ export class Pace {
   }
 
   /**
-   * An animation frame begins. True where what rests now is to be drawn again, in full.
+   * Begin an animation frame. True if the picture, now at rest, must be drawn again in full.
    * @param {number} now milliseconds
    */
   tick(now) {
@@ -35,7 +35,7 @@ export class Pace {
   }
 
   /**
-   * A picture is drawn; its pixels, as a share of the window's to a side.
+   * Note a drawn picture, and its resolution as a share of the window's.
    * @param {number} now milliseconds
    */
   draw(now) {
@@ -53,7 +53,7 @@ export class Pace {
     this.judged++;
     this.fast = took < FAST ? this.fast + 1 : 0;
     if (this.took > SLOW && this.judged >= SETTLED && this.level < LEVELS.length - 1) {
-      // Finer was tried in vain: it is tried less often.
+      // A finer level was too slow: it is tried less often.
       if (this.patience > PATIENCE || this.risen) this.patience = Math.min(64 * PATIENCE, 2 * this.patience);
       this.turn(1);
     } else if (this.fast >= this.patience && this.level > 0) {

@@ -1,5 +1,5 @@
 // @ts-check
-// What is packed into a page that has no server; ../packing.py says how.
+// Data of a saved page; ../packing.py documents the layout.
 
 /**
  * @typedef {[number, number]} Section offset and length, in bytes
@@ -14,7 +14,7 @@
 const MAGIC = 0x54465331; // "TFS1"
 
 /**
- * The header of an inflated block, and the bytes its sections lie in.
+ * Header of an inflated block, and the bytes of its sections.
  * @param {ArrayBuffer} block
  */
 export function open(block) {
@@ -33,7 +33,7 @@ export function open(block) {
 export const isBlock = (block) => block.byteLength >= 8 && new DataView(block).getUint32(0) === MAGIC;
 
 /**
- * The block inflated from a deflated one.
+ * Inflate a block.
  * @param {Blob} blob
  */
 export async function inflated(blob) {
@@ -59,7 +59,7 @@ export class Packed {
   }
 
   /**
-   * The numbers of a column that is not looked at again.
+   * Numbers of a column that is read once.
    * @param {Column} column
    * @param {number} count
    */
@@ -70,7 +70,7 @@ export class Packed {
   }
 
   /**
-   * The numbers of a column, which several links may share.
+   * Numbers of a column that several links may share.
    * @param {Column} column
    * @param {number} count
    * @returns {Float64Array}
@@ -87,7 +87,7 @@ export class Packed {
   }
 }
 
-/** Words of 64 bits, low half first, whose bytes lie apart: all first bytes, all second bytes… */
+/** Words of 64 bits, low half first, with bytes separated: all first bytes, all second bytes… */
 function ordered(bytes, count) {
   const words = new Uint32Array(2 * count);
   for (let plane = 0; plane < 8; plane++) {

@@ -1,16 +1,16 @@
 // @ts-check
-// Everything on the page that is words and numbers.
+// Texts and numbers on the page.
 import { number, stillness } from "./format.js";
 import { degrees, rpy } from "./maths.js";
 
 /**
- * An element by its id. Of any kind: the page is ours, and its tests click everything.
+ * Element by id. Untyped: the page is ours, and its tests click everything.
  * @type {(id: string) => any}
  */
 export const $ = (id) => document.getElementById(id);
 
 /**
- * Set a text that seldom changes: a browser lays out anew what is set, equal or not.
+ * Set a text only if it changes: a browser lays out again after each assignment.
  * @param {Element} element
  * @param {string} text
  */
@@ -119,7 +119,7 @@ export function showStatus({ past, playing, moves }, state) {
 }
 
 /**
- * Say what moment is still looked at where nothing new comes, or which fixed frame stands in for another.
+ * Show which time is displayed if no data arrives, or which fixed frame replaces the chosen one.
  * @param {ReturnType<typeof import("./freshness.js").freshness>} state
  * @param {import("./model.js").Model} model
  * @param {import("./choices.js").Choices} choices
@@ -145,14 +145,14 @@ export function showBanner(state, model, { missed, fixed }) {
   setText($("banner"), said[state]);
 }
 
-/** A span of time that grows, in words. */
+/** A growing duration, in words. */
 function spell(seconds) {
   if (seconds < 60) return `${Math.floor(seconds)} s`;
   if (seconds < 3600) return `${Math.floor(seconds / 60)} min`;
   return `${Math.floor(seconds / 3600)} h`;
 }
 
-/** What stands in place of a picture while there is none. */
+/** Text in place of a picture. */
 export function showEmpty(connection, model, fixed) {
   const missing = fixed && model.names.length && !model.index.has(fixed);
   $("empty").hidden = connection === "wait" ? false : model.names.length > 0 && !missing;
@@ -176,13 +176,13 @@ export function showCounts(model, hidden) {
 }
 
 /**
- * Set the slider to what the buffer holds. Never under a hand that holds it.
+ * Set the slider to the buffer's span, unless the user is dragging it.
  * @param {import("./timeline.js").Timeline} timeline
  */
 export function showReach({ at, ends, moves, reach, span: { oldest, newest } }) {
   const line = $("scrub");
   line.disabled = reach.newest <= reach.oldest;
-  // What lasts no time, and where nothing moves, has no moments to go to.
+  // Without duration or moving frames there is no time to go to.
   $("time").hidden = line.disabled && (ends || !moves);
   if (line.matches(":active")) return;
   line.min = String(oldest);
@@ -208,7 +208,7 @@ export function showTime(timeline) {
   }
 }
 
-/** Give every panel with a head a button that folds it up. */
+/** Give every panel with a head a button that collapses it. */
 export function makeCollapsible() {
   for (const panel of document.querySelectorAll("#left, #right > .panel")) {
     const button = document.createElement("button");
@@ -228,7 +228,7 @@ export function makeCollapsible() {
   }
 }
 
-/** A word that goes away by itself; an empty one goes at once. */
+/** Show a message that disappears by itself; an empty one disappears at once. */
 export function toast(text) {
   clearTimeout(toast.timer);
   $("toast").textContent = text;

@@ -1,6 +1,6 @@
 // @ts-check
-// Where frames were around a past moment, as finely as it was recorded: asked for in pieces of a few
-// seconds, and kept as long as there is room.
+// Poses around a past time with all recorded samples: requested in pieces of a few
+// seconds, and stored while there is space.
 
 const PIECE = 5; // seconds
 const PLACES = 30; // a second
@@ -22,16 +22,16 @@ export class Past {
     this.ask = ask;
     this.fixed = "";
     this.long = PIECE; // seconds of the session
-    /** @type {Map<number, Piece>} the one looked at last comes last */
+    /** @type {Map<number, Piece>} in order of use, the last one at the end */
     this.pieces = new Map();
   }
 
-  /** Another tree, or another session. */
+  /** Forget everything: another tree, or another session. */
   forget() {
     this.pieces.clear();
   }
 
-  /** The connection has ended: what was asked for will not come. */
+  /** The connection has ended: open requests will not be answered. */
   lost() {
     for (const { known, asked } of this.pieces.values()) {
       asked.clear();
@@ -40,7 +40,7 @@ export class Past {
   }
 
   /**
-   * Look at frames from one moment to another; ask for what is missing of it, and of what comes next.
+   * Show frames between two times; request missing pieces, and the next ones.
    * @param {string} fixed
    * @param {string[]} frames
    * @param {number} from
@@ -93,8 +93,8 @@ export class Past {
   }
 
   /**
-   * Where a frame was, oldest first, as far back as every piece has come. What the page was sent
-   * of other moments is no stand-in: after a jump, it would show a path that was looked at before.
+   * Places of a frame, oldest first, as far back as all pieces are there. Live data of
+   * other times must not replace them: after a jump it would show a path seen before.
    * @param {string} name
    * @param {number} from
    * @param {number} until

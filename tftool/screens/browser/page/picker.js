@@ -1,16 +1,16 @@
 // @ts-check
-// A field that takes the name of a frame: what is typed narrows the names offered below it.
+// A field for the name of a frame, with matching names below it.
 import { offered } from "./match.js";
 
-const MOST = 100; // names offered at once; what is typed finds the others
+const MOST = 100; // names shown at once; typing finds the others
 
 export class Picker {
-  /** The names there are, for all pickers. @type {string[]} */
+  /** All names, for all pickers. @type {string[]} */
   static names = [];
 
   /**
    * @param {any} field
-   * @param {any} list where names are offered; all pickers share it
+   * @param {any} list element for the names, shared by all pickers
    * @param {(name: string) => void} choose takes the name; "" for none
    * @param {boolean} optional whether there may be none
    */
@@ -63,7 +63,7 @@ export class Picker {
     this.list.hidden = true;
   }
 
-  /** Offer the names that what is typed may mean, best first. */
+  /** Show the names that match, best first. */
   offer(typed) {
     if (!this.isOpen) this.field.setAttribute("aria-expanded", "true");
     const found = offered(Picker.names, typed);
@@ -77,7 +77,7 @@ export class Picker {
       line.textContent = name || "none";
       line.title = name;
       line.onpointerdown = (event) => {
-        event.preventDefault(); // the field keeps the focus until the name is taken
+        event.preventDefault(); // the field keeps the focus until a name is chosen
         this.take(name);
       };
       return line;

@@ -1,8 +1,8 @@
 // @ts-check
-// What has to be drawn anew: marked where something changes, taken once per animation frame.
+// Dirty flags: set by changes, read once per animation frame.
 
 const LISTS_EVERY = 150; // milliseconds between two refreshes of the lists
-const STILL_EVERY = 300; // milliseconds between two pictures in which nothing moves but time
+const STILL_EVERY = 300; // milliseconds between two pictures in which only time advances
 
 /** Dirty flags of the picture and of the lists beside it. */
 export class Redraw {
@@ -25,24 +25,24 @@ export class Redraw {
     this.moved ||= moved;
   }
 
-  /** Time has passed: the lists follow, and no picture. */
+  /** Time has passed: only the lists are updated. */
   words() {
     this.listsDue = true;
   }
 
-  /** A person moved the camera or the time: the picture follows at once. */
+  /** The user moved the camera or the time: the picture follows at once. */
   picture() {
     this.pictureDue = this.atOnce = true;
   }
 
-  /** A person chose something: the picture and the lists follow at once. */
+  /** The user chose something: picture and lists follow at once. */
   everything() {
     this.picture();
     this.listsAt = -Infinity;
   }
 
   /**
-   * What to draw in the animation frame at `now`; the flags of that are cleared.
+   * Parts to draw in the animation frame at `now`; their flags are cleared.
    *
    * @param {number} now milliseconds
    * @param {number} interval least time between two pictures of data, milliseconds
@@ -63,7 +63,7 @@ export class Redraw {
     return { picture, lists };
   }
 
-  /** The last picture showed no data yet: the first that does is not to wait for the interval. */
+  /** The last picture showed no data: the first one with data must not wait for the interval. */
   nothingShown() {
     this.pictureAt = -Infinity;
   }

@@ -1,5 +1,5 @@
 // @ts-check
-// A robot's links as solids: the shapes of its description, meshes fetched from our own server.
+// A robot's links as solids: shapes of its description, meshes from our server.
 import {
   ArrowHelper,
   Box3,
@@ -31,13 +31,13 @@ import { fetchFile } from "./files.js";
 
 import { Places, Solids } from "./solids.js";
 
-const GREY = [0.75, 0.75, 0.77, 1]; // where a description says no colour
+const GREY = [0.75, 0.75, 0.77, 1]; // if the description has no colour
 const COLLISION = [0.95, 0.45, 0.2, 0.45];
 const MISSING = [0.95, 0.25, 0.3, 0.8];
 const MISSING_SIZE = 0.1; // metres
 const AXIS = "#ffd400";
 const AXIS_LENGTH = 0.2; // metres
-const SIDES = { fine: 48, plain: 32 }; // of what is round; plain where the processor draws
+const SIDES = { fine: 48, plain: 32 }; // of round shapes; plain: without a graphics card
 const CREASE = 0.7; // radians between two facets from which on their edge is sharp
 const SHADOW = 2.2; // of the robot's width
 
@@ -54,8 +54,8 @@ const SHADOW = 2.2; // of the robot's width
 export class Robot {
   /**
    * @param {import("three").Scene} scene
-   * @param {() => void} changed called when a mesh has come, or failed
-   * @param {boolean} plain whether the processor draws, to which every corner is dear
+   * @param {() => void} changed called when a mesh was loaded, or failed
+   * @param {boolean} plain whether there is no graphics card, so that every vertex is costly
    */
   constructor(scene, changed, plain) {
     this.scene = scene;
@@ -68,21 +68,21 @@ export class Robot {
     this.places = new Places(0);
     /** Shapes that are drawn together: all but textured ones. */
     this.solids = { visuals: new Solids(this.places), collisions: new Solids(this.places) };
-    /** Collision shapes that were never shown: they are loaded with the first look at them. @type {[string, Shape][]} */
+    /** Collision shapes not shown so far: loaded when first shown. @type {[string, Shape][]} */
     this.unloaded = [];
     /** @type {string[]} */
     this.missing = [];
     /** @type {Map<string, Promise<import("three").Object3D>>} */
     this.meshes = new Map();
     this.textures = new TextureLoader();
-    this.waiting = 0; // meshes that have not come yet
+    this.waiting = 0; // meshes still loading
     /** @type {Set<string>} frames of links with a shape, visible or for collisions */
     this.shaped = new Set();
     const above = new HemisphereLight("#ffffff", "#5a6270", 2.2);
     above.position.set(0, 0, 1);
     const sun = new DirectionalLight("#ffffff", 1.6);
     sun.position.set(-3, -4, 8);
-    // Of the scene, as markers are lit too where no robot is shown.
+    // Lights belong to the scene, as markers need them without a robot.
     scene.add(above, sun, sun.target, this.group);
     this.shadow = shade();
     scene.add(this.shadow);
@@ -98,7 +98,7 @@ export class Robot {
     return this.shaped.has(frame);
   }
 
-  /** What of it is in the picture, by link: how many visuals, collisions and axes. */
+  /** Contents of the picture by link: numbers of visuals, collisions and axes. */
   drawn() {
     const links = {};
     for (const [frame, { all, visuals, collisions, axes }] of this.links) {
@@ -195,7 +195,7 @@ export class Robot {
           if (part instanceof Mesh) parts.push(part);
         });
         for (const part of parts) {
-          // An STL or OBJ says no colour; the others have materials of their own.
+          // STL and OBJ have no colour; the others have materials.
           const plain = /\.(stl|obj)$/i.test(address) || kind === "collisions";
           const tone = plain ? linear(color) : toneOf(part);
           if (tone && !shape.texture) {
@@ -265,7 +265,7 @@ export class Robot {
   }
 
   /**
-   * The link's frame and the place where a ray meets the robot; null if it does not.
+   * Frame and place at which a ray hits the robot; null if it does not.
    * @param {import("three").Raycaster} ray
    */
   pick(ray) {
@@ -274,7 +274,7 @@ export class Robot {
     return hit && frame ? { frame, point: hit.point.toArray(), distance: hit.distance } : null;
   }
 
-  /** A mesh, fetched once whatever the number of links that have it. */
+  /** Fetch a mesh, once for all links that use it. */
   mesh(address) {
     let found = this.meshes.get(address);
     if (!found) {
@@ -285,7 +285,7 @@ export class Robot {
   }
 
   /**
-   * Put the links where their frames are.
+   * Move the links to their frames.
    * @param {import("./frames.js").Frame[]} frames
    * @param {import("./model.js").Model} model
    * @param {Look} look
@@ -308,7 +308,7 @@ export class Robot {
       link.all.visible = true;
       link.all.matrix.compose(where.fromArray(pose, 0), turn.fromArray(pose, 3), one);
       this.places.put(link.number, link.all.matrix);
-      // What has nothing to be drawn by itself needs no place in the scene either.
+      // A link without separate parts needs no object in the scene.
       link.all.matrixWorldAutoUpdate = link.loose || look.jointaxes;
       link.all.matrixWorldNeedsUpdate = true;
       link.visuals.visible = look.visuals;
@@ -342,7 +342,7 @@ function shade() {
 }
 
 /**
- * The geometry of a shape that is no mesh; null for a mesh. Cylinders lie along z, as in ROS.
+ * Geometry of a primitive shape; null for a mesh. Cylinders are along z, as in ROS.
  * @param {Shape} shape
  * @param {number} sides of what is round
  */
@@ -356,7 +356,7 @@ function solid({ kind, size = [1, 1, 1], radius = 0, length = 0 }, sides) {
 }
 
 /**
- * A colour of a description in linear light, and how opaque it is.
+ * A description's colour in linear light, and its opacity.
  * @param {number[]} given
  */
 function linear(given) {
@@ -365,7 +365,7 @@ function linear(given) {
   return [color.r, color.g, color.b, alpha];
 }
 
-/** The one colour of a part that came with a mesh; null where there is more to it. */
+/** Colour of a mesh's part; null if it has a texture or several materials. */
 function toneOf(part) {
   const { material, geometry } = part;
   if (Array.isArray(material) || material.map || material.vertexColors || !material.color) return null;
@@ -385,7 +385,7 @@ function paint(color) {
   return material;
 }
 
-/** Keep how opaque a material is by itself. */
+/** Store a material's own opacity. */
 function remember(material) {
   for (const one of Array.isArray(material) ? material : [material]) one.userData.opaque ??= one.opacity;
 }
@@ -419,7 +419,7 @@ async function load(address) {
   if (kind === ".dae") {
     const found = new ColladaLoader().parse(await answer.text(), folder);
     if (!found) throw new Error("it is no Collada file");
-    // Which way is up is the link's business, as in rviz.
+    // The link determines the upward direction, as in rviz.
     found.scene.rotation.set(0, 0, 0);
     return cleaned(found.scene);
   }
@@ -427,7 +427,7 @@ async function load(address) {
   return cleaned(found.scene);
 }
 
-/** Without the lights and cameras that came along. */
+/** Remove lights and cameras from a loaded mesh. */
 function cleaned(scene) {
   const strangers = [];
   scene.traverse((part) => {

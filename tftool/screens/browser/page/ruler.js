@@ -1,5 +1,5 @@
 // @ts-check
-// A ruler of time and a plot above it, as numbers: where ticks, gaps, findings and lines come to lie.
+// Geometry of the time ruler and the plot: places of ticks, gaps, findings and lines.
 
 import { round } from "./scale.js";
 
@@ -9,7 +9,7 @@ const MINUTES = [60, 120, 300, 600, 900, 1800, 3600, 7200, 14_400, 28_800, 86_40
 /** @typedef {{ oldest: number, newest: number }} Span */
 
 /**
- * Moments to mark, round numbers of seconds, no nearer to each other than `apart` pixels.
+ * Times of ticks, round numbers of seconds, at least `apart` pixels apart.
  * @param {Span} span
  * @param {number} width pixels
  * @param {number} apart
@@ -34,7 +34,7 @@ function stepOver(least) {
   return Math.min(30, factor * power);
 }
 
-/** A moment as a tick says it: seconds, with minutes and hours where it is long. */
+/** Text of a tick: seconds, with minutes and hours for long spans. */
 export function told(moment, step = 1) {
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const size = Math.abs(moment);
@@ -46,7 +46,7 @@ export function told(moment, step = 1) {
   return `${sign}${Math.floor(minutes / 60)}:${String(minutes % 60).padStart(2, "0")}:${seconds}`;
 }
 
-/** Turns moments into pixels and back. */
+/** Converts times to pixels and back. */
 export class Scale {
   /**
    * @param {Span} span
@@ -73,7 +73,7 @@ export class Scale {
 }
 
 /**
- * The gaps that are to be seen: of the frames named, of all where none are; joined where they meet.
+ * Shown gaps: of the given frames, or of all if none are given; adjacent ones are joined.
  * @param {[string, number, number][]} gaps frame, from, to
  * @param {Set<string>} frames
  * @param {Span} span
@@ -98,7 +98,7 @@ export function shownGaps(gaps, frames, { oldest, newest }) {
 }
 
 /**
- * Round values to mark at the side of a plot, no nearer to each other than `apart` pixels.
+ * Round values at the side of a plot, at least `apart` pixels apart.
  * @param {[number, number]} limits
  * @param {number} height pixels
  * @returns {{ value: number, text: string }[]}
@@ -114,7 +114,7 @@ export function levels([least, most], height, apart = 18) {
 }
 
 /**
- * A series up to its last known place, and after it the poses that came since.
+ * A series up to its last known place, followed by newer poses.
  * @param {any} series
  * @param {any[]} poses each with `moment` and the series' columns
  */
@@ -146,7 +146,7 @@ export function placeOf(times, moment) {
   return high === low ? low : low + Math.min(1, Math.max(0, (moment - times[low]) / (times[high] - times[low] || 1)));
 }
 
-/** What can be plotted of a pair, and what each line is called. */
+/** Quantities of a pair that can be plotted, with the names of their lines. */
 export const PLOTS = {
   xyz: { lines: ["x", "y", "z"], unit: "m" },
   distance: { lines: ["distance"], unit: "m" },
@@ -173,7 +173,7 @@ export function linesOf(series, plot) {
 const LEAST_HEIGHT = 0.002; // metres or degrees: the legend says no more than thousandths
 
 /**
- * Least and most of several lines, with a margin; never so near each other that noise fills the plot.
+ * Limits of several lines, with a margin; never so close that noise fills the plot.
  * @param {{ values: (number | null)[] }[]} lines
  * @returns {[number, number]}
  */
@@ -193,7 +193,7 @@ export function bounds(lines) {
 }
 
 /**
- * Cut a line where it has no values, and where an angle leaps from one end of the circle to the other.
+ * Split a line where values are missing, and where an angle wraps around.
  * @param {(number | null)[]} values
  * @param {boolean} circular whether they are degrees
  * @returns {[number, number][][]} runs of [index, value]
@@ -214,7 +214,7 @@ export function runs(values, circular) {
 }
 
 /**
- * The last value of a line that is known: the newest moments often are not yet.
+ * Last known value of a line: the newest ones are often unknown.
  * @param {(number | null)[]} values
  */
 export function newestOf(values) {
@@ -223,7 +223,7 @@ export function newestOf(values) {
 }
 
 /**
- * The value between two of a line's, on the straight way; null where one of them is missing.
+ * Linear interpolation between two values of a line; null if one is missing.
  * @param {(number | null)[]} values
  * @param {number} place index, with a fraction
  * @param {boolean} circular whether they are degrees

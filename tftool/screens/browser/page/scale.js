@@ -1,5 +1,5 @@
 // @ts-check
-// Round lengths: the grid's cells and the bar that says how long a metre is.
+// Round lengths: the grid's cells and the scale bar.
 
 const CELL = 34; // pixels a cell is wide at least
 const PARTS = 4; // of a line, each a step further faded
@@ -18,7 +18,7 @@ export function round(length) {
 const tidy = (value) => Number(value.toPrecision(12));
 
 /**
- * How wide a cell of the grid is: a power of ten, or half or a fifth of one.
+ * Width of a grid cell: a power of ten, or half or a fifth of one.
  * @param {number} pixel metres
  */
 export function cellFor(pixel) {
@@ -26,7 +26,7 @@ export function cellFor(pixel) {
 }
 
 /**
- * A length in the unit that suits it.
+ * A length as text, in a suitable unit.
  * @param {number} metres
  */
 export function spelled(metres) {

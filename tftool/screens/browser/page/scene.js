@@ -1,5 +1,5 @@
 // @ts-check
-// The picture: three.js for what has depth, two flat canvases for trails, names and the chain.
+// The picture: three.js for 3-D shapes, two flat canvases for trails, names and the chain.
 import {
   Color,
   Matrix4,
@@ -35,9 +35,9 @@ const ROOMY = 0.84; // of the picture that the frames' origins fill: names and a
 const SMALLEST = 0.56; // metres from the middle to the sides
 const CORNER = { width: 124, height: 108 }; // pixels of the scale and the axes in the corner
 const ARRANGED_EVERY = 5; // pictures, with many names
-const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale frames turn into
+const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // colour of stale frames
 
-/** Whether pictures are made by the processor, where every pixel and corner is dear. */
+/** Whether there is no graphics card, so that every pixel and vertex is costly. */
 function drawsInSoftware() {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (!gl) return false;
@@ -57,7 +57,7 @@ function flat(canvas) {
 
 export class Stage {
   /**
-   * @param {HTMLCanvasElement} floor where the grid is put aside
+   * @param {HTMLCanvasElement} floor canvas that stores the grid
    * @param {HTMLCanvasElement} under
    * @param {HTMLCanvasElement} main
    * @param {HTMLCanvasElement} over
@@ -96,24 +96,24 @@ export class Stage {
     }
     this.width = this.height = 0; // of the window, CSS pixels
     this.ratio = 1; // canvas pixels per CSS pixel
-    this.scale = 1; // of the pixels of what has depth, see pace.js
-    /** From where the grid was looked at in the last picture, and where it was put aside. */
+    this.scale = 1; // share of the 3-D picture's pixels, see pace.js
+    /** View of the grid in the last picture, and in the stored one. */
     this.looked = { from: new Matrix4(), through: new Matrix4(), key: "", aside: false };
-    this.extent = 5; // how far the frames reach from the origin, metres
+    this.extent = 5; // extent of the frames around the origin, metres
     /** Pixels that panels cover, at each side. */
     this.inset = { left: 0, right: 0, top: 0, bottom: 0 };
     /** @type {number[][]} */
     this.covered = []; // by panels: left, top, width, height
     /** @type {Map<string, number>} */
-    this.stood = new Map(); // where names stood in the picture before
-    this.gone = ARRANGED_EVERY; // pictures since names found their places
+    this.stood = new Map(); // places of names in the previous picture
+    this.gone = ARRANGED_EVERY; // pictures since names were placed
     this.theme = THEMES.dark;
     this.point = new Vector3();
     /** @type {number[][]} */
-    this.reserved = []; // where no name stands
+    this.reserved = []; // areas without names
     this.signs = new Map(); // names as they were painted
     this.changed = () => {}; // the camera has moved
-    this.taken = false; // whether a person moves the camera, and not the page
+    this.taken = false; // whether the user, not the page, moves the camera
     /** @type {{ from: any, to: any, lasting: number, began: number } | null} */
     this.flying = null;
     this.view = "top";
@@ -185,7 +185,7 @@ export class Stage {
     const ways = { right: right.toArray(), upward: upward.toArray(), away: away.toArray() };
     const least = (SMALLEST * this.height) / (half * Math.min(free.x, free.y));
     const distance = Math.max(least, distanceFor(box, ways, { x: slope(free.x), y: slope(free.y) }));
-    // The middle of the picture is not the middle of what the panels leave free.
+    // The middle of the picture is not the middle of the area free of panels.
     const metres = (2 * distance * half) / this.height;
     middle.addScaledVector(right, ((inset.right - inset.left) / 2) * metres);
     middle.addScaledVector(upward, ((inset.top - inset.bottom) / 2) * metres);
@@ -196,9 +196,9 @@ export class Stage {
   }
 
   /**
-   * Move the camera so that a place comes into the middle of what the panels leave free, and near.
+   * Move the camera to a place, in the middle of the area free of panels.
    * @param {number[]} place
-   * @param {number} scale of the markers, which are to be seen well
+   * @param {number} scale of the markers, which must be visible
    * @param {number} lasting milliseconds; 0 for at once
    * @param {{ left: number, right: number, top: number, bottom: number }} inset
    */
@@ -219,7 +219,7 @@ export class Stage {
       perPixel = (2 * distance * half) / this.height;
       to.position.sub(from.target).setLength(distance);
     }
-    // The middle of what is free, and not of the window.
+    // The middle of the free area, not of the window.
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const upward = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
     to.target.addScaledVector(right, ((inset.right - inset.left) / 2) * perPixel);
@@ -230,7 +230,7 @@ export class Stage {
     this.advance(this.flying.began);
   }
 
-  /** Go on flying; `now` in milliseconds. */
+  /** Continue a camera flight; `now` in milliseconds. */
   advance(now) {
     if (!this.flying) return;
     const { from, to, lasting, began } = this.flying;
@@ -247,7 +247,7 @@ export class Stage {
     this.changed();
   }
 
-  /** Move the camera along, by so many metres. */
+  /** Move the camera by a vector, metres. */
   carry(x, y, z) {
     if (!x && !y && !z) return;
     const { camera } = this;
@@ -274,7 +274,7 @@ export class Stage {
     this.controls[this.view].update();
   }
 
-  /** Draw. `frames`: [{pose, parent pose or null, grey, alpha}, …]; `look`: what is switched on. */
+  /** Draw. `frames`: [{pose, parent pose or null, grey, alpha}, …]; `look`: the switches. */
   draw(frames, look) {
     this.resize();
     if (frames.length) {
@@ -319,7 +319,7 @@ export class Stage {
       put(things.head, PAINTS.head, 0.034 * look.scale, tip, 0.034 * look.scale);
     }
     this.crowd.end();
-    // What is drawn through solids is drawn last, and finds no depth of theirs any more.
+    // Parts visible through solids are drawn last, with the depth buffer cleared.
     this.crowd.mesh.renderOrder = look.through ? OVER_ALL : 0;
     this.crowd.mesh.onBeforeRender = look.through ? () => this.renderer.clearDepth() : () => {};
     this.camera.updateMatrixWorld();
@@ -327,7 +327,7 @@ export class Stage {
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** While one looks at the grid from the same place it is drawn once, on a canvas of its own. */
+  /** Draw the grid once for each view, on a canvas of its own. */
   putAside(shown) {
     const { looked, camera, ground, floor, renderer } = this;
     const key = shown ? `${this.view} ${ground.key}` : "";
@@ -351,7 +351,7 @@ export class Stage {
     if (looked.aside) ground.lines.visible = false;
   }
 
-  /** Metres of a pixel where one looks, the place one looks at, and how far one sees or the frames reach. */
+  /** Metres per pixel at the point looked at, that point, and the extent of view or frames. */
   seen() {
     const { x, y } = this.controls[this.view].target;
     const corner = Math.hypot(this.width, this.height) / 2;
@@ -361,7 +361,7 @@ export class Stage {
     return { pixel, middle: [x, y], reach: Math.max(1.3 * world, corner * pixel), flat: false };
   }
 
-  /** Metres a pixel is wide, at the place one looks at. */
+  /** Metres per pixel at the point looked at. */
   pixel() {
     const { orbit } = this.cameras;
     if (this.view !== "orbit") return 10 / (this.height || 1) / this.camera.zoom;
@@ -382,7 +382,7 @@ export class Stage {
     );
   }
 
-  /** Pixels from the top left corner, or null for what lies behind the camera. */
+  /** Pixels from the top left corner, or null for a place behind the camera. */
   project(x, y, z) {
     const { point } = this;
     point.set(x, y, z).applyMatrix4(this.camera.matrixWorldInverse);
@@ -391,9 +391,9 @@ export class Stage {
     return [((point.x + 1) / 2) * this.width, ((1 - point.y) / 2) * this.height];
   }
 
-  /** The trails: [{points, ahead, color, whole}, …]; of a whole one the way ahead is drawn too. */
+  /** Draw trails: [{points, ahead, color, whole}, …]; a whole one includes the path ahead. */
   drawUnder(trails) {
-    // A layer less to put together while there is nothing on it.
+    // An empty layer is hidden, which saves compositing it.
     this.under.hidden = !trails.length;
     if (!trails.length) return;
     const pen = flat(this.under);
@@ -429,7 +429,7 @@ export class Stage {
   }
 
   /**
-   * Names, rings, the pair's chain, the scale and the axes. Names are only ever painted as text.
+   * Draw names, rings, the pair's chain, scale and axes. Names are only painted as text.
    * @param {any[]} labels
    * @param {{ chain: number[][], distance: string }} pair
    * @param {{ pose: number[] | null | undefined, strong: boolean }[]} rings
@@ -439,7 +439,7 @@ export class Stage {
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
     const corner = [10, this.height - this.inset.bottom - CORNER.height, CORNER.width, CORNER.height];
-    // Beside the list of frames, or below it where that is short.
+    // Beside the list of frames, or below a short one.
     if (this.covered.some((panel) => overlap(panel, corner))) corner[0] += this.inset.left;
     this.reserved = [...this.covered, corner];
     this.drawChain(pen, pair);
@@ -456,7 +456,7 @@ export class Stage {
     this.drawCorner(pen, corner[0] + 8);
   }
 
-  /** The way from frame to frame, and the straight one with its length. */
+  /** Draw the chain of frames, and the straight line with its length. */
   drawChain(pen, { chain, distance }) {
     const spots = chain.map((pose) => this.project(pose[0], pose[1], pose[2]));
     if (spots.length < 2 || !spots.every(Boolean)) return;
@@ -487,7 +487,7 @@ export class Stage {
       pen.arc(x, y, at === 0 || at === spots.length - 1 ? 6 : 4, 0, 7);
       pen.fill();
     });
-    // Another text in every picture: a sign of its own would not be used again.
+    // The text changes in every picture: a cached picture of it would not be reused.
     pen.font = FONT;
     const [width, height] = [pen.measureText(distance).width + 8, LINE];
     const [x, y] = [(first[0] + last[0]) / 2 - width / 2, (first[1] + last[1]) / 2 - height / 2];
@@ -497,7 +497,7 @@ export class Stage {
     this.write(pen, distance, this.theme.accent, Math.round(x), Math.round(y));
   }
 
-  /** Names beside their frames; one that has to stand aside gets a line. */
+  /** Draw names beside their frames; one that is moved aside gets a line. */
   drawNames(pen, labels) {
     const seen = [];
     for (const label of labels) {
@@ -507,7 +507,7 @@ export class Stage {
       const [width, height] = [sign.width / this.ratio, sign.height / this.ratio];
       seen.push({ label, sign, x: spot[0], y: spot[1], width, height, first: label.first, was: this.stood.get(label.name) });
     }
-    // Among many, names go along with their frames, and find new places every few pictures.
+    // If there are many, names move with their frames, and are placed again every few pictures.
     const anew = seen.length <= MANY || ++this.gone >= ARRANGED_EVERY;
     if (anew) this.gone = 0;
     const stands = anew
@@ -535,7 +535,7 @@ export class Stage {
     pen.globalAlpha = 1;
   }
 
-  /** How long a metre is, and where x, y and z point, in the corner that panels leave free. */
+  /** Draw the scale bar and the directions of x, y and z in a free corner. */
   drawCorner(pen, left) {
     const bottom = this.height - this.inset.bottom - 16;
     const pixel = this.pixel();
@@ -561,7 +561,7 @@ export class Stage {
       name: "xyz"[side],
       tip: new Vector3(...[0, 1, 2].map((at) => Number(at === side))).applyMatrix4(turn),
     }));
-    // What points away is drawn first.
+    // Axes that point away are drawn first.
     for (const { color, name, tip } of tips.sort((one, other) => one.tip.z - other.tip.z)) {
       const [x, y] = [middle[0] + 28 * tip.x, middle[1] - 28 * tip.y];
       pen.strokeStyle = color;
@@ -579,7 +579,7 @@ export class Stage {
   }
 
   /**
-   * What is measured: up to two pixels, the line between, and its length.
+   * Draw a measurement: up to two pixels, the line between, and its length.
    * @param {number[][]} spots
    * @param {string} length
    */
@@ -601,7 +601,7 @@ export class Stage {
     this.write(pen, length, this.theme.accent, Math.round(x - pen.measureText(length).width / 2), Math.round(y - LINE));
   }
 
-  /** A name painted once, to be put down in every picture: outlines of letters are costly. */
+  /** Paint a name once, for all pictures: outlines of letters are costly. */
   sign(name, color) {
     const key = `${this.ratio} ${color} ${name}`;
     const known = this.signs.get(key);
@@ -631,7 +631,7 @@ export class Stage {
     pen.fillText(text, x + 4, y + 3);
   }
 
-  /** Everything visible, as one canvas. Call in the same task as `draw`. */
+  /** Combine all layers into one canvas. Call in the same task as `draw`. */
   picture() {
     const sheet = document.createElement("canvas");
     sheet.width = this.under.width;

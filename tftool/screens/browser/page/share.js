@@ -1,12 +1,12 @@
 // @ts-check
-// The view as part of the page's address, so that a link shows just this.
+// The view as part of the page's address, so that a link reproduces it.
 
 const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at", "opacity", "side"];
 const WORDS = ["fixed", "target", "source", "pair", "chosen", "only", "not", "view", "theme", "plot", "followed"];
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole", "play"];
 const LISTS = ["hidden", "closed", "trailed", "bare", "undrawn"];
 
-/** Read the address; what is missing or makes no sense is left out. */
+/** Read the address; missing or invalid values are left out. */
 export function read(hash) {
   const said = new URLSearchParams(hash.replace(/^#/, ""));
   const state = {};
@@ -32,12 +32,12 @@ export function write(state) {
   return `#${said}`;
 }
 
-/** What a live page is saved as. */
+/** File name of a saved live page. */
 export const FILE = "tftool-view.html";
 
 /**
- * What to give to others of a page at an address, and where it works: everywhere; beside the file,
- * whose folder is different with everyone who has it; on this machine, while tftool runs; or nowhere.
+ * Link of a page at an address, and the places where it works: everywhere; beside the file,
+ * which others may have in another folder; on this machine, while tftool runs; or nowhere.
  * @param {string} href the page's own address
  * @param {string} hash the view
  * @returns {{ text: string, reach: "web" | "file" | "here" | "none" }}
@@ -51,7 +51,7 @@ export function linkTo(href, hash) {
 }
 
 /**
- * What was shared, in a sentence.
+ * Sentence about the shared link.
  * @param {"web" | "file" | "here" | "none"} reach
  * @param {boolean} copied whether the link is on the clipboard
  */
@@ -61,11 +61,11 @@ export function told(reach, copied) {
   return reach === "file" ? "Copied: the file's name with this view, for those who have the file" : "Link to this view copied";
 }
 
-/** Show the view in the page's own address, where it has one. */
+/** Write the view to the page's own address, if it has one. */
 export function showAddress(hash) {
   try {
     history.replaceState(null, "", hash);
   } catch {
-    // In a notebook's output a page has no address.
+    // A page in a notebook's output has no address.
   }
 }

@@ -1,10 +1,10 @@
 // @ts-check
-// The robot's panel: a slider for each joint that is moved from here, and what is missing of it.
+// The robot's panel: a slider for each movable joint, and missing parts of the robot.
 import { number } from "./format.js";
 import { $ } from "./panels.js";
 
 const MOST_TOLD = 8;
-/** Where all joints go at once. */
+/** Buttons that move all joints at once. */
 const POSES = {
   Zero: () => 0,
   Centre: (least, most) => (least + most) / 2,

@@ -1,6 +1,6 @@
 // @ts-check
-// Many solids as one mesh: each corner knows the number of its link, and the links' places come as a
-// texture. Hundreds of shapes are drawn at once, and nothing but the links' places is sent to move them.
+// Many solids as one mesh: each vertex has the number of its link, and the links' poses are a
+// texture. Hundreds of shapes are drawn at once, and only the links' poses are sent to move them.
 import {
   BufferAttribute,
   Box3,
@@ -27,7 +27,7 @@ mat4 placeOf(float link) {
               texelFetch(places, ivec2(2, row), 0), texelFetch(places, ivec2(3, row), 0));
 }
 `;
-// Light from above, and from a lamp beside: worked out per corner, which costs least.
+// Light from above and from one side, computed per vertex, which is cheapest.
 const SHADED = `
 mat4 place = placeOf(link);
 vec3 transformed = (place * vec4(position, 1.0)).xyz;
@@ -36,7 +36,7 @@ float lamp = 0.5 + 0.5 * dot(outward, vec3(-0.32, -0.42, 0.85));
 vShade = 0.5 + 0.14 * (1.0 + outward.z) + 0.34 * lamp * lamp;
 `;
 
-/** Places of links, for every `Solids` that is drawn of them. */
+/** Poses of links, for every `Solids` of them. */
 export class Places {
   /** @param {number} count */
   constructor(count) {
@@ -64,7 +64,7 @@ export class Solids {
     /** @type {{ link: number, geometry: BufferGeometry, matrix: import("three").Matrix4, color: number[] }[]} */
     this.parts = [];
     this.isDirty = false;
-    this.isClear = false; // whether one of them can be seen through by itself
+    this.isClear = false; // whether one of them is transparent by itself
     this.material = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide });
     this.material.onBeforeCompile = (shader) => {
       shader.uniforms.places = { value: places.texture };
@@ -84,7 +84,7 @@ export class Solids {
    * @param {number} link
    * @param {BufferGeometry} geometry
    * @param {import("three").Matrix4} matrix where it is on its link
-   * @param {number[]} color red, green, blue in linear light, and how opaque it is
+   * @param {number[]} color red, green, blue in linear light, and opacity
    */
   add(link, geometry, matrix, color) {
     this.parts.push({ link, geometry, matrix, color });
@@ -147,7 +147,7 @@ export class Solids {
     this.mesh.geometry = joined;
   }
 
-  /** Where a part is: its place on its link, and the link's. */
+  /** Pose of a part: on its link, times the link's. */
   matrixOf({ link, matrix }) {
     return new Matrix4().fromArray(this.places.numbers, 16 * link).multiply(matrix);
   }
@@ -162,7 +162,7 @@ export class Solids {
   }
 
   /**
-   * Where a ray meets the nearest part, and the number of its link; null if it meets none.
+   * Nearest hit of a ray, and the number of the link; null if there is none.
    * @param {import("three").Raycaster} ray
    */
   pick(ray) {

@@ -1,10 +1,10 @@
 // @ts-check
-// In place of the connection to a server: answers from what is packed into the file.
+// Replacement of the server's connection: answers from the data of a saved page.
 import { drive } from "./kinematics.js";
 import { Lookups, nanoseconds } from "./lookups.js";
 import { Packed } from "./packed.js";
 
-/** @returns {Packed | null} what is packed into this page; null where a server is behind it */
+/** @returns {Packed | null} data of a saved page; null for a served one */
 export function packed() {
   const found = /** @type {any} */ (globalThis).tftoolPacked;
   return found ? new Packed(found.header, found.bytes) : null;
@@ -31,7 +31,7 @@ export class Standalone {
     this.revision = -1;
     this.sequence = 0;
     this.due = false;
-    // As from a server, nothing is answered before the page is ready.
+    // As with a server, nothing is answered before the page is ready.
     queueMicrotask(() => {
       handlers.open();
       if (this.robot) handlers.robot(this.robot);
@@ -49,7 +49,7 @@ export class Standalone {
     else this.later();
   }
 
-  /** What is asked for several times in a row is answered once. */
+  /** Repeated requests are answered once. */
   later() {
     if (this.due) return;
     this.due = true;
@@ -84,7 +84,7 @@ export class Standalone {
 
   press() {}
 
-  /** Put a joint elsewhere, and the links that go along with it. */
+  /** Move a joint, and the links that depend on it. */
   move(joint, position) {
     for (const { frame, pose } of drive(this.robot.motion, joint, position)) {
       this.lookups.links[this.lookups.numbers.get(frame) ?? -1]?.hold(pose);

@@ -1,43 +1,43 @@
 // @ts-check
-// The moment that is looked at: the present, or one in the past, at rest or being played.
+// The displayed time: the present, or a past one, at rest or playing.
 
 /**
- * What the buffer holds, in seconds of the session.
+ * Span of the buffer, in seconds of the session.
  * @typedef {{ oldest: number, newest: number, now: number }} Reach
  */
 
 /**
- * ask(at): request the poses of a moment, null for the present. moved(): the moment or the way it
- * runs has changed. reached(reach): the buffer holds another span now.
+ * ask(at): request the poses at a time, null for the present. moved(): the displayed time or its
+ * rate has changed. reached(reach): the buffer's span has changed.
  * @typedef {{ ask(at: number | null): void, moved(): void, reached(reach: Reach): void }} Hooks
  */
 
-const SHORTEST = 0.01; // seconds that the ruler is zoomed to at most
-const LONGEST_TICK = 0.25; // seconds; a page that was hidden does not leap
+const SHORTEST = 0.01; // seconds of the smallest span of the ruler
+const LONGEST_TICK = 0.25; // seconds; after being hidden, the page does not jump
 
 export class Timeline {
   /**
    * @param {Hooks} hooks
-   * @param {number | null} at moment to begin with; null is the present
+   * @param {number | null} at first displayed time; null for the present
    */
   constructor(hooks, at = null) {
     this.hooks = hooks;
     this.at = at;
     this.playing = at === null;
-    this.awaiting = false; // poses were requested and have not come yet
+    this.awaiting = false; // poses were requested and have not arrived
     /** @type {Reach} */
     this.reach = { oldest: 0, newest: 0, now: 0 };
-    /** The part of the reach that the ruler and the plot show. */
+    /** The part of the buffer's span that ruler and plot show. */
     this.span = { oldest: 0, newest: 0 };
     /** @type {{ from: number, length: number, follows: boolean } | null} zoomed to, null for all */
     this.window = null;
-    this.zoomed = 0; // how often a person zoomed or panned
+    this.zoomed = 0; // number of zooms and pans
     this.rate = 1; // session seconds per second
     this.speed = 1; // of play, chosen by a person
     this.tickedAt = 0;
     this.moves = true; // whether any frame is dynamic
-    this.ends = false; // nothing more comes: there is no present to run into
-    this.loops = false; // what is played to its end begins anew
+    this.ends = false; // a recording: playback has no present to reach
+    this.loops = false; // playback repeats from the start
   }
 
   get past() {
@@ -50,7 +50,7 @@ export class Timeline {
   }
 
   /**
-   * Take in what the buffer holds: the one place that does, so that the slider's bounds never lag.
+   * Take in the buffer's span. The only place that does, so that the slider's limits are never old.
    * @param {Reach} reach
    */
   setReach({ oldest, newest, now }) {
@@ -59,7 +59,7 @@ export class Timeline {
     this.hooks.reached(this.reach);
   }
 
-  /** Keep the window within the buffer, and along with the moment shown once it has been inside. */
+  /** Keep the zoomed window within the buffer, and let it follow the displayed time once inside. */
   settle() {
     const { window, reach } = this;
     const { oldest, newest } = reach;
@@ -76,7 +76,7 @@ export class Timeline {
   }
 
   /**
-   * Show a shorter or longer span, with a moment at the same place of the ruler.
+   * Zoom, with one time at the same place of the ruler.
    * @param {number} moment
    * @param {number} factor of the span; Infinity for all of it
    */
@@ -88,7 +88,7 @@ export class Timeline {
   }
 
   /**
-   * Show an earlier or later part.
+   * Pan to an earlier or later part.
    * @param {number} seconds
    */
   pan(seconds) {
@@ -110,7 +110,7 @@ export class Timeline {
   }
 
   /**
-   * Come to rest on a moment, never beyond what the buffer holds.
+   * Stop at a time within the buffer's span.
    * @param {number} moment
    */
   scrub(moment) {
@@ -126,19 +126,19 @@ export class Timeline {
     this.scrub((this.at ?? this.reach.newest) + seconds * this.rate);
   }
 
-  /** Pause or play on; pausing the present rests on its newest moment. */
+  /** Pause or continue; a pause while live stops at the newest time. */
   toggle() {
     if (this.at === null && !this.ends) this.scrub(this.reach.newest);
     else {
       this.playing = !this.playing;
-      // What has run to its end begins anew.
+      // Playback at its end starts again.
       if (this.ends && (this.at ?? this.reach.newest) >= this.reach.newest) this.show(this.reach.oldest);
       this.hooks.moved();
     }
   }
 
   /**
-   * Let time pass until `now`, in milliseconds: a played past runs into the present.
+   * Advance playback to `now`, in milliseconds; it may reach the present.
    * @param {number} now
    */
   tick(now) {
@@ -152,7 +152,7 @@ export class Timeline {
   }
 
   /**
-   * Whether poses of moment `at` (null: the present) are those looked at. Late ones are not.
+   * Whether poses at `at` (null: the present) are those displayed, and not late ones.
    * @param {number | null} at
    */
   accepts(at) {
@@ -170,12 +170,12 @@ export class Timeline {
     this.hooks.moved();
   }
 
-  /** Poses of a past moment will come once more: play waits for them. */
+  /** Poses of a past time will be sent again: playback waits for them. */
   awaitAgain() {
     this.awaiting = this.at !== null;
   }
 
-  /** The connection has ended: what was requested will not come. */
+  /** The connection has ended: open requests will not be answered. */
   lost() {
     this.awaiting = false;
   }

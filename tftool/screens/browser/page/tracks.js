@@ -1,7 +1,7 @@
 // @ts-check
 // The messages that are drawn beside the frames, by topic and in order of their stamps.
 
-const MOST_KEPT = 200; // messages of a topic that goes on
+const MOST_KEPT = 200; // messages of a live topic
 const MOST_PLACES = 600_000; // of all of them together
 
 /**
@@ -17,7 +17,7 @@ const MOST_PLACES = 600_000; // of all of them together
  */
 
 /**
- * Columns side by side, row by row; read when they are first looked at.
+ * Columns combined into rows, read at the first use.
  * @param {import("./packed.js").Column[]} columns
  * @param {number} count
  * @param {import("./packed.js").Packed} packed
@@ -37,7 +37,7 @@ function rows(columns, count, packed, scale = 1) {
 }
 
 /**
- * A message whose places are unpacked when it is first looked at.
+ * A message whose places are unpacked at the first use.
  * @param {PackedMessage} message
  * @param {import("./packed.js").Packed} packed
  * @returns {Message}
@@ -77,10 +77,10 @@ export class Tracks {
   }
 
   /**
-   * Take in messages, beside those that are known.
+   * Add messages to the known ones.
    * @param {PackedTrack[]} tracks
    * @param {import("./packed.js").Packed} packed
-   * @param {boolean} whole whether these are all there are
+   * @param {boolean} whole whether these are all messages
    */
   take(tracks, packed, whole) {
     for (const { topic, type, faults, messages } of tracks) {
@@ -88,7 +88,7 @@ export class Tracks {
       const track = known && !whole ? known : { topic, type, faults, whole, messages: [] };
       this.topics.set(topic, track);
       track.faults = faults;
-      // What comes last is shown in the present, whatever its stamp: time may have begun anew.
+      // The last message is the present one, whatever its stamp: time may have restarted.
       const first = messages[0]?.stamp ?? Infinity;
       while (!whole && track.messages.length && track.messages[track.messages.length - 1].stamp >= first) track.messages.pop();
       for (const message of messages) {
@@ -100,13 +100,13 @@ export class Tracks {
     }
   }
 
-  /** Another session speaks: what came from the one before is gone. */
+  /** Another session: drop the messages of the previous one. */
   forget() {
     for (const { topic, whole } of [...this.topics.values()]) if (!whole) this.topics.delete(topic);
   }
 
   /**
-   * What a topic shows at a moment: its last message up to then; null for none.
+   * Message of a topic at a time: the last one up to then; null for none.
    * @param {string} topic
    * @param {number | null} moment null for the latest
    */

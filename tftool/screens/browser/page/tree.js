@@ -1,5 +1,5 @@
 // @ts-check
-// The nested list of frames. Names go in by textContent and no other way.
+// The nested list of frames. Names are set by textContent only.
 import { halves, stillness } from "./format.js";
 import { kept, led, listed } from "./outline.js";
 
@@ -17,7 +17,7 @@ export class Tree {
     this.handlers = handlers;
     /** @type {any[]} */
     this.rows = [];
-    this.filtered = ""; // by what the rows that are seen were last chosen
+    this.filtered = ""; // inputs of the last choice of visible rows
     /** @type {Set<number>} */
     this.kept = new Set();
     this.current = -1; // the one row that is a tab stop
@@ -33,7 +33,7 @@ export class Tree {
     this.filtered = "";
     this.kept = new Set(model.names.keys()); // a key may come before the first refresh
     this.rows = new Array(model.names.length);
-    const below = new Map(); // where the children of a frame go
+    const below = new Map(); // element of a frame's children
     const roots = [];
     this.order = listed(model);
     for (const { index, level } of this.order) {
@@ -119,7 +119,7 @@ export class Tree {
     return item;
   }
 
-  /** Open or close what hangs below a frame. */
+  /** Open or close the rows below a frame. */
   open(index, open, tell = true) {
     const { item, fold } = this.rows[index];
     item.classList.toggle("closed", !open);
@@ -186,13 +186,13 @@ export class Tree {
     if (!this.kept.has(this.current)) this.stop(this.visible()[0] ?? -1);
   }
 
-  /** Light the row of a frame, and no other. */
+  /** Highlight the row of one frame. */
   light(name) {
     this.rows.forEach(({ row }, index) => row.classList.toggle("lit", this.model.names[index] === name));
   }
 
   /**
-   * Refresh what changes with time; `frames[index]`: { lost, grey, trouble, told, late, color };
+   * Refresh values that change with time; `frames[index]`: { lost, grey, trouble, told, late, color };
    * `links.has(name)`.
    */
   refresh(frames, state, links) {

@@ -1,8 +1,8 @@
 // @ts-check
-// Turtles as flat figures that lie where their frames are, head along x, a metre long.
+// Turtles as flat figures at their frames, head along x, one metre long.
 import { Color, DoubleSide, Group, Mesh, MeshBasicMaterial, Shape, ShapeGeometry, Vector2 } from "three";
 
-const MOST = 40; // that are drawn as figures
+const MOST = 40; // turtles drawn as figures
 const ROUND = 24; // corners of a shell
 
 /** An ellipse as a shape: middle, half axes, turn. */
@@ -20,7 +20,7 @@ function plate(...corners) {
   return new ShapeGeometry(new Shape(corners.map(([x, y]) => new Vector2(x, y))));
 }
 
-// Geometry, height above the ground, and how light it is beside the turtle's own colour.
+// Geometry, height above the ground, and lightness relative to the turtle's colour.
 const LEG = 0.72;
 const PARTS = [
   [ellipse(0.27, 0.25, 0.16, 0.075, 0.7), 0, LEG],
@@ -66,7 +66,7 @@ export class Turtles {
   }
 
   /**
-   * Put figures where turtles are.
+   * Place the figures.
    * @param {{ name: string, pose: number[], color: string, alpha: number, grey: number }[]} turtles
    * @param {(group: Group, pose: number[]) => void} place
    */

@@ -1,5 +1,5 @@
 // @ts-check
-// Begins a page that has no server: inflates what is packed into the file, then runs the page's script.
+// Starts a saved page: inflates its data, then runs the page's script.
 import { inflated } from "./packed.js";
 
 async function begin() {

@@ -1,12 +1,12 @@
 // @ts-check
-// The connection to the server: decodes what comes, connects again when it ends.
+// The connection to the server: decodes messages, and reconnects.
 import { FIELD, FIELDS, HEADER, head, MAGIC } from "./messages.js";
 import { inflated, isBlock, open, Packed } from "./packed.js";
 import { secured } from "./secret.js";
 
 const RETRY = 1000;
 
-/** What a binary message holds; null for anything else. */
+/** Decode a binary message; null for anything else. */
 export function decode(buffer) {
   if (buffer.byteLength < HEADER) return null;
   const view = new DataView(buffer);
@@ -53,7 +53,7 @@ export class Poses {
 }
 
 /**
- * Whether every frame is where it was: at the same moment, or in the present both times.
+ * Whether two sets of poses are equal, at the same time or both live.
  * @param {Poses} one
  * @param {Poses | null} other
  */
@@ -67,16 +67,16 @@ export function same(one, other) {
 
 export class Wire {
   /**
-   * Handlers: open(), ended(reason), heard(), whenever something comes; names(message),
+   * Handlers: open(), ended(reason), heard() at every message; names(message),
    *  pair(message), range(message), poses(Poses),
-   *  tracks(tracks, packed, whole), messages that are drawn; series(message), marks(message),
-   *  robot(message), its shapes, joints and sliders; trails(message), where frames were;
-   *  past(Poses), which are drawn nowhere but in trails.
+   *  tracks(tracks, packed, whole), drawn messages; series(message), marks(message),
+   *  robot(message), its shapes, joints and sliders; trails(message), poses of the past;
+   *  past(Poses), only for trails.
    */
   constructor(handlers) {
     this.handlers = handlers;
     /** @type {Map<string, import("./messages.js").Request>} */
-    this.wanted = new Map(); // what to say again after a reconnection, by type
+    this.wanted = new Map(); // requests to repeat after a reconnection, by type
     this.socket = this.connect();
   }
 
@@ -121,7 +121,7 @@ export class Wire {
   }
 
   /**
-   * Say something now, and again whenever the connection is made anew.
+   * Send a request now, and again after each reconnection.
    * @param {import("./messages.js").Request} request
    */
   want(request) {
@@ -130,7 +130,7 @@ export class Wire {
   }
 
   /**
-   * Ask where frames were.
+   * Request poses of the past.
    * @param {import("./past.js").Asked} asked
    */
   trails(asked) {
@@ -141,7 +141,7 @@ export class Wire {
     this.send({ type: "got", sequence });
   }
 
-  /** Put a joint elsewhere. */
+  /** Move a joint. */
   move(joint, position) {
     this.send({ type: "move", joint, position });
   }
@@ -151,7 +151,7 @@ export class Wire {
     this.send({ type: "key", key });
   }
 
-  /** Ask for poses from all over the buffer. */
+  /** Request poses from the whole buffer. */
   past() {
     this.send({ type: "past" });
   }

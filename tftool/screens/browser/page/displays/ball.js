@@ -1,5 +1,5 @@
 // @ts-check
-// One place, of a point, as a dot that is seen from any distance.
+// A point, as a dot visible from any distance.
 import { Points, PointsMaterial } from "three";
 import { geometry } from "./points.js";
 

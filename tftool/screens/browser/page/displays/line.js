@@ -1,5 +1,5 @@
 // @ts-check
-// A line through places, of a path or a marker; pairs of places, each a line.
+// A line through places (of a path or a marker), or separate lines between pairs of places.
 import { Line, LineBasicMaterial, LineSegments } from "three";
 import { geometry, ink } from "./points.js";
 

@@ -1,5 +1,5 @@
 // @ts-check
-// The solids and words of markers: one solid at each place of a shape, all of one turn and size.
+// Solids and texts of markers: one solid at each place of a shape, with one rotation and size.
 import {
   BoxGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, InstancedMesh, Matrix4,
   Mesh, MeshLambertMaterial, Quaternion, SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3,
@@ -9,7 +9,7 @@ import { geometry, ink, shade } from "./points.js";
 const SEGMENTS = 32; // of round solids
 const LETTER = 64; // pixels of a letter's height
 
-// ROS's axis of a cylinder is z, that of three.js is y. Each fills a cube of one metre.
+// A cylinder's axis is z in ROS, y in three.js. Each solid fills a cube of one metre.
 const upright = (made) => made.rotateX(Math.PI / 2);
 const UNITS = {
   box: () => new BoxGeometry(),
@@ -18,7 +18,7 @@ const UNITS = {
   cone: () => upright(new ConeGeometry(0.5, 1, SEGMENTS)),
 };
 
-/** Whether a solid of these colours is seen through, and how much: three.js has one opacity for all of them. */
+/** Opacity of a solid of these colours: three.js has one for all of them. */
 function glass(colors) {
   const opacity = colors?.[3] ?? 1;
   return { opacity, transparent: opacity < 1 };
@@ -50,7 +50,7 @@ export function triangles(shape, color) {
   return new Mesh(made, new MeshLambertMaterial({ side: DoubleSide, ...ink(shape, color) }));
 }
 
-/** @param {import("../tracks.js").Shape} shape words that face the camera; the size's z is a letter's height */
+/** @param {import("../tracks.js").Shape} shape text that faces the camera; the size's z is the height of a letter */
 export function words(shape, color) {
   const canvas = document.createElement("canvas");
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
@@ -70,6 +70,6 @@ export function words(shape, color) {
   const height = shape.size[2] / LETTER;
   sprite.scale.set(canvas.width * height, canvas.height * height, 1);
   sprite.position.fromArray(shape.places());
-  // A group, as the place of the message's frame is set on what is returned.
+  // A group, as the caller sets the pose of the message's frame on the returned object.
   return new Group().add(sprite);
 }

@@ -1,12 +1,12 @@
 // @ts-check
-// Many points, of a cloud or a scan, coloured by their height where they have one and no colours.
+// Points of a cloud or a scan, coloured by height if they have no colours.
 import { BufferAttribute, BufferGeometry, Color, Points, PointsMaterial, SRGBColorSpace } from "three";
 
 const SIZE = 3; // pixels
 const FLAT = 0.05; // metres
 
 /**
- * A colour of a message, which a screen shows as it is.
+ * A message's colour, which is shown unchanged.
  * @param {Float32Array} colors
  */
 export const shade = (colors, at = 0) => new Color().setRGB(colors[at], colors[at + 1], colors[at + 2], SRGBColorSpace);
@@ -27,7 +27,7 @@ export function geometry(shape) {
 }
 
 /**
- * What a material needs for the colours of a shape, or for the one of its topic.
+ * Material options for a shape's colours, or for its topic's colour.
  * @param {import("../tracks.js").Shape} shape
  */
 export function ink(shape, color) {
