@@ -28,6 +28,7 @@ from tftool.ros.host.importing import ros_free
         ("launch.event_handlers.on_process_exit", "OnProcessExit"),
         ("launch.events.process.process_exited", "ProcessExited"),
         ("launch_ros.actions.node", "Node"),
+        ("launch_ros.events.lifecycle", "ChangeState matches_node_name"),
         ("launch_ros.actions.push_ros_namespace", "PushRosNamespace"),
         ("launch_ros.substitutions.find_package", "FindPackageShare"),
         ("launch.launch_description", "LaunchDescription DeclareLaunchArgument LaunchContext"),

@@ -192,7 +192,8 @@ launch_ros.actions: launch.components: ComposableNodeContainer<node_container>
 launch_ros.actions.load_composable_nodes: launch.components: get_composable_node_load_request
 launch_ros.descriptions launch_ros.descriptions.composable_node: launch.components: ComposableNode
 launch_ros.actions: launch.lifecycle: LifecycleNode<lifecycle_node> LifecycleTransition
-launch_ros.events launch_ros.events.matchers: launch.lifecycle: matches_node_name
+launch_ros.events launch_ros.events.matchers launch_ros.events.lifecycle
+    launch_ros.events.lifecycle.lifecycle_node_matchers: launch.lifecycle: matches_node_name
 launch_ros.events.lifecycle: launch.lifecycle: ChangeState StateTransition
 launch_ros.event_handlers: launch.lifecycle: OnStateTransition
 launch_ros.substitutions: launch.substitutions: ExecutableInPackage<$exec-in-pkg> FindPackage
