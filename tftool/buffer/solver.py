@@ -203,7 +203,7 @@ class Solver:
         return True
 
     def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
-        """Return the exception for a failed walk."""
+        """Return the exception for a lookup without a path through the tree."""
         if walk.ended == LOOP:
             return self._looped(target, source)
         if walk.ended == REFUSED:

@@ -382,7 +382,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Group streams that are all steady and differ by a constant offset."""
+    """Divide steady streams into groups of equal clock offset; groups differ by a constant."""
     steady: list[tuple[int, str]] = []
     streams: list[Track | Heard] = [t for t in model.dynamic if not t.is_localisation]
     streams += [heard for heard in model.heard if heard.is_spatial]

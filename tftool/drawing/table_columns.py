@@ -22,10 +22,10 @@ class TableColumn:
 
     Attributes:
         heading: Text above them.
-        cells: One a row.
+        cells: Texts, one for each row.
         stands_right: Whether the cells are aligned to the right, as numbers are.
         caps: Maximum widths, from wide to narrow: a column shrinks before it is dropped.
-        goes: In which order columns go where there is no room; 0 for one that stays.
+        goes: Order in which columns are dropped from a narrow table; 0 for one that stays.
     """
 
     heading: str

@@ -336,7 +336,7 @@ def _moving_offset(
     parent: str,
     tolerance: Allowance,
 ) -> tuple[Displacement | None, str]:
-    """Return the offset of a moving child, seen from A's parent, at common times."""
+    """Return the offset of a moving child between A and B, in A's parent frame, at common times."""
     stamps = _common(held[0][child], held[1][child], shift)
     if not len(stamps):
         return None, APART

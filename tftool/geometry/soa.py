@@ -75,7 +75,7 @@ def _dot(first: Floats, second: Floats) -> Floats:
 
 
 def _terms(square: float) -> int:
-    """Return the number of series terms needed up to an angle with this square."""
+    """Return the number of series terms needed for angles whose square is at most this."""
     power = 1.0
     for count, coefficient in enumerate(_SERIES):
         if coefficient * power < _NEGLIGIBLE:

@@ -16,7 +16,7 @@ Check = Callable[[Any], Any]
 
 
 def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
-    """Return the check of a field's single value.
+    """Return the check of one value of a field (of an array: one element).
 
     Args:
         name: The field's name.

@@ -139,7 +139,7 @@ class Supervisor:
     """Tasks of the nodes of one run.
 
     Attributes:
-        over: Done when the run is to end.
+        over: Future that is set when the run must end.
         failure: The first node that failed.
         error: Another error that ended the run.
     """

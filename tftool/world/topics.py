@@ -118,7 +118,7 @@ class Topic(Generic[T]):
         return len(self._subscribers)
 
     def stream(self, depth: int = 100) -> AsyncIterator[T]:
-        """Yield further values; a reader slower than `depth` values loses the oldest."""
+        """Yield each new value. A reader more than `depth` values behind loses the oldest."""
         return streamed(self.subscribe, depth)
 
 

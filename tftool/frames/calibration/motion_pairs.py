@@ -37,7 +37,7 @@ class MotionPairs:
 
 
 def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPairs:
-    """Choose pairs at most `longest` seconds apart that turn by 12° to 150°, if any."""
+    """Choose pairs of poses between which the body turned by 12° to 150° in `longest` seconds."""
     places, turns, valid = problem.a.at(problem.times + offset)
     known = np.flatnonzero(valid)
     dice = np.random.default_rng(0)

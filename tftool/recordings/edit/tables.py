@@ -88,7 +88,7 @@ class MessageKind:
 
 
 class Kinds:
-    """Kinds of one channel's messages, learned while reading."""
+    """Types of one channel's messages, learned while reading."""
 
     def __init__(
         self, layout: Layout, learn: "Callable[[bytes], tuple[Result, Counter[str]]]"

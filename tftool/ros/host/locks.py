@@ -103,7 +103,7 @@ class StateMonitor:
                     self._wakers.remove(wake)
 
     def _block(self, take: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait in real time, on a thread that belongs to no program."""
+        """Wait in real time, on a thread that no user's program started."""
         changed = threading.Event()
         while True:
             with self._mutex:

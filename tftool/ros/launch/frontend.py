@@ -110,7 +110,7 @@ def _condition(element: Element) -> Any:
 
 
 def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
-    """Return a user's own action."""
+    """Return the action that a user's code registered for an element."""
     try:
         kind, settings = read(exposing.Entity(element), Parser())
         return kind(**settings)

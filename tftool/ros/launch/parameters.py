@@ -108,7 +108,7 @@ class ParameterFile:
         return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the path of a file without `$(…)`: of a copy, if the text may contain some.
+        """Return the path of a file with all `$(…)` replaced: of a copy, if there may be any.
 
         Raises:
             InputError: If a `$(…)` is not known.

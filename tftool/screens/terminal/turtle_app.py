@@ -211,7 +211,7 @@ class TurtleApp(PanelApp):
     # Looking
 
     def look_again(self) -> None:
-        """Draw the present state, unless the last drawing took too long for another so soon."""
+        """Draw the present state, unless the last drawing was slow and has only just ended."""
         loop = asyncio.get_running_loop()
         if loop.time() < self._rest_until:
             return

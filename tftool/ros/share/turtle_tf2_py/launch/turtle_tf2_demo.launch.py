@@ -7,7 +7,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Two turtles, the second after the first."""
+    """Launch two turtles; the second follows the first."""
     return LaunchDescription(
         [
             DeclareLaunchArgument(
