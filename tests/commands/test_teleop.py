@@ -3,9 +3,12 @@ from functools import partial
 import pytest
 
 from tftool.base.errors import UsageError
+from tftool.base.stamps import seconds
+from tftool.commands.shared.on_screen import driver_of, run_app, scene_of
 from tftool.commands.teleop.command import press_there
 from tftool.messages.turtle_messages import Pose, Twist
 from tftool.screens.terminal import world_app as showing
+from tftool.screens.terminal.screen_options import Setting
 from tftool.world.clock import SimClock, run
 from tftool.world.nodes.turtle_teleop import BANNER
 from tftool.world.world import World
@@ -116,3 +119,27 @@ def test_a_turtle_that_is_not_there_is_told_when_a_key_is_pressed(tftool, pressi
     (app,) = apps
     (told,) = [one.text for one in app.scene.world.log.records if one.node == "screen"]
     assert told.startswith("there is no turtle 'bob' here; there are: ")
+
+
+def test_once_a_missed_turtle_is_there_the_newest_line_says_so(monkeypatch):
+    world = World(SimClock())
+    scene = scene_of(world)
+
+    async def see(app, life):
+        life.close()
+        await world.clock.sleep(seconds(2))
+        app.action_drive("up")
+        scene.look()
+        told.extend(one.text for one in world.log.records)
+        world.topic("turtle1/pose", Pose).publish(Pose())
+        await world.clock.sleep(seconds(0.1))
+        for _ in range(2):
+            scene.look()
+
+    told = []
+    monkeypatch.setattr(showing, "show", see)
+    run_app(scene, world.clock.sleep(0), driver_of(world, "turtle1"), Setting())
+
+    assert told == ["there is no turtle 'turtle1' here; there are: none"]
+    later = [one.text for one in world.log.records][1:]
+    assert later == ["turtle1 is here now: the keys drive it"]

@@ -151,6 +151,7 @@ def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
         # One of another process is known by its poses: they need a moment to come.
         settled = scene.world.clock.now() - scene.start >= SETTLED
         if settled and simulator is not None and turtle not in simulator.turtles:
+            scene.missed = turtle
             there = ", ".join(simulator.turtles) or "none"
             raise UsageError(f"there is no turtle '{turtle}' here; there are: {there}")
         driver.press(key)

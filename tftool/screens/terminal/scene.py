@@ -126,6 +126,7 @@ class Scene:
     Attributes:
         start: The moment from which seconds are counted on the screen.
         solids: The shapes of a robot among the frames, once its description is known.
+        missed: A turtle that a key was for and that was not there; its coming is logged.
     """
 
     def __init__(self, world: ShownFrames, simulator: Simulator | None = None) -> None:
@@ -133,6 +134,7 @@ class Scene:
         self.simulator = simulator
         self.start: Stamp = world.clock.epoch
         self.solids: Solids | None = None
+        self.missed = ""
         self._news: dict[str, tuple[Stamp, Stamp]] = {}
         self._seen: deque[_Seen] = deque()
         # Trails that were wiped, for as long as one can go back to them.
@@ -149,6 +151,10 @@ class Scene:
         simulator = self.simulator
         if simulator is None or not (simulator.turtles or self._seen):
             return
+        if self.missed in simulator.turtles:
+            # The refusal would stand as the newest line although it no longer holds.
+            self.world.log.info("screen", f"{self.missed} is here now: the keys drive it")
+            self.missed = ""
         trail = simulator.trail
         before = self._seen[-1] if self._seen else None
         if before is None or (trail.wipes, trail.drawn) != (before.wipes, before.drawn):
