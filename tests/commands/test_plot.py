@@ -35,11 +35,11 @@ def test_a_recording_is_drawn_at_eighty_columns(tftool, run):
     assert result.err == ""
     assert max(map(len, lines)) <= 80
     assert [line for line in lines if "│" not in line][:3] == [
+        "car in map",
         "position, m  x 1.654  y 1.124  z 0.500",
         "rotation, °  roll 0  pitch 0  yaw 124.2",
-        "distance, m  2.062",
     ]
-    assert lines[1].startswith("         2│")
+    assert lines[2].startswith("         2│")
     assert lines[-1].split() == ["0", "10", "20", "s"]
 
 
@@ -261,6 +261,31 @@ def test_ticks_have_as_many_digits_as_tell_them_apart():
     assert tick_labels([0, 5, 10]) == ["0", "5", "10"]
     assert tick_labels([-0.5, 0.0, 0.5]) == ["-0.5", "0.0", "0.5"]
     assert tick_labels([0.12, 0.14]) == ["0.12", "0.14"]
+
+
+@pytest.mark.parametrize("height", [8, 9, 10, 12, 14, 18, 23, 30, 44])
+@pytest.mark.parametrize("top", [3.0, 8.0, 9.7, 100.0])
+def test_ticks_are_evenly_spaced_and_in_the_line_of_their_value(height, top):
+    def lines(*values):
+        ends = np.array([0.0, *values, top])
+        stamps = np.arange(len(ends)) * seconds(1) + 1
+        moves = np.stack([ends, np.zeros(len(ends)), np.zeros(len(ends))], 1)
+        turns = np.tile([0.0, 0.0, 0.0, 1.0], (len(ends), 1))
+        ok = np.ones(len(ends), bool)
+        path = trajectory_of(TransformArray("map", "car", stamps, moves, turns, ok))
+        text = over_time([path], 1, chosen(["x"]), PlotLook(80, height)).plain.splitlines()
+        assert text[0] == "car in map"
+        assert len(text) < height
+        return [line.partition("│") for line in text if "│" in line]
+
+    labels = [row for row, (label, _, _) in enumerate(lines()) if label.strip()]
+    assert labels[0] == 0
+    assert len(set(np.diff(labels))) == 1
+    for row in labels[1:-1]:
+        tick = float(lines()[row][0])
+        drawn = lines(*[tick] * 4)
+        # In the middle of the line that rests on the tick.
+        assert [place for place, line in enumerate(drawn) if line[2][34:35].strip()] == [row]
 
 
 def test_keys_zoom_go_back_and_hide_curves():

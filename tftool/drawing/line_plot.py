@@ -37,7 +37,7 @@ NOISE: Final = 1e-6
 """Share of a panel's greatest value below which a value is written as 0."""
 
 LEAST_ROWS: Final = 3
-ROWS: Final = 6
+ROWS: Final = 7
 """Lines of a panel where no terminal says how many there are."""
 
 _DARK: Final = (Color(255, 110, 110), Color(110, 230, 110), Color(120, 165, 255),
@@ -100,10 +100,17 @@ def over_time(
     shaded = shades(found, start)
     low, high = span or _span(drawn, shaded)
     told = [visible(one) for one in reasons(shaded)]
+    text = Text(no_wrap=True, overflow="crop")
+    if len(found) == 1:
+        # Of several pairs, each curve is named.
+        pair = visible(f"{found[0].source} in {found[0].target}")
+        text.append(f"{fitted(pair, look.width)}\n", style="bold")
     rows = ROWS
     if look.height is not None:
-        rows = max(LEAST_ROWS, (look.height - 2 - len(told)) // max(1, len(drawn)) - 1)
-    text = Text(no_wrap=True, overflow="crop")
+        around = 2 + len(told) + (len(found) == 1)
+        rows = max(LEAST_ROWS, (look.height - around) // max(1, len(drawn)) - 1)
+        # Of an odd number of lines the middle one is as far from the first as from the last.
+        rows -= 1 - rows % 2
     number = 1
     for panel in drawn:
         text.append_text(_titled(panel, look, number))
@@ -199,11 +206,10 @@ def _drawn(
     columns = max(10, look.width - LABELS - 1)
     seen = [place for place in range(len(panel.curves)) if number + place not in look.hidden]
     shown = replace(panel, curves=tuple(panel.curves[place] for place in seen))
-    ticks = round_ticks(*shown.limits(), 2 if rows < 5 else 3 if rows < 10 else 6)
+    ticks = _ticks(shown.limits(), rows)
     low, high = ticks[0], ticks[-1]
     labels = [""] * rows
-    for tick, label in zip(ticks, tick_labels(ticks), strict=True):
-        labels[round((high - tick) / (high - low) * (rows - 1))] = label
+    labels[:: (rows - 1) // (len(ticks) - 1)] = reversed(tick_labels(ticks))
     first, last = span
     dots = Dots(columns, rows)
     for place in seen:
@@ -226,6 +232,16 @@ def _drawn(
     for label, cells in zip(labels, dots.rows(ascii_only=look.ascii_only), strict=True):
         below = zip(cells, shade, strict=True)
         yield _row(label, [cell if cell[1] else (sign, "dim") for cell, sign in below], look)
+
+
+def _ticks(limits: tuple[float, float], rows: int) -> list[float]:
+    """Return the most ticks that stand whole lines apart, the outer ones in the outer lines.
+
+    A value is drawn in the line of its share of the height, so that such a tick is in its own.
+    """
+    choices = (2,) if rows < 5 else (3,) if rows < 10 else (6, 5, 4, 3)
+    found = (round_ticks(*limits, most) for most in choices)
+    return next(ticks for ticks in found if (rows - 1) % (len(ticks) - 1) == 0)
 
 
 def _row(label: str, cells: Iterable[tuple[str, str]], look: PlotLook) -> Text:
