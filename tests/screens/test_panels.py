@@ -245,7 +245,7 @@ def test_with_room_a_pair_is_told_in_every_notation():
 )
 def test_where_the_source_is_in_words(x, y, said):
     assert f"away  {said}" in echo(found(x, y, stamp=0))
-    assert "at    at all times" in echo(found(x, y, stamp=0))
+    assert "at    all times" in echo(found(x, y, stamp=0))
 
 
 def test_a_frame_straight_up_or_down_is_not_called_ahead():

@@ -167,7 +167,7 @@ def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]
 def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tuple[str, str]]:
     translation, rotation = found.transform
     degrees = [math.degrees(angle) for angle in rpy_from_quaternion(rotation)]
-    stamp = f"{as_seconds(found.stamp):.3f}" if found.stamp else "at all times"
+    stamp = f"{as_seconds(found.stamp):.3f}" if found.stamp else "all times"
     away = _away(*translation, look)
     if narrow:
         return [
