@@ -10,10 +10,10 @@ from tftool.geometry.rigid import Transform
 
 
 def test_a_curve_goes_from_nothing_to_its_largest_value():
-    assert sparkline([0, 5, 10], 3) == "▁▅█"
+    assert sparkline([0, 5, 10], 3) == "▁▄▇"
     assert sparkline([0, 5, 10], 3, ascii_only=True).isascii()
-    assert sparkline([1, None, 1, 1], 6) == "  █ ██"
-    assert sparkline([9, 1, 2], 2) == "▅█"
+    assert sparkline([1, None, 1, 1], 6) == "  ▇ ▇▇"
+    assert sparkline([9, 1, 2], 2) == "▄▇"
     assert sparkline([None, None], 4) == ""
     assert sparkline([0.0, -1.0], 2) == "▁▁"
 
@@ -33,7 +33,7 @@ def test_rate_and_delay_are_counted_from_look_to_look(width, cells):
     rate, delay = history.columns(["base", "map"], width)
 
     assert rate.cells[0][0].strip().endswith("▁")
-    assert "█" in rate.cells[0][0]
-    assert set(delay.cells[0][0].strip()) == {"█"}
+    assert "▇" in rate.cells[0][0]
+    assert set(delay.cells[0][0].strip()) == {"▇"}
     assert rate.cells[1][0] == delay.cells[1][0] == ""
     assert rate.width == max(cells, len("rate, lately"))

@@ -11,7 +11,8 @@ from tftool.drawing.table_columns import TableColumn
 LOOKS: Final = 60
 """Looks that are remembered."""
 
-_SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇█"}
+# No full block: curves of neighbouring rows would merge.
+_SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇"}
 
 
 def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = False) -> str:
