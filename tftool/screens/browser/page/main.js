@@ -343,7 +343,7 @@ function words() {
   displays.list(choices.undrawn);
   $("with-camera").setAttribute("aria-pressed", String(choices.chosen !== undefined && choices.followed === choices.chosen));
   $("measured").hidden = !measure.on;
-  if (measure.on) $("measured").textContent = measure.told(poseOf);
+  if (measure.on) $("measured").textContent = measure.told(poseOf, choices.fixed);
   showTime(timeline);
 }
 
@@ -388,7 +388,7 @@ function under(event) {
 /** Draw the measurement over everything else. */
 function paintMeasure() {
   const spots = measure.places(poseOf).map((place) => place && stage.project(place[0], place[1], place[2]));
-  measure.told(poseOf);
+  measure.told(poseOf, choices.fixed);
   stage.drawMeasure(spots.filter((spot) => spot !== null), measure.length);
 }
 

@@ -57,10 +57,11 @@ export class Measure {
   }
 
   /**
-   * Text of the measurement.
-   * @param {(name: string) => number[] | null} poseOf
+   * Text of the measurement; x, y and z are along the axes of the fixed frame.
+   * @param {(name: string) => number[] | null} poseOf in the fixed frame
+   * @param {string | undefined} fixed
    */
-  told(poseOf) {
+  told(poseOf, fixed) {
     const [from, to] = this.places(poseOf);
     this.length = "";
     if (this.ends.length < 2) return this.ends.length ? "Click the second point" : "Click the first point: a frame, or a place";
@@ -68,7 +69,7 @@ export class Measure {
     const way = to.map((value, axis) => value - from[axis]);
     this.length = `${number(Math.hypot(...way), 3)} m`;
     const [x, y, z] = way.map((value) => number(value, 3));
-    return `${this.named(0)} to ${this.named(1)}: ${this.length} (x ${x}, y ${y}, z ${z})`;
+    return `${this.named(0)} to ${this.named(1)}: ${this.length} (x ${x}, y ${y}, z ${z} in ${fixed})`;
   }
 
   named(which) {
