@@ -102,6 +102,31 @@ def test_two_frames_are_measured_as_they_move(chromium, driven):
     page.until(lambda: not page.find("#measured").is_displayed())
 
 
+def test_the_line_of_a_pair_has_the_panels_distance_and_none_where_it_is_zero(chromium, driven):
+    page = opened(chromium, driven, "fixed=world&at=0.5&target=world&source=robot&speed=4")
+    page.until(lambda: page.said("tftool.distance()") == "0.500 m")
+    chromium.execute_script(
+        """
+        globalThis.seen = [];
+        const look = () => {
+          requestAnimationFrame(look);
+          const rows = [...document.querySelectorAll("#numbers dt")];
+          const row = rows.find(({ textContent }) => textContent === "Distance, m");
+          seen.push([tftool.distance(), row.nextSibling.textContent]);
+        };
+        requestAnimationFrame(look);
+        """
+    )
+    page.find("#play").click()
+    page.until(lambda: page.said("new Set(seen.map(([line]) => line)).size") > 4)
+    assert {f"{float(panel):.3f} m" for _, panel in page.said("seen")} > {"0.500 m"}
+    assert all(line == f"{float(panel):.3f} m" for line, panel in page.said("seen"))
+
+    page.scrub(0.0)
+    page.until(lambda: page.said("seen.at(-1)[1]") == "0.000000")
+    assert page.said("tftool.distance()") == ""
+
+
 def test_the_camera_goes_along_with_the_frame_it_follows(chromium, driven):
     page = opened(chromium, driven, "fixed=world&at=0.5&followed=robot")
     page.until(lambda: page.x_of("robot") == 0.5)

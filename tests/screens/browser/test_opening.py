@@ -125,6 +125,20 @@ def test_the_chain_is_thick_with_its_length_and_others_are_dimmed(chromium, stag
     assert painted(page, axis, 40) < before
 
 
+def test_an_axis_is_seen_where_the_chain_lies_along_it(chromium, stage):
+    stage.put(3.0)
+    look = "theme=dark&names=0&arrows=0&grid=0&trails=0&view=top"
+    page = Page(chromium, stage, f"{look}&pair=none")
+    page.until(lambda: {"turtle", "world"} <= page.drawn().keys())
+    red = "rgb(240, 69, 75)"
+    alone = page.until(lambda: painted(page, red, 60))
+
+    page = Page(chromium, stage, f"{look}&target=world&source=turtle")
+    page.until(lambda: page.said("tftool.distance()") == "3.000 m")
+    page.until(lambda: painted(page, "rgb(255, 184, 77)") > 100)
+    assert painted(page, red, 60) > 0.9 * alone
+
+
 def test_trails_have_the_colours_of_the_list(chromium, stage):
     for second in (1.0, 2.0, 3.0):
         stage.put(second, at=second)

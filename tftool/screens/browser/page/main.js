@@ -63,10 +63,10 @@ const displays = new Displays(stage.scene, tracks, (topic) => {
 /** @type {{ connection: "wait" | "open" | "silent" | "ended" | "stored", hearing: Hearing, pair: any, unacknowledged: number, recorded: boolean }} */
 const server = { connection: "wait", recorded: false, hearing: new Hearing(), pair: null, unacknowledged: 0 };
 /**
- * Contents of the screen: all frames, drawn frames, trails.
- * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: ReturnType<typeof trail>[] }}
+ * Contents of the screen: all frames, drawn frames, trails, and the pair's distance as in the panel.
+ * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: ReturnType<typeof trail>[], distance: string }}
  */
-const shown = { frames: [], drawn: [], lines: [] };
+const shown = { frames: [], drawn: [], lines: [], distance: "" };
 /** @type {{ past: number[], address: number | undefined }} */
 const timers = { past: [], address: undefined };
 /** @type {string | undefined} the frame under the pointer, in the picture or in the list */
@@ -248,6 +248,8 @@ function render(now) {
   timeline.tick(now);
   if (stage.flying) stage.advance(now);
   const due = redraw.take(now, choices.interval * 1000);
+  const before = shown.distance;
+  if (due.lists) shown.distance = distance(server.pair);
   if (due.picture) {
     if (model.poses?.revision !== model.revision) redraw.nothingShown();
     solve();
@@ -256,7 +258,7 @@ function render(now) {
     if (!stage.taken) follow();
     carry();
     paint();
-  }
+  } else if (shown.distance !== before) paintOver();
   course.ask(choices);
   if (due.lists) {
     drawCourse();
@@ -303,24 +305,30 @@ function pathsTo(at) {
 /** Paint the computed frames, trails, names, and the pair's chain. */
 function paint() {
   const { drawn, lines } = shown;
-  const { pair } = server;
   displays.place(model.poses?.at ?? null, model, choices.undrawn);
   stage.draw(drawn, { ...choices, scale: 10 ** Number($("scale").value), level: robot.box?.min.z ?? 0 });
+  stage.drawUnder(lines, chain(model, server.pair));
+  paintOver();
+}
+
+/** Paint what lies over the frames. */
+function paintOver() {
+  const { pair } = server;
   const special = new Set([choices.chosen, hovered, ...(pair?.found ? [pair.source, pair.target] : [])]);
-  const labels = drawn
+  const labels = shown.drawn
     .filter(({ name }) => choices.names || special.has(name))
     .map((frame) => ({ ...frame, first: special.has(frame.name) }))
     .sort((one, other) => Number(other.first) - Number(one.first));
-  stage.drawUnder(lines);
   const rings = [{ pose: poseOf(choices.chosen), strong: true }, { pose: poseOf(hovered), strong: false }];
-  stage.drawOver(labels, { chain: chain(model, pair), distance: distance(pair) }, rings);
+  stage.drawOver(labels, { chain: chain(model, pair), distance: shown.distance }, rings);
   if (measure.on) paintMeasure();
 }
 
-/** Distance of the pair's frames, as text. */
+/** Distance of the pair's frames, as text; none if it is unknown or rounds to 0. */
 function distance(pair) {
-  const known = pair?.found && !pair.translation.includes(null);
-  return `${number(known ? Math.hypot(...pair.translation) : null, 3)} m`;
+  if (!pair?.found || pair.translation.includes(null)) return "";
+  const length = number(Math.hypot(...pair.translation), 3);
+  return Number(length) === 0 ? "" : `${length} m`;
 }
 
 function words() {
@@ -866,7 +874,7 @@ Object.assign(globalThis, {
       })),
     fade,
     hovered: () => hovered,
-    distance: () => distance(server.pair),
+    distance: () => shown.distance,
     ground: () => ({ cell: stage.ground.cell, level: robot.box?.min.z ?? 0, reach: stage.seen().reach }),
     moment: () => model.poses?.at ?? null,
     pair: () => server.pair,

@@ -391,11 +391,15 @@ export class Stage {
     return [((point.x + 1) / 2) * this.width, ((1 - point.y) / 2) * this.height];
   }
 
-  /** Draw trails: [{points, ahead, color, whole}, …]; a whole one includes the path ahead. */
-  drawUnder(trails) {
+  /**
+   * Draw trails, and the pair's chain, which must not hide the axes.
+   * @param {any[]} trails {points, ahead, color, whole}; a whole one includes the path ahead
+   * @param {number[][]} chain
+   */
+  drawUnder(trails, chain) {
     // An empty layer is hidden, which saves compositing it.
-    this.under.hidden = !trails.length;
-    if (!trails.length) return;
+    this.under.hidden = !trails.length && chain.length < 2;
+    if (this.under.hidden) return;
     const pen = flat(this.under);
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
@@ -415,6 +419,7 @@ export class Stage {
       }
     }
     pen.globalAlpha = 1;
+    this.drawChain(pen, this.spots(chain));
   }
 
   drawPath(pen, points, from, to) {
@@ -429,7 +434,7 @@ export class Stage {
   }
 
   /**
-   * Draw names, rings, the pair's chain, scale and axes. Names are only painted as text.
+   * Draw names, rings, the pair's distance, scale and axes. Names are only painted as text.
    * @param {any[]} labels
    * @param {{ chain: number[][], distance: string }} pair
    * @param {{ pose: number[] | null | undefined, strong: boolean }[]} rings
@@ -442,7 +447,7 @@ export class Stage {
     // Beside the list of frames, or below a short one.
     if (this.covered.some((panel) => overlap(panel, corner))) corner[0] += this.inset.left;
     this.reserved = [...this.covered, corner];
-    this.drawChain(pen, pair);
+    this.drawLength(pen, pair);
     for (const { pose, strong } of rings) {
       const spot = pose ? this.project(pose[0], pose[1], pose[2]) : null;
       if (!spot) continue;
@@ -456,38 +461,50 @@ export class Stage {
     this.drawCorner(pen, corner[0] + 8);
   }
 
-  /** Draw the chain of frames, and the straight line with its length. */
-  drawChain(pen, { chain, distance }) {
+  /** Pixels of a chain of frames; empty if one is behind the camera. @param {number[][]} chain */
+  spots(chain) {
     const spots = chain.map((pose) => this.project(pose[0], pose[1], pose[2]));
-    if (spots.length < 2 || !spots.every(Boolean)) return;
-    const [first, last] = [spots[0], spots[spots.length - 1]];
+    return spots.length < 2 || spots.includes(null) ? [] : /** @type {number[][]} */ (spots);
+  }
+
+  /** Draw a line from pixel to pixel. */
+  drawLine(pen, spots, color, width) {
+    pen.strokeStyle = color;
+    pen.lineWidth = width;
     pen.lineCap = pen.lineJoin = "round";
-    const way = () => {
-      pen.beginPath();
-      spots.forEach(([x, y], at) => pen[at ? "lineTo" : "moveTo"](x, y));
-      pen.stroke();
-    };
-    pen.strokeStyle = this.theme.halo;
-    pen.lineWidth = 7;
-    way();
-    pen.strokeStyle = pen.fillStyle = this.theme.accent;
-    pen.lineWidth = 4;
-    way();
-    if (spots.length > 2) {
-      pen.lineWidth = 2;
-      pen.setLineDash([2, 7]);
-      pen.beginPath();
-      pen.moveTo(first[0], first[1]);
-      pen.lineTo(last[0], last[1]);
-      pen.stroke();
-      pen.setLineDash([]);
-    }
+    pen.beginPath();
+    spots.forEach(([x, y], at) => pen[at ? "lineTo" : "moveTo"](x, y));
+    pen.stroke();
+  }
+
+  /** Draw the chain of frames: a thick line with dots. */
+  drawChain(pen, spots) {
+    if (!spots.length) return;
+    this.drawLine(pen, spots, this.theme.halo, 7);
+    this.drawLine(pen, spots, this.theme.accent, 4);
+    pen.fillStyle = this.theme.accent;
     spots.forEach(([x, y], at) => {
       pen.beginPath();
       pen.arc(x, y, at === 0 || at === spots.length - 1 ? 6 : 4, 0, 7);
       pen.fill();
     });
-    // The text changes in every picture: a cached picture of it would not be reused.
+  }
+
+  /** Draw the straight line between the ends of the chain with its length, and the chain through solids. */
+  drawLength(pen, { chain, distance }) {
+    const spots = this.spots(chain);
+    if (!spots.length) return;
+    const [first, last] = [spots[0], spots[spots.length - 1]];
+    pen.globalAlpha = 0.5;
+    this.drawLine(pen, spots, this.theme.accent, 1.5);
+    pen.globalAlpha = 1;
+    if (spots.length > 2) {
+      pen.setLineDash([2, 7]);
+      this.drawLine(pen, [first, last], this.theme.accent, 2);
+      pen.setLineDash([]);
+    }
+    if (!distance) return;
+    // The text changes often: a cached picture of it would not be reused.
     pen.font = FONT;
     const [width, height] = [pen.measureText(distance).width + 8, LINE];
     const [x, y] = [(first[0] + last[0]) / 2 - width / 2, (first[1] + last[1]) / 2 - height / 2];
