@@ -15,6 +15,7 @@ from tftool.drawing import theme
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Kill
+from tftool.screens.terminal import turtle_app
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.turtle_app import TurtleApp
 from tftool.screens.terminal.world_app import Panel, input_events
@@ -434,6 +435,8 @@ def test_an_empty_world_says_so(frames):
     text = "\n".join(shown(frames({})))
 
     assert "No frames yet." in text
+    assert "there are no frames yet" in text
+    assert "turtle1 in turtle2" not in text
     assert "Nothing was said yet." in text
 
 
@@ -478,6 +481,29 @@ def test_only_lines_that_changed_are_painted(turtles, monkeypatch):
     visit(scene, (100, 30), steps)
 
     assert painted == list(range(3, 25))
+
+
+def test_the_tree_lists_the_frames_that_the_picture_draws(frames, monkeypatch):
+    # Only the looks of this test, however long one takes.
+    monkeypatch.setattr(turtle_app, "LOOKS_PER_SECOND", 1e-6)
+    monkeypatch.setattr(turtle_app, "REST", 0.0)
+    scene = frames({})
+
+    async def steps(app, pilot):
+        for name in "abcde":
+            link = TransformStamped(seconds(1000), "map", name, Transform())
+            scene.world.broadcast([link], "me", static=True)
+            app.look_again()
+            await pilot.pause()
+            beside = "\n".join(told(screen(app)))
+            assert "No frames yet." not in beside
+            assert f"{name} in map" in beside
+            app.look_again()
+            await pilot.pause()
+            tree = [line.split() for line in told(screen(app)) if "static" in line]
+            assert len(tree) == "abcde".index(name) + 1
+
+    visit(scene, (200, 60), steps)
 
 
 def test_frames_that_come_later_get_a_line_of_the_tree(frames):

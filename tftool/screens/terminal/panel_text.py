@@ -150,7 +150,7 @@ def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]
         (fitted(name, half, more=look.more), look.ink(look.of_name(name), bold=True))
         for name in (asked.source, asked.target)
     )
-    lines = [Text.assemble(source, (" in ", dim), target)]
+    lines = [Text.assemble(source, (" in ", dim), target)] if asked.source else []
     if asked.found is None:
         return lines + wrapped(asked.refusal, width, look.ink(look.palette.warning))
     narrow = width < 36

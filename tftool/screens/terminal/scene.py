@@ -210,7 +210,7 @@ class Scene:
             snapshot=snapshot,
             ages=ages,
             picture=self._picture(snapshot, ages, at, (target, source), fixed),
-            pair=self._pair(target, source, LATEST if at is None else at),
+            pair=self._pair(snapshot, target, source, LATEST if at is None else at),
         )
 
     def newest(self, target: str, source: str) -> Stamp | None:
@@ -241,9 +241,9 @@ class Scene:
         found = TransformStamped(moment.stamp, target, source, target_from_source)
         return replace(moment, pair=Pair(target, source, found))
 
-    def _pair(self, target: str, source: str, at: Stamp) -> Pair:
-        if not target or not source:
-            return Pair(target, source, refusal="there are no frames yet")
+    def _pair(self, snapshot: Snapshot, target: str, source: str, at: Stamp) -> Pair:
+        if not (target and source and snapshot.frames):
+            return Pair("", "", refusal="there are no frames yet")
         try:
             found = self.world.buffer.lookup_transform(target, source, at)
         except TransformException as refusal:

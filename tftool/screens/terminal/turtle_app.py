@@ -250,6 +250,7 @@ class TurtleApp(PanelApp):
             return
         question = self._question
         moment = question.moment
+        has_grown = False
         if question.at is None or self._stale or moment is None:
             frames = 0 if moment is None else len(moment.snapshot.frames)
             simulator = self.scene.simulator
@@ -258,13 +259,16 @@ class TurtleApp(PanelApp):
                 return
             self._painted = painted
             moment = question.ask()
-            if len(moment.snapshot.frames) != frames:
+            has_grown = len(moment.snapshot.frames) != frames
+            if has_grown:
                 self._arrange(width, height)
         else:
             moment = question.wait(moment)
-        self._stale = False
+        # Only the next look knows the tree's new size.
+        self._stale = has_grown
         self._draw_field(moment)
-        if panels_too:
+        # A picture of frames beside a tree without them would be two moments on one screen.
+        if panels_too or has_grown:
             self._draw_panels(moment)
 
     def _draw_field(self, moment: SceneMoment) -> None:
