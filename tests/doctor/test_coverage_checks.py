@@ -1,9 +1,11 @@
 """The checks of what is missing when, each on a small robot of its own."""
 
+import io
 import math
 from dataclasses import replace
 
 import pytest
+from rich.console import Console
 
 from tests.doctor.judged import found, ids
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
@@ -11,6 +13,7 @@ from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
 from tftool.doctor.model import Settings
+from tftool.drawing import finding_view
 from tftool.recordings.contract import Publisher
 
 
@@ -159,8 +162,46 @@ def test_a_rate_that_a_link_has_already_is_no_cure():
 
 def test_a_healthy_laser_may_wait_a_little():
     made = robot()
-    made.hears("/imu", "laser", hz=100, kind="sensor_msgs/Imu", latency=0.002)
+    made.hears("/range", "laser", hz=100, kind="sensor_msgs/Range", latency=0.002)
     assert ids(made, notes=True) == []
+
+
+def late_odometry() -> Robot:
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.04, node="/wheels")
+    return made
+
+
+def test_an_imu_is_not_placed_sample_by_sample():
+    made = late_odometry()
+    made.hears("/imu", "laser", hz=100, kind="sensor_msgs/Imu")
+    assert ids(made, notes=True) == []
+    made.hears("/scan", "laser")
+    assert ids(made, notes=True) == ["sensor-outruns-tf"]
+
+
+def test_relays_of_one_scan_that_wait_alike_are_one_finding():
+    made = late_odometry()
+    made.hears("/scan", "laser", latency=0.015)
+    made.hears("/stable_scan", "laser", latency=0.018)
+    (finding,) = made.judged().findings
+    assert (finding.id, finding.topics) == ("sensor-outruns-tf", ("/scan", "/stable_scan"))
+    assert finding.message == "/scan, /stable_scan arrive before the transforms they need"
+    # Both carry the same stamps: the topic that arrives first waits longest.
+    assert finding.facts["topic"] == "/scan"
+
+    # A scan of other moments waits longer: it has a finding of its own.
+    made.hears("/rear_scan", "laser", hz=5, begin=0.01)
+    alone = [one.topics for one in made.judged().findings if one.id == "sensor-outruns-tf"]
+    assert alone == [("/scan", "/stable_scan"), ("/rear_scan",)]
+
+
+def test_the_publisher_of_the_link_is_not_told_as_that_of_the_scan():
+    made = late_odometry()
+    made.hears("/scan", "laser")
+    told = io.StringIO()
+    Console(file=told, width=2000).print(finding_view.render(made.judged(), verbose=True))
+    assert "base_link in odom is published by /wheels" in told.getvalue()
 
 
 def test_messages_older_than_the_cache():

@@ -13,7 +13,7 @@ from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
-from tftool.doctor.wording import arrival, several
+from tftool.doctor.wording import ALIKE, arrival, several
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
@@ -446,8 +446,8 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     rule="the 95 % quantile of the waits for the last transform that a message on the robot needs "
     "is {seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
     " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
-    "{messages:g} messages",
-    headline="{topic} arrives before the transforms it needs",
+    "{messages:g} messages, which are not an IMU's",
+    headline="{topics} {topics:arrives|arrive} before the transforms {topics:it needs|they need}",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
     "{period:span}, {arrives}",
@@ -470,7 +470,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         "headers",
     ),
     why="0.1 s is the usual tolerance of consumers, and a healthy robot at 50 Hz needs 20 "
-    "ms for some scans",
+    "ms for some scans; the samples of an IMU are filtered, not placed in odometry one by one",
     because_of=(
         ("stream", "clock-mixture"),
         (
@@ -484,56 +484,96 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
 )
 def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     """Lookups at the sensor's stamps refuse, because transforms arrive later."""
+    groups: list[list[tuple[Heard, Waits]]] = []
+    for heard, waits in _waiting(model, limits):
+        for group in groups:
+            if _is_relay(group[0], (heard, waits)):
+                group.append((heard, waits))
+                break
+        else:
+            groups.append([(heard, waits)])
+    for group in groups:
+        hit = _outrun(model, group, limits)
+        if hit is not None:
+            yield hit
+
+
+def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
+    """Return the topics whose messages are placed one by one, with their waits."""
     fixed = model.sensor_frame
     around = {track.parent for track in model.above(fixed)}
     for heard in model.heard:
         if not heard.is_spatial or len(heard.stamps) < limits["messages"]:
             continue
+        if last_part(heard.type) == "Imu":
+            continue  # a filter integrates its samples
         if heard.frame in around or last_part(heard.frame) in _WORLDS:
             continue  # where it is in the world is known without the robot
         waits = waits_of(model, heard, fixed)
-        if waits is None:
-            continue
-        served = waits.served
-        never = 1.0 - len(served) / len(waits.waits)
-        p50, p95, worst = (
-            (waits.serves(50), waits.serves(95), int(served.max())) if len(served) else (0, 0, 0)
-        )
-        refused = float(np.count_nonzero(waits.waits > 0)) / len(waits.waits)
-        if p95 > limits["seconds"] * NANOSECONDS or never > limits["never"]:
-            severity = Severity.WARNING
-        elif refused > limits["refused"] and p95 > limits["note"] * NANOSECONDS:
-            severity = Severity.NOTE
-        else:
-            continue
-        link = waits.link
-        yield hit_of(
-            link,
-            {
-                "topic": heard.topic,
-                "fixed": fixed,
-                "refused": refused,
-                "never": never,
-                "p50": p50,
-                "p95": p95,
-                "worst": worst,
-                "timeout": rounded_up(worst),
-                "link": link.name,
-                "period": link.period,
-                "latency": link.median_latency,
-                "arrives": arrival(link.median_latency),
-                "path": [list(track.edge) for track in waits.links],
-                "gap": _only_in_holes(waits, limits["seconds"]),
-            },
-            since=int(heard.logs[0]),
-            frames=(heard.frame, fixed),
-            topics=(heard.topic,),
-            count=int(np.count_nonzero(waits.waits > 0)),
-            severity=severity,
-            fixes=_cures(heard, waits, limits["seconds"]),
-            alone=True,
-        )
+        if waits is not None:
+            yield heard, waits
 
+
+def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
+    """Whether two topics of one frame wait for one link, as long and as often."""
+    (heard, waits), (also, its) = first, other
+    if heard.frame != also.frame or waits.link is not its.link:
+        return False
+    if not len(waits.served) or not len(its.served):
+        return len(waits.served) == len(its.served)
+    near = [abs(waits.serves(share) - its.serves(share)) for share in (50, 95)]
+    often = abs(float((waits.waits > 0).mean() - (its.waits > 0).mean()))
+    return max(near) <= max(_RELAYED, ALIKE * waits.serves(95)) and often <= ALIKE
+
+
+def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> Hit | None:
+    """Return the hit of topics that wait alike, by the one that waits longest; None if soon."""
+    heard, waits = max(group, key=lambda one: int(one[1].served.max(initial=0)))
+    served = waits.served
+    never = 1.0 - len(served) / len(waits.waits)
+    p50, p95, worst = (
+        (waits.serves(50), waits.serves(95), int(served.max())) if len(served) else (0, 0, 0)
+    )
+    refused = float(np.count_nonzero(waits.waits > 0)) / len(waits.waits)
+    if p95 > limits["seconds"] * NANOSECONDS or never > limits["never"]:
+        severity = Severity.WARNING
+    elif refused > limits["refused"] and p95 > limits["note"] * NANOSECONDS:
+        severity = Severity.NOTE
+    else:
+        return None
+    link = waits.link
+    topics = tuple(sorted(one.topic for one, _ in group))
+    return hit_of(
+        link,
+        {
+            "topic": heard.topic,
+            "topics": list(topics),
+            "fixed": model.sensor_frame,
+            "refused": refused,
+            "never": never,
+            "p50": p50,
+            "p95": p95,
+            "worst": worst,
+            "timeout": rounded_up(worst),
+            "link": link.name,
+            "period": link.period,
+            "latency": link.median_latency,
+            "arrives": arrival(link.median_latency),
+            "path": [list(track.edge) for track in waits.links],
+            "gap": _only_in_holes(waits, limits["seconds"]),
+        },
+        since=min(int(one.logs[0]) for one, _ in group),
+        frames=(heard.frame, model.sensor_frame),
+        topics=topics,
+        count=sum(int(np.count_nonzero(its.waits > 0)) for _, its in group),
+        severity=severity,
+        fixes=_cures(heard, waits, limits["seconds"]),
+        alone=True,
+    )
+
+
+_RELAYED = 5_000_000
+"""Nanoseconds by which waits of a relayed topic may differ from the first one's."""
 
 _WORLDS = frozenset({"map", "world", "earth"})
 

@@ -22,7 +22,7 @@ from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
 from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
-from tftool.doctor.wording import MOST_IN_LINE, filled, span
+from tftool.doctor.wording import MOST_IN_LINE, filled, several, span
 from tftool.drawing import report_view as judgements
 
 SCHEMA = "tftool.doctor/2"
@@ -95,9 +95,7 @@ def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
         edges = ", ".join(f"{child} in {parent}" for parent, child in finding.edges)
         lines.append(Padding(Text(visible(f"transforms: {edges}")), (0, 0, 0, 7)))
     if finding.publishers and verbose:
-        lines.append(
-            Padding(Text(f"published by {visible(', '.join(finding.publishers))}"), (0, 0, 0, 7))
-        )
+        lines.append(Padding(Text(visible(_published(finding))), (0, 0, 0, 7)))
     if finding.because_of is not None:
         body.add_row("", Text(f"because of {finding.because_of}"))
     if finding.consequence:
@@ -454,10 +452,19 @@ def as_markdown(diagnosis: Diagnosis) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _published(finding: Finding) -> str:
+    """Return who publishes what a finding is about; its link, where it names topics, too."""
+    by = f"published by {', '.join(finding.publishers)}"
+    if not finding.topics or not finding.edges:
+        return by
+    links = several([f"{child} in {parent}" for parent, child in finding.edges], MOST_IN_LINE)
+    return f"{links} {'is' if len(finding.edges) == 1 else 'are'} {by}"
+
+
 def _plain(finding: Finding) -> list[str]:
     lines = [*finding.evidence]
     if finding.publishers:
-        lines.append(f"published by {', '.join(finding.publishers)}")
+        lines.append(_published(finding))
     lines.append(f"so:  {finding.consequence}")
     for fix in finding.fixes:
         lines.append(f"fix: {fix.text}")
