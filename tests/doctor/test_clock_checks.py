@@ -1,6 +1,7 @@
 """The checks of clocks and stamps, each on a small robot of its own."""
 
 import io
+from dataclasses import replace
 
 import pytest
 from rich.console import Console
@@ -9,6 +10,7 @@ from tests.doctor.judged import found, ids
 from tests.doctor.robots import LASTS, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
+from tftool.doctor.judge import judge
 from tftool.drawing import finding_view
 
 
@@ -271,6 +273,40 @@ def test_messages_that_repeat_one_stamp_are_no_matter_of_the_cache_or_the_networ
     assert (finding.topics, finding.count) == (("/wall_marker",), 70)
     # In odom a marker needs no transform that moves.
     assert ids(frozen_marker("odom"), notes=True) == []
+
+
+def test_what_repeats_one_stamp_gets_no_advice_about_clocks_or_the_cache():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=30.0)
+    for tick in range(60):
+        made.sent("base_link", "arm", tick * 0.5, stamp=seconds(START + 1.0))
+        made.sent("map", "odom", tick * 0.5, stamp=seconds(START + 1.0))
+    marked = frozen_marker("base_link").heard["/wall_marker"]
+    made.heard["/wall_marker"] = (marked[0], [(s, t + seconds(12), f) for s, t, f in marked[1]])
+    told = [(one.id, one.edges, one.topics) for one in made.judged().findings]
+    assert told == [
+        ("frozen-stamp", (("base_link", "arm"),), ()),
+        ("frozen-stamp", (("map", "odom"),), ()),
+        ("frozen-stamp", (), ("/wall_marker",)),
+    ]
+    assert not any("chrony" in fix.text for one in made.judged().findings for fix in one.fixes)
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [("MCAP file", "self.get_clock().now()"), ("ROS 1 bag", "rospy.Time.now() (C++: ros::Time")],
+)
+def test_a_localiser_that_repeats_a_stamp_is_not_to_be_stamped_anew(kind, words):
+    made = robot()
+    for tick in range(160):
+        made.sent("map", "odom", tick * 0.05, stamp=seconds(START + 1.0))
+        made.sent("base_link", "arm", tick * 0.05, stamp=seconds(START + 1.0))
+    findings = judge(replace(made.evidence(), kind=kind)).findings
+    cure = {one.edges[0]: one.fixes for one in findings if one.id == "frozen-stamp"}
+    (localiser,), (arm,) = cure["map", "odom"], cure["base_link", "arm"]
+    assert "look at the scan topic and its transforms" in localiser.text
+    assert "now()" not in localiser.text
+    assert words in arm.text
 
 
 def test_stamps_that_repeat_while_a_slow_simulation_stands_are_not_frozen():

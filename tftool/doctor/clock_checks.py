@@ -288,7 +288,6 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(
         ("anything", "time-jump-back"),
         ("stream", "clock-mixture"),
-        ("stream", "frozen-stamp"),
         ("stream", "cache-short"),
         ("stream", "clock-offset"),
     ),
@@ -300,7 +299,7 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         least = limits["transforms"] * NANOSECONDS
         if track.is_localisation:
             least = max(least, track.period)
-        if len(track.stamps) > 1 and track.median_latency > least:
+        if len(track.stamps) > 1 and track.median_latency > least and not stands_still(track):
             severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
             yield hit_of(
                 track, {"what": track.name, "late": track.median_latency}, severity=severity
@@ -309,7 +308,7 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         # A latched message is old by intention, and where nothing moves an old one is as good.
         if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
             continue
-        if heard.median_latency > limits["messages"] * NANOSECONDS:
+        if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
             yield hit_of(heard, {"what": heard.topic, "late": heard.median_latency})
 
 
@@ -477,10 +476,10 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:repeats|repeat} one stamp",
     detail="{what}: {stamp:moment} {count:times}, for {lasted:span}",
     consequence="{so}",
-    fixes=(
-        Fix("set the stamp inside the loop: {name}.header.stamp = self.get_clock().now().to_msg()"),
+    causes=(
+        "the stamp is set once, before the loop: set it inside",
+        "a localiser that has had no scan since: find out why, and do not stamp it anew",
     ),
-    causes=("the stamp is set once, before the loop",),
     limits={"times": 10, "seconds": 1.0},
     needs=("log times",),
     why="while a slow simulation's clock stands still, stamps repeat as they should",
@@ -501,19 +500,37 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             "lasted": lasted,
         }
         if isinstance(one, Track):
-            facts |= {
-                "name": "t",
-                "so": "lookups at any other time refuse: the buffer holds only that stamp",
-            }
+            facts["so"] = "lookups at any other time refuse: the buffer holds only that stamp"
         elif one.frame not in model.frames or model.rests(one.frame):
             continue
         else:
-            facts |= {
-                "name": "message",
-                "so": "each is placed where its frame was at that time, and refused once the cache "
-                "has forgotten it",
-            }
-        yield hit_of(one, facts, count=count, alone=isinstance(one, Heard))
+            facts["so"] = (
+                "each is placed where its frame was at that time, and refused once the cache has "
+                "forgotten it"
+            )
+        # A localiser's remedy is not that of others.
+        alone = isinstance(one, Heard) or one.is_localisation
+        yield hit_of(one, facts, count=count, alone=alone, fixes=(_unfreeze(model, one),))
+
+
+def _unfreeze(model: Model, stream: "Track | Heard") -> Fix:
+    """Return the remedy for a stamp that stands still."""
+    if isinstance(stream, Track) and stream.is_localisation:
+        # Its stamp is that of the last scan it placed; a newer one would claim what nobody knows.
+        return Fix(
+            "look at the scan topic and its transforms: a localiser repeats the stamp of the last "
+            "scan it could use, so find out why its scans stopped; do not stamp it anew"
+        )
+    now = "self.get_clock().now().to_msg()"
+    if model.evidence.kind == "ROS 1 bag":
+        now = "rospy.Time.now() (C++: ros::Time::now())"
+    name = "t" if isinstance(stream, Track) else "message"
+    return Fix(f"set the stamp inside the loop: {name}.header.stamp = {now}")
+
+
+def stands_still(stream: "Track | Heard") -> bool:
+    """Whether `frozen-stamp` is about a stream: advice about clocks and the cache is none then."""
+    return _frozen(stream, _FROZEN) is not None
 
 
 def _frozen(stream: "Track | Heard", limits: Limits) -> tuple[int, int, int] | None:
@@ -573,7 +590,7 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         if track.is_orderly:
             continue
         again = np.flatnonzero(np.diff(track.sorted_stamps) == 0)
-        if len(again) <= limits["samples"] or _frozen(track, _FROZEN) is not None:
+        if len(again) <= limits["samples"] or stands_still(track):
             continue
         some, others = places[again], places[again + 1]
         alike = (track.apart(some, others) < 1e-6) & (track.turned(some, others) < 1e-4)

@@ -10,6 +10,7 @@ import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
+from tftool.doctor.clock_checks import stands_still
 from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
@@ -664,7 +665,7 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
         "log times",
         "headers",
     ),
-    because_of=(("stream", "clock-mixture frozen-stamp"),),
+    because_of=(("stream", "clock-mixture"),),
 )
 def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages are older than the cache time when they arrive."""
@@ -674,7 +675,9 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
         latency = heard.latency[heard.stamps != 0]
         if not len(latency):
             continue
-        if float(np.percentile(latency, 95)) > model.settings.cache_time:
+        if float(np.percentile(latency, 95)) > model.settings.cache_time and not stands_still(
+            heard
+        ):
             worst = int(latency.max())
             yield hit_of(
                 heard,
