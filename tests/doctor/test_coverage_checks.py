@@ -93,6 +93,30 @@ def test_statics_that_are_missing_explain_frames_that_are_unknown():
     assert found(made, "unknown-frame").because_of == "static-missing"
 
 
+DESCRIBED = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="lidar_top"/>
+<joint name="mast" type="fixed"><parent link="base_link"/><child link="lidar"/></joint>
+<joint name="spin" type="continuous"><parent link="lidar"/><child link="lidar_top"/></joint>
+</robot>"""
+
+
+@pytest.mark.parametrize("urdf", ["", DESCRIBED])
+def test_a_recording_without_statics_is_told_so_and_no_second_publisher_is_advised(urdf):
+    made = robot(laser=False, scans=False)
+    made.moving("lidar", "lidar_top")
+    made.hears("/points", "lidar_top", kind="sensor_msgs/PointCloud2")
+    made.hears("/scan", "laser", kind="sensor_msgs/LaserScan")
+    made.urdf = urdf
+    told = made.judged().findings
+    cures = [fix for one in told for fix in one.fixes if one.id in ("split-tree", "unknown-frame")]
+    assert not any("static_transform_publisher" in fix.command for fix in cures)
+    assert any("the statics are missing from the recording" in fix.text for fix in cures)
+
+    # With statics of others, this one was not published.
+    made.static("base_link", "imu")
+    cures = [fix for one in made.judged().findings for fix in one.fixes]
+    assert any("static_transform_publisher" in fix.command for fix in cures)
+
+
 def test_statics_that_come_late():
     made = robot(laser=False)
     made.static("base_link", "laser", at=3.0)
@@ -116,6 +140,8 @@ def test_statics_in_more_messages_than_a_player_keeps_are_a_note():
     assert ids(made, notes=True) == []
     made.static("base_link", "imu", at=0.2)
     assert found(made, "latched-overwrite").frames == ("laser",)
+    # An edit that puts all in one message leaves the single ones: it is no remedy.
+    assert not any(fix.command for fix in found(made, "latched-overwrite").fixes)
     # ROS 1's player keeps one for each publisher, and here there is one at most.
     early = replace(robot_with_two_mounts().evidence(), kind="ROS 1 bag")
     (note,) = judge(early).findings

@@ -240,7 +240,7 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
 )
 def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recording has no statics, and sensors have no transforms."""
-    if model.statics or not model.tracks:
+    if not model.lacks_statics:
         return
     unknown = [
         heard
@@ -250,8 +250,6 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     if not unknown:
         return
     static = [topic for topic in model.evidence.topics if topic.static]
-    if not static and any(not t.moves and len(t.by_stamp) > 1 for t in model.dynamic):
-        return
     names = sorted({heard.frame for heard in unknown})
     yield Hit(
         frames=tuple(names),
@@ -350,7 +348,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     consequence="a player keeps only so many for late listeners",
     fixes=(
         Fix("start listeners before playing"),
-        Fix("or combine them in one message:", "tftool edit RECORDING -o WHOLE --statics-first"),
+        Fix("for new recordings: send a node's statics in one call of one broadcaster"),
     ),
     causes=("several static publishers",),
     links=threads("ros/ros_comm#706", "ros2/geometry2#585"),

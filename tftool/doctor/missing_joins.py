@@ -58,7 +58,7 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
         )
         return Join(None, "each of the two trees is a robot of its own", Fix(text))
     for tree, other in ((lesser, main), (main, lesser)):
-        found = _localised(tree, other) or _by_another_name(tree, other)
+        found = _localised(tree, other) or _by_another_name(model, tree, other)
         if found is not None:
             return found
     return None
@@ -80,7 +80,7 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
     base = next((one for tree in model.trees if (one := base_of(tree))), "")
     if base and any(last_part(kind) in _MOUNTED for kind in kinds):
         text = f"if it is a mount of its own, fixed to {base}, publish where it is:"
-        return Join((base, name), "", Fix(text, static_publisher(base, name)))
+        return Join((base, name), "", _mount(model, text, base, name))
     return None
 
 
@@ -92,9 +92,7 @@ def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
     parent, why = model.prefix + joint.parent, f"the robot description joins them by {joint.name}"
     if joint.type != "fixed":
         return Join((parent, root), why, Fix(f"{why}: publish its state"), guess=False)
-    fix = Fix(
-        f"{why}: start robot_state_publisher, or", static_publisher(parent, root, joint.origin)
-    )
+    fix = _mount(model, f"{why}: start robot_state_publisher, or", parent, root, joint.origin)
     return Join((parent, root), why, fix, guess=False)
 
 
@@ -140,16 +138,28 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
     return Join((maps[0], tree.root), why, fix)
 
 
-def _by_another_name(tree: Tree, other: Tree) -> Join | None:
+def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
     """Propose a join if another tree has a similar name for the root: base_footprint."""
     root = tree.root
     for name in sorted(other.frames):
         if _prefix(name) != _prefix(root) or _core(name) != _core(root):
             continue
         why = f"{name} is near: {root} may be a frame of the same part"
-        fix = Fix(f"{why}; if so, publish where it is:", static_publisher(name, root))
+        fix = _mount(model, f"{why}; if so, publish where it is:", name, root)
         return Join((name, root), why, fix)
     return None
+
+
+def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | None = None) -> Fix:
+    """Return the remedy for a missing mount: its publisher, unless no statics were recorded."""
+    if not model.lacks_statics or not model.evidence.recorded:
+        return Fix(text, static_publisher(parent, child, pose))
+    # The robot sends it already: a second publisher would contradict the first one.
+    return Fix(
+        f"the statics are missing from the recording, {child} in {parent} probably among them: "
+        "record /tf_static too, or take it from another recording or the robot description:",
+        "tftool edit RECORDING -o WHOLE --statics-from OTHER",
+    )
 
 
 def _core(name: str) -> frozenset[str]:

@@ -151,6 +151,15 @@ class Model:
         return tuple(track for track in self.tracks if track.static)
 
     @cached_property
+    def lacks_statics(self) -> bool:
+        """Whether the statics were not recorded, and are not sent on /tf as in early ROS 1."""
+        if self.statics or not self.tracks:
+            return False
+        if any(topic.static for topic in self.evidence.topics):
+            return True
+        return all(track.moves or len(track.by_stamp) < 2 for track in self.dynamic)
+
+    @cached_property
     def start(self) -> Stamp:
         """Log time of the start of the first lap."""
         return max(self.evidence.start, -(2**61))
