@@ -136,7 +136,8 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
     rule="a frame in a header begins with a slash, and tf knows the name without it",
     headline="{topic} names {frame}, tf knows {known}",
     detail="{topic}: {frame}, {count:times}",
-    consequence="every lookup refuses: \"in tf2 frame_ids cannot start with a '/'\"",
+    consequence="every direct tf2 lookup refuses (message filters and tf 1 strip the slash): "
+    "\"in tf2 frame_ids cannot start with a '/'\"",
     fixes=(
         Fix('set frame_id to "{known}" in the publisher of {topic}'),
         Fix("in a recording:", "tftool edit RECORDING -o CLEAN --strip-slash --everywhere"),
@@ -146,7 +147,7 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
     needs=("headers",),
 )
 def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Messages name /x, tf knows x: every lookup refuses."""
+    """Messages name /x, tf knows x: every direct tf2 lookup refuses."""
     for heard in model.heard:
         if heard.frame.startswith("/") and heard.frame[1:] in model.frames:
             yield Hit(

@@ -563,8 +563,7 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     "move",
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
-    consequence="if it is a mount, lookups through it wait needlessly for its next sample, up to "
-    "one period",
+    consequence="if it is a mount, {so}",
     fixes=(
         Fix(
             "if it cannot move, send it once on /tf_static: tf2's static_transform_publisher, "
@@ -575,8 +574,8 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},
     needs=("recording",),
-    why="a static sent at 10 Hz makes every lookup wait for up to 100 ms; a joint at rest "
-    "looks the same, and a short recording cannot distinguish them",
+    why="a static sent at 10 Hz makes every lookup wait for up to 100 ms, unless it is "
+    "dated ahead; a joint at rest looks the same, and a short recording cannot distinguish them",
     because_of=(("child", "static-and-dynamic"),),
 )
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -600,16 +599,35 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         if not any(above.moves for above in model.above(track.parent)):
             continue  # it stood still with all that carries it
+        so = "it is sent again and again for nothing; its stamps are ahead, and no message waited"
+        if waits := _is_waited_for(model, track):
+            so = "lookups through it wait needlessly for its next sample, up to one period"
         yield hit_of(
             track,
             {
                 "rate": rate(track),
                 "period": track.period,
                 "lasts": int(track.sorted_stamps[-1] - track.sorted_stamps[0]),
+                "so": so,
             },
             since=None,
             confidence=Confidence.POSSIBLE,
+            alone=not waits,
         )
+
+
+def _is_waited_for(model: Model, track: Track) -> bool:
+    """Whether an edge is not dated ahead, or a message on it still arrived before its sample."""
+    if track.median_latency >= 0:
+        return True
+    below = model.below(track.child)
+    waits = [
+        track.served_from(heard.stamps) > heard.arrivals
+        for heard in model.heard
+        if heard.is_spatial and heard.frame in below
+    ]
+    # A recording's first and last messages are older and newer than any sample.
+    return any(float(late.mean()) > 0.05 for late in waits)
 
 
 def _could_move(model: Model, track: Track) -> bool:
