@@ -304,6 +304,11 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     assert finding.fixes[0].command == ""
     assert "nothing in the data says where camera_link belongs" in finding.fixes[0].text
 
+    bare = robot(laser=False, scans=False)
+    bare.moving("turret", "gun")
+    assert "the statics are missing from the recording" in found(bare, "split-tree").fixes[0].text
+    assert "the statics are missing" not in finding.fixes[0].text
+
     made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
     finding = found(made, "split-tree")
     assert (finding.severity, finding.topics) == (Severity.ERROR, ("/image",))

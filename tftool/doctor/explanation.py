@@ -164,7 +164,7 @@ def no_join(known: TraceResult) -> Reason:
     used = sorted({h.topic for h in model.heard if h.frame in lesser.frames})
     by = f" (used by {', '.join(used)})" if used else ""
     join = proposed_join(model, main, lesser)
-    fix = nothing_says(lesser.root) if join is None else join.fix
+    fix = nothing_says(model, lesser.root) if join is None else join.fix
     why = [
         f"{lesser.root} has no parent; its tree: {', '.join(sorted(lesser.frames))}{by}",
         f"the tree of {main.root}: {', '.join(sorted(main.frames))}",

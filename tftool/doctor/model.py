@@ -152,7 +152,7 @@ class Model:
 
     @cached_property
     def lacks_statics(self) -> bool:
-        """Whether the statics were not recorded, and are not sent on /tf as in early ROS 1."""
+        """Whether there are no statics, and no constants on /tf in their place (early ROS 1)."""
         if self.statics or not self.tracks:
             return False
         if any(topic.static for topic in self.evidence.topics):

@@ -141,7 +141,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         if (_is_complete(main) and _is_complete(tree)) or _is_convention(tree, topics):
             severity = Severity.NOTE
         join = proposed_join(model, main, tree)
-        fix = nothing_says(tree.root) if join is None else join.fix
+        fix = nothing_says(model, tree.root) if join is None else join.fix
         used = [f"{topic} ({count} messages)" for topic, count in topics.items()]
         yield Hit(
             frames=(tree.root, *sorted(tree.frames - {tree.root})),
@@ -163,12 +163,13 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
-def nothing_says(root: str) -> Fix:
+def nothing_says(model: Model, root: str) -> Fix:
     """Return the remedy when nothing shows to what a root belongs: where to look."""
+    is_cut = model.lacks_statics and model.evidence.recorded
+    static = "; the statics are missing from the recording, and it may be one of them" * is_cut
     return Fix(
         f"nothing in the data says where {root} belongs: check the node that should publish "
-        "it (a driver, "
-        "the robot description and its joint states, a localiser)"
+        f"it (a driver, the robot description and its joint states, a localiser){static}"
     )
 
 
