@@ -23,6 +23,8 @@ def test_a_slash_in_a_header_has_its_own_check():
     made.hears("/scan", "/laser")
     assert ids(made) == ["slash-twins"]
     assert found(made, "slash-twins").topics == ("/scan",)
+    # A message filter strips the slash, and its lookup succeeds.
+    assert "direct tf2 lookup" in found(made, "slash-twins").consequence
 
 
 def test_no_cure_names_a_frame_with_a_slash():
