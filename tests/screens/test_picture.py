@@ -143,7 +143,8 @@ def test_the_pictures_in_the_readme_are_this_screen(pictures):
     still, moving, light = pictures
     assert theme.hexadecimal(theme.LIGHT.ground) in light
     assert len(still.encode()) < 300_000
-    assert len(moving.encode()) < 700_000
+    # Slow frames leave trails, too.
+    assert len(moving.encode()) < 750_000
 
 
 @pytest.mark.parametrize("which", [0, 1], ids=["still", "moving"])

@@ -61,13 +61,22 @@ def together(screen):
     return distance is not None and distance < 0.1
 
 
+def scale_of(screen):
+    """The numbers below the picture; beside them stands the time of the plots, which goes on."""
+    lines = [line for line in screen.splitlines() if line.startswith("│ m ")]
+    return lines[0].partition("││")[0] if lines else ""
+
+
 @pytest.mark.parametrize(("width", "height"), [(60, 20), (200, 60)])
 def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, width, height):
     demo = terminal(width, height, *DEMO, "--rate", "8")
 
-    screen = demo.until(lambda text: apart(text) is not None, "a distance")
-    assert "Frames in" in screen
-    assert "├─ turtle1" in screen
+    # Panels are painted one after the other, on a large terminal in several writes.
+    parts = ("Frames in", "├─ turtle1")
+    screen = demo.until(
+        lambda text: apart(text) is not None and all(part in text for part in parts),
+        "a distance, beside the tree and the picture",
+    )
     assert all(len(line) <= width for line in screen.splitlines())
 
     demo.until(together, "turtle2 at turtle1")
@@ -175,9 +184,8 @@ def test_one_fixes_a_frame_zooms_and_shows_another_scenario(terminal):
     demo.shows("Frames in turtle1 (fixed)")
     demo.press("F")
     demo.shows("Frames in world ─")
-    before = demo.screen().splitlines()
-    # Beside it stands the time of the plots, which goes on.
-    scale = next(line for line in before if line.startswith("│ m ")).partition("││")[0]
+    # The title changes before the picture: its scale is that of the whole field at last.
+    scale = scale_of(demo.until(lambda text: " 10 " in scale_of(text), "the whole field"))
     demo.press("+", "+", "+", "+")
     demo.until(lambda text: scale not in text, "another scale")
     demo.press("0")
