@@ -190,6 +190,30 @@ def growth() -> list[str]:
     return lines
 
 
+def reads_alone() -> list[str]:
+    """Lookups at random against the mere copying of the samples that they need.
+
+    A time needs the two samples around it in each of five links: adjacent rows of 64 bytes, 32
+    megabytes in all, more than a processor keeps near. numpy copies them row by row.
+    """
+    world = chain(5, FEW)
+    times = world.times(MANY, in_order=False)
+    rows = [np.zeros((FEW // 2, 16)) for _ in range(5)]
+    places = [np.searchsorted(stamps, times) // 2 for stamps in world.stamps]
+    copy = np.empty((MANY, 16))
+
+    def reads() -> None:
+        for link, place in zip(rows, places, strict=True):
+            np.take(link, place, axis=0, out=copy, mode="clip")
+
+    taken = interleaved({"reads": reads, "ours": partial(world.ask, times)})
+    reads_ns, ours_ns = (taken[name] / MANY * 1e9 for name in ("reads", "ours"))
+    return [
+        f"  depth 5, 100,000 samples a link at random: copying the samples {reads_ns:.0f} ns, "
+        f"ours {ours_ns:.0f} ns, {ours_ns / reads_ns:.1f} times as long"
+    ]
+
+
 def insertion() -> list[str]:
     """A hundred thousand samples set together, and one by one."""
     world = chain(1, FEW)
@@ -291,7 +315,16 @@ def row(what: str, ours: float, theirs: float, wanted: float) -> str:
 
 def report() -> str:
     """Measure, and say it as a table."""
-    parts = (against_noetic, against_peers, threads, growth, insertion, memory, snapshot)
+    parts = (
+        against_noetic,
+        against_peers,
+        threads,
+        growth,
+        reads_alone,
+        insertion,
+        memory,
+        snapshot,
+    )
     head = f"batch, nanoseconds a time (median of {ROUNDS} interleaved rounds): theirs → ours"
     return "\n".join([head, *(line for part in parts for line in part())])
 

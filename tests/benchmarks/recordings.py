@@ -77,10 +77,11 @@ def _payload(layout: str, frames: list) -> bytes:
     return b"".join(parts)
 
 
-def _write(kind: str, path: Path, per_message: int) -> None:
+def write(kind: str, path: Path, per_message: int, transforms: int = TRANSFORMS) -> None:
+    """Write a recording of a kind, such as "mcap zstd", with the peers' own writers."""
     from tests.recordings import writers
 
-    messages = _messages("ros1" if kind.startswith("ros1") else "cdr", per_message, TRANSFORMS)
+    messages = _messages("ros1" if kind.startswith("ros1") else "cdr", per_message, transforms)
     if kind.startswith("mcap"):
         compression = getattr(writers.CompressionType, kind.split()[1].upper())
         with path.open("wb") as stream:
@@ -274,7 +275,7 @@ def report() -> str:
         ):
             suffix = {"mcap": ".mcap", "db3": "", "ros1": ".bag"}[kind.split()[0]]
             path = Path(folder) / f"{kind.replace(' ', '_')}_{per_message}{suffix}"
-            _write(kind, path, per_message)
+            write(kind, path, per_message)
             there = [one for one in peers if one != "transform_tree" or _installed("tf_tree")]
             sides = ["ours", *there]
             if kind.split()[-1] in ("zstd", "lz4", "bz2"):
