@@ -1,4 +1,4 @@
-"""Client of rclpy.action: sends goals, follows and cancels them."""
+"""Action client of rclpy.action, which sends goals, awaits their results and cancels them."""
 
 import asyncio
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from tftool.world.topics import new_goal_id
 
 
 class GoalStatus(IntEnum):
-    """Status of a goal, with action_msgs' numbers."""
+    """Status of an action's goal, with the numbers of action_msgs/GoalStatus."""
 
     STATUS_UNKNOWN = 0
     STATUS_ACCEPTED = 1
@@ -33,21 +33,21 @@ STATUS: dict[str, GoalStatus] = {name: GoalStatus(number) for name, number in EN
 
 
 class _Result(NamedTuple):
-    """Result of get_result: a status number and the result message."""
+    """Status number and result message of an action's goal, as `get_result` returns them."""
 
     status: int
     result: Any
 
 
 class _Feedback(NamedTuple):
-    """Argument of a feedback callback."""
+    """Argument of a feedback callback: the goal's id and the feedback message."""
 
     goal_id: Any
     feedback: Any
 
 
 class ClientGoalHandle:
-    """A goal on its client's side."""
+    """Client's handle of one goal, with which it awaits the result or cancels the goal."""
 
     def __init__(self, client: "ActionClient", goal_id: Any, goal: WorldGoal | None) -> None:
         self._client = client
@@ -58,30 +58,30 @@ class ClientGoalHandle:
         self._result: Future | None = None
 
     def get_result_async(self) -> Future:
-        """Return a future of the result: `.status` and `.result`."""
+        """Return a future of the goal's result, an object with `.status` and `.result`."""
         if self._result is None:
             self._result = self._client.watch(self, self._goal)
         return self._result
 
     def get_result(self) -> Any:
-        """Block until the result arrives, and return it."""
+        """Block until the goal's result arrives; return an object with `.status` and `.result`."""
         future = self.get_result_async()
         wait_for(self._client.seat, future, None)
         return future.result()
 
     def cancel_goal_async(self) -> Future:
-        """Ask the server to cancel; return a future of its response."""
+        """Request the goal's cancellation; return a future of the server's response."""
         return self._client.promise(partial(_cancelled, self._goal, self.goal_id))
 
     def cancel_goal(self) -> Any:
-        """Ask the server to cancel, and block until it has responded."""
+        """Request the goal's cancellation; block until the server responds."""
         future = self.cancel_goal_async()
         wait_for(self._client.seat, future, None)
         return future.result()
 
 
 class ActionClient(Requester):
-    """Client of an action."""
+    """Client that sends goals to an action's server."""
 
     def __init__(
         self,
@@ -100,7 +100,7 @@ class ActionClient(Requester):
         seat.keep(lambda: self)
 
     def is_served(self) -> bool:
-        """Whether a server is available (in the loop's thread)."""
+        """Return whether a server of the action exists; call this in the event loop's thread."""
         return self.full in self.seat.world.actions()
 
     def send_goal_async(
@@ -109,10 +109,10 @@ class ActionClient(Requester):
         feedback_callback: Callable[[Any], Any] | None = None,
         goal_uuid: Any = None,
     ) -> Future:
-        """Send a goal; return a future of its `ClientGoalHandle`.
+        """Send a goal to the server; return a future of the goal's `ClientGoalHandle`.
 
         Raises:
-            TypeError: If the goal is of another type.
+            TypeError: If the goal is not a message of this action's Goal type.
         """
         if not isinstance(goal, self.type_.Goal):
             raise TypeError(f"Expected {self.type_.Goal}, got {type(goal)}")
@@ -138,14 +138,14 @@ class ActionClient(Requester):
         return self.promise(send)
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
-        """Send a goal, and block until its result arrives."""
+        """Send a goal; block until its result arrives, which is None if the goal is rejected."""
         future = self.send_goal_async(goal, **kwargs)
         wait_for(self.seat, future, None)
         handle = future.result()
         return None if handle is None or not handle.accepted else handle.get_result()
 
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
-        """Return a future of a goal's end."""
+        """Return a future of a goal's status and result; None if the goal is None."""
 
         async def wait() -> _Result | None:
             if goal is None:
@@ -158,7 +158,7 @@ class ActionClient(Requester):
 
 
 async def _cancelled(goal: WorldGoal | None, goal_id: Any) -> Any:
-    """Request a cancellation; return the response of CancelGoal."""
+    """Request a goal's cancellation; return the response of the CancelGoal service."""
     response: Any = INTERFACES.part("action_msgs/srv/CancelGoal_Response")
     if goal is None:
         return response(return_code=response.ERROR_UNKNOWN_GOAL_ID)

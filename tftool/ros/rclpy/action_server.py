@@ -1,4 +1,4 @@
-"""Server of rclpy.action: accepts goals and executes them."""
+"""Action server of rclpy.action, which accepts and executes goals."""
 
 import asyncio
 from collections.abc import Callable
@@ -24,26 +24,26 @@ from tftool.world.topics import Status
 
 
 class GoalResponse(IntEnum):
-    """Response of a server to a goal."""
+    """Decision of an action server on a new goal."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(IntEnum):
-    """Response of a server to a cancellation."""
+    """Decision of an action server on a request to cancel a goal."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class ServerGoalHandle:
-    """A goal on its server's side.
+    """Server's handle of one goal, with which it publishes feedback and reports the result.
 
     Attributes:
         request: The goal message.
         is_cancel_requested: Whether a cancellation was requested and accepted.
-        goal_id: Id.
+        goal_id: Id of the goal, a UUID message.
     """
 
     def __init__(self, server: "ActionServer", goal: WorldGoal, request: Any) -> None:
@@ -57,12 +57,12 @@ class ServerGoalHandle:
 
     @property
     def is_active(self) -> bool:
-        """Whether the goal has not ended."""
+        """Whether the goal has not ended yet."""
         return self._status is None and not self._goal.done
 
     @property
     def status(self) -> int:
-        """Status of the goal, a number of GoalStatus."""
+        """Status of the goal, a number of `GoalStatus`."""
         if self._status is not None:
             return int(STATUS[self._status])
         if self.is_cancel_requested:
@@ -70,10 +70,10 @@ class ServerGoalHandle:
         return int(GoalStatus.STATUS_EXECUTING if self._executing else GoalStatus.STATUS_ACCEPTED)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Send feedback to the client.
+        """Send a feedback message to the goal's client.
 
         Raises:
-            TypeError: If the feedback is of another type.
+            TypeError: If the message is not of the action's Feedback type.
         """
         kind = self._server.type_.Feedback
         if not isinstance(feedback, kind):
@@ -82,7 +82,7 @@ class ServerGoalHandle:
         self._server.seat.program.ask(lambda: self._goal.publish_feedback(copy))
 
     def succeed(self, response: Any = None) -> None:
-        """Mark the goal as reached."""
+        """Mark the goal as succeeded."""
         self._status = "succeeded"
 
     def abort(self, response: Any = None) -> None:
@@ -90,26 +90,26 @@ class ServerGoalHandle:
         self._status = "aborted"
 
     def canceled(self, response: Any = None) -> None:
-        """Mark the goal as cancelled by the client."""
+        """Mark the goal as canceled, as its client requested."""
         self._status = "canceled"
 
     def execute(self, execute_callback: Any = None) -> None:
-        """Start executing the goal."""
+        """Start to execute the goal with `execute_callback`, else with the server's callback."""
         self._executing = True
         self._server.execute(self, execute_callback)
 
     def destroy(self) -> None:
-        """Do nothing."""
+        """Do nothing: a goal's handle owns nothing to destroy."""
 
     def finish(self, result: Any) -> None:
-        """Send the result."""
+        """End the goal and send its result message to the client."""
         status = self._status or "aborted"
         copy = duplicate(result)
         self._server.seat.program.ask(lambda: self._goal.finish(status, copy))
 
 
 class ActionServer(WorkQueue):
-    """Server of an action."""
+    """Server that accepts and executes an action's goals."""
 
     def __init__(
         self,
@@ -150,7 +150,7 @@ class ActionServer(WorkQueue):
         seat.keep(serve)
 
     def _show_parts(self, feedback_profile: QoSProfile, status_profile: QoSProfile) -> None:
-        """Announce an action's services and topics, for nodes that look for them."""
+        """Register the action's services and topics in the graph, so that other nodes find them."""
         seat, made = self.seat, self.type_.Impl
 
         def publisher(what: str, kind: Any, profile: QoSProfile) -> Publisher:
@@ -180,27 +180,27 @@ class ActionServer(WorkQueue):
             )
 
     def register_goal_callback(self, callback: Callable[[Any], Any]) -> None:
-        """Set the callback that accepts or rejects goals."""
+        """Set the callback that accepts or rejects new goals."""
         self._on_goal = callback
 
     def register_cancel_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
-        """Set the callback that accepts or rejects cancellations."""
+        """Set the callback that accepts or rejects requests to cancel a goal."""
         self._on_cancel = callback
 
     def register_handle_accepted_callback(
         self, callback: Callable[[ServerGoalHandle], Any]
     ) -> None:
-        """Set the callback for accepted goals."""
+        """Set the callback that is called with each accepted goal's handle."""
         self._on_accepted = callback
 
     def register_execute_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
-        """Set the callback that executes goals."""
+        """Set the callback that executes accepted goals."""
         self._execute = callback
 
     # On the loop's thread
 
     def arrived(self, goal: WorldGoal) -> None:
-        """Queue a goal for an executor; refuse it if too many wait."""
+        """Queue a new goal for the executor; reject the goal if the queue is full."""
         goal.decided = asyncio.get_running_loop().create_future()
         if self.is_full:
             self._decide(goal, False)
@@ -212,7 +212,7 @@ class ActionServer(WorkQueue):
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Accept no more goals; undecided ones are refused."""
+        """Remove the server; goals not yet accepted are rejected."""
         super().withdraw()
         for stop in self._stops:
             stop()
@@ -221,7 +221,7 @@ class ActionServer(WorkQueue):
             goal.decide_cancel(False)
 
     def _decide(self, goal: WorldGoal, accepted: bool) -> bool:
-        """Tell a goal's client whether it is accepted; return the first decision, which counts."""
+        """Send a goal's client the decision, unless it has one; return the decision that counts."""
         decided = goal.decided
         assert decided is not None
         if not decided.done():
@@ -255,7 +255,7 @@ class ActionServer(WorkQueue):
             self.seat.program.ask(lambda: goal.decide_cancel(accepted))
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
-        """Execute a goal on the node's executor."""
+        """Execute a goal with `callback`, else the server's callback, on the node's executor."""
         chosen = callback or self._execute
 
         async def work() -> None:

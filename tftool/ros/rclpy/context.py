@@ -1,4 +1,4 @@
-"""Context of rclpy: whether a program is initialised and not shut down."""
+"""Context of rclpy: the state of a program between `rclpy.init` and `rclpy.shutdown`."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -7,7 +7,7 @@ from tftool.ros.host import names, program
 
 
 class Context:
-    """State between `rclpy.init` and `rclpy.shutdown`."""
+    """State of a program between `rclpy.init` and `rclpy.shutdown`."""
 
     def __init__(self) -> None:
         self._program = program.current()
@@ -24,15 +24,15 @@ class Context:
         initialize_logging: bool = True,
         domain_id: int | None = None,
     ) -> None:
-        """Initialise.
+        """Initialise the context.
 
         Args:
             args: A command line; only the part after `--ros-args` is used.
-            initialize_logging: As in ROS 2; there is nothing to initialize.
-            domain_id: Result of `get_domain_id`. The session's own is chosen by `--domain`.
+            initialize_logging: Ignored: logging needs no initialisation here.
+            domain_id: Number that `get_domain_id` returns. The option `--domain` sets the real one.
 
         Raises:
-            RuntimeError: If it has been started, or the domain is negative.
+            RuntimeError: If the context was initialised before, or the domain is negative.
             UsageError: If the part after `--ros-args` is malformed.
             UnicodeEncodeError: If an argument is not a string.
         """
@@ -52,10 +52,10 @@ class Context:
         return self._valid and not self._program.interrupted
 
     def shutdown(self) -> None:
-        """Shut down; every spinning call returns.
+        """Shut the context down; every call that spins returns.
 
         Raises:
-            RuntimeError: If it was not started.
+            RuntimeError: If the context was not initialised.
         """
         if not self._valid:
             if self._program.interrupted:
@@ -64,7 +64,7 @@ class Context:
         self.try_shutdown()
 
     def try_shutdown(self) -> None:
-        """Shut down, unless that was done."""
+        """Shut the context down; do nothing if it is shut down already."""
         if not self._valid:
             return
         self._valid = False
@@ -75,24 +75,24 @@ class Context:
             listener()
 
     def on_shutdown(self, callback: Callable[[], object]) -> None:
-        """Register a call for the shutdown."""
+        """Register a function to call when the context shuts down."""
         self._on_shutdown.append(callback)
 
     def on_change(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Notify waiting code of the shutdown; call the returned function to stop that."""
+        """Register a function to call at shutdown; return a function that removes it again."""
         self._listeners.append(callback)
         return lambda: self._listeners.remove(callback)
 
     def get_domain_id(self) -> int:
         """Return the domain given at initialisation, else ROS 2's default, 0.
 
-        A program does not know the domain of the session it lives in (`--domain`): that is the
-        affair of the link to other processes.
+        The domain that messages to other processes use is set by `--domain`; a program does not
+        see that number.
         """
         return self._domain or 0
 
     def destroy(self) -> None:
-        """Shut down."""
+        """Shut the context down, if it is not yet."""
         self.try_shutdown()
 
     def __enter__(self) -> "Context":
@@ -105,7 +105,7 @@ class Context:
 
 
 def context_of(owner: Any) -> Context:
-    """Return the context a program uses by default."""
+    """Return a program's default context, creating it at the first call."""
     if owner.context is None:
         owner.context = Context()
     context: Context = owner.context

@@ -41,7 +41,7 @@ __all__ = [
 
 
 class InitContextManager:
-    """Result of `rclpy.init`, a context manager."""
+    """Context manager that `rclpy.init` returns; leaving its block shuts rclpy down."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -60,10 +60,10 @@ def init(
     domain_id: int | None = None,
     signal_handler_options: Any = None,
 ) -> InitContextManager:
-    """Initialise rclpy in this program.
+    """Initialise rclpy in this program; return a context manager that shuts it down.
 
     Raises:
-        RuntimeError: If it is started already.
+        RuntimeError: If rclpy is initialised already.
     """
     owner = program.current()
     chosen = context or context_of(owner)
@@ -75,12 +75,12 @@ def init(
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Shut rclpy down in this program."""
+    """Shut rclpy down in this program; every call that spins returns."""
     (context or context_of(program.current())).shutdown()
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Shut rclpy down in this program, unless that was done."""
+    """Shut rclpy down in this program; do nothing if it is shut down already."""
     (context or context_of(program.current())).try_shutdown()
 
 
@@ -90,22 +90,22 @@ def ok(*, context: Context | None = None) -> bool:
 
 
 def create_node(node_name: str, **kwargs: Any) -> Node:
-    """Create a node without a subclass."""
+    """Create a `Node` without defining a subclass."""
     return Node(node_name, **kwargs)
 
 
 def get_global_executor() -> Executor:
-    """Return the executor that `spin` uses."""
+    """Return the executor that `spin` uses unless another one is given."""
     return executor_of(program.current())
 
 
 def get_default_context() -> Context:
-    """Return the default context."""
+    """Return this program's default context."""
     return context_of(program.current())
 
 
 def spin(node: Node, executor: Executor | None = None) -> None:
-    """Execute a node's callbacks until shutdown."""
+    """Execute a node's callbacks until rclpy is shut down."""
     chosen = executor or get_global_executor()
     with serving(chosen, node):
         warn_of_unused(node)
@@ -115,7 +115,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 def spin_once(
     node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
-    """Wait for one callback of a node, and execute it."""
+    """Wait until one callback of a node is ready, and execute it."""
     chosen = executor or get_global_executor()
     with serving(chosen, node):
         chosen.spin_once(timeout_sec)
@@ -127,7 +127,7 @@ def spin_until_future_complete(
     executor: Executor | None = None,
     timeout_sec: float | None = None,
 ) -> None:
-    """Execute a node's callbacks until a future is done, or the time is up.
+    """Execute a node's callbacks until a future is done or the timeout has passed.
 
     Unlike in ROS 2 this may be called inside a callback.
     """
@@ -137,7 +137,7 @@ def spin_until_future_complete(
 
 
 def warn_of_unused(node: Node) -> None:
-    """Warn of parameters that were given but never declared."""
+    """Log a warning for each parameter that was given to a node but never declared."""
     for sentence in unused_parameters(node):
         node.get_logger().warning(sentence, once=False)
 
@@ -150,17 +150,17 @@ def wait_for_message(
     qos_profile: QoSProfile | int = 1,
     time_to_wait: float = -1,
 ) -> tuple[bool, Any]:
-    """Block until a message arrives.
+    """Block until a topic's next message arrives.
 
     Args:
-        msg_type: The topic's type.
-        node: Listening node.
-        topic: The topic's name.
-        qos_profile: How to listen.
+        msg_type: Message type of the topic.
+        node: Node that subscribes to the topic.
+        topic: Name of the topic.
+        qos_profile: Quality of service of the subscription, or its depth.
         time_to_wait: Seconds to wait at most; negative for no limit.
 
     Returns:
-        (True, the message), or (False, None) if there was none in time, or everything ended.
+        (True, the message); (False, None) if none arrived in time, or rclpy was shut down.
     """
     arrived = Future()
 
@@ -179,7 +179,7 @@ def wait_for_message(
 
 
 class SignalHandlerOptions(IntEnum):
-    """Signals that rclpy could handle."""
+    """Signals that rclpy is to handle."""
 
     NO = 0
     ALL = 1
@@ -188,34 +188,34 @@ class SignalHandlerOptions(IntEnum):
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """Return the handled signals: as in ROS 2 all, while the context is initialised."""
+    """Return the handled signals: all while the default context is initialised, else none."""
     started = context_of(program.current()).ok()
     return SignalHandlerOptions.ALL if started else SignalHandlerOptions.NO
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
-    """Return the arguments without ROS 2's."""
+    """Return the command-line arguments without the parts after `--ros-args`."""
     return names.parse(list(sys.argv if args is None else args))[1]
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
-    """Return nanoseconds; -1 for no limit."""
+    """Convert a timeout from seconds to nanoseconds; return -1 for no limit (None or negative)."""
     if timeout_sec is None or timeout_sec < 0:
         return -1
     return int(float(timeout_sec) * 1e9)
 
 
 def get_rmw_implementation_identifier() -> str:
-    """Return the middleware's name: messages stay in this process."""
+    """Return the middleware's name, "tftool": there is none of ROS 2's."""
     return "tftool"
 
 
 def check_for_type_support(msg_or_srv_type: Any) -> None:
-    """Check that it is an interface.
+    """Check that a class is a message, service or action type.
 
     Raises:
-        AttributeError: If it is nothing like one.
-        NoTypeSupportImportedException: If it is one that nothing is known of.
+        AttributeError: If the object has no type support at all.
+        NoTypeSupportImportedException: If tftool does not know the class's interface.
     """
     if _is_message(msg_or_srv_type) or _has(msg_or_srv_type, "Request", "Goal"):
         return
@@ -224,7 +224,7 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:
-    """Check that it is a message type.
+    """Check that a class is a message type.
 
     Raises:
         RuntimeError: If it is another's.
@@ -234,7 +234,7 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
-    """Check that it is a service type.
+    """Check that a class is a service type.
 
     Raises:
         RuntimeError: If it is another's.

@@ -1,6 +1,6 @@
-"""Entities of a node that executors wait for, its timers, and their callback groups.
+"""A node's timers, work queues and guard conditions, and the callback groups they belong to.
 
-Each entity keeps arrivals until an executor takes them.
+An entity is an object whose work an executor runs; it stores its work until the executor does so.
 """
 
 import asyncio
@@ -27,13 +27,13 @@ MOST_WAITING: Final = 1000
 
 @contextmanager
 def required(require: Callable[[], object]) -> Iterator[None]:
-    """Check, for the handle of an entity's `with` block, that the entity exists."""
+    """Call `require`, which raises if an entity is destroyed; then run the `with` block."""
     require()
     yield
 
 
 class NodeEntity:
-    """Entity of a node that can become ready."""
+    """Base of a node's publishers, subscriptions, timers and servers, which executors wait for."""
 
     passes_busy_group = False
     is_a_callback = False
@@ -46,15 +46,15 @@ class NodeEntity:
         self.callback_group = group
 
     def ready(self) -> bool:
-        """Whether there is work."""
+        """Return whether the entity has work for an executor."""
         return False
 
     def take(self) -> Work:
-        """Return the next piece of work."""
+        """Remove the next piece of work and return it, for the executor to run."""
         raise NotImplementedError
 
     def withdraw(self) -> None:
-        """Close the entity (in the loop's thread)."""
+        """Close the entity; called in the event loop's thread."""
 
     def destroy(self) -> None:
         """Close the entity, and remove it from the node."""
@@ -62,7 +62,7 @@ class NodeEntity:
 
     @property
     def handle(self) -> AbstractContextManager[None]:
-        """Handle that raises InvalidHandle once destroyed."""
+        """Context manager that raises InvalidHandle if the entity is destroyed."""
         return required(lambda: self.seat.require_of(self))
 
     def __enter__(self) -> Self:
@@ -73,33 +73,33 @@ class NodeEntity:
 
 
 class WorkQueue(NodeEntity):
-    """Entity whose work arrives in pieces, executed in order."""
+    """Entity that stores its work in a queue; an executor runs the work in order."""
 
     def __init__(self, seat: NodeSeat, group: Any) -> None:
         super().__init__(seat, group)
         self._arrived: deque[Work] = deque()
 
     def put(self, work: Work) -> None:
-        """Queue a piece of work (in the loop's thread)."""
+        """Queue a piece of work and wake the executor; called in the event loop's thread."""
         self._arrived.append(work)
         self.seat.wake()
 
     @property
     def is_full(self) -> bool:
-        """Whether the queue is so long that others' requests and goals are refused."""
+        """Whether the queue is at its limit, so that further requests and goals are refused."""
         return len(self._arrived) >= MOST_WAITING
 
     def ready(self) -> bool:
-        """Whether a piece of work waits."""
+        """Return whether the queue has a piece of work."""
         return bool(self._arrived)
 
     def take(self) -> Work:
-        """Return the oldest piece."""
+        """Remove the oldest piece of work from the queue and return it."""
         return self._arrived.popleft()
 
 
 class Requester(WorkQueue):
-    """Entity that sends requests to others, whose responses are its work."""
+    """Entity that sends requests to a server; each response is a piece of work."""
 
     # An answer completes a future and calls no callback by itself, so a callback that
     # waits for it gets it.
@@ -110,7 +110,7 @@ class Requester(WorkQueue):
         self._asking: set[asyncio.Task[None]] = set()
 
     def is_served(self) -> bool:
-        """Whether a server is available (in the loop's thread)."""
+        """Return whether a server is available; called in the event loop's thread."""
         raise NotImplementedError
 
     def server_is_ready(self) -> bool:
@@ -121,14 +121,15 @@ class Requester(WorkQueue):
         return ready
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is available; return whether one is."""
+        """Block until a server is available; return False if the timeout passes first."""
         return self.seat.wait_until(self.is_served, timeout_sec)
 
     def promise(self, request: Callable[[], Coroutine[Any, Any, Any]]) -> Future:
-        """Return a future of a response; a request that returns None stays unanswered.
+        """Start a request; return a future of its response.
 
-        It runs in the loop, and is cancelled with this entity. The executor that serves this
-        completes the future, and runs its callbacks.
+        If the request returns None, the future never completes. The request runs in the event loop
+        and is cancelled when this entity closes. The node's executor completes the future and runs
+        its callbacks.
         """
         future = Future(executor=self.seat.executor)
 
@@ -158,21 +159,21 @@ class Requester(WorkQueue):
         return future
 
     def withdraw(self) -> None:
-        """Cancel all requests."""
+        """Close the entity and cancel all its requests."""
         super().withdraw()
         for task in list(self._asking):
             task.cancel()
 
 
 class GuardCondition(WorkQueue):
-    """Calls back when triggered."""
+    """Entity that calls its callback when triggered."""
 
     def __init__(self, seat: NodeSeat, callback: Callable[[], Any], group: Any) -> None:
         super().__init__(seat, group)
         self.callback = callback
 
     def trigger(self) -> None:
-        """Schedule the callback, once until it is called."""
+        """Schedule the callback; further triggers before it runs have no effect."""
 
         def set_off() -> None:
             if not self.ready():
@@ -182,36 +183,36 @@ class GuardCondition(WorkQueue):
 
 
 class CallbackGroup:
-    """Callbacks with a common rule."""
+    """Group of callbacks with a common rule on which of them may run at the same time."""
 
     def __init__(self) -> None:
         self.busy = 0
 
     def add_entity(self, entity: Any) -> None:
-        """Do nothing: entities know their group."""
+        """Do nothing: each entity stores its own group."""
 
     def has_entity(self, entity: Any) -> bool:
         """Return whether an entity belongs to the group."""
         return getattr(entity, "callback_group", None) is self
 
     def can_execute(self, entity: Any) -> bool:
-        """Return whether a callback of this group may start."""
+        """Return whether a callback of this group may start now."""
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Record the start of a callback; return False if another one prevents it."""
+        """Count a callback of this group as running; return False if it may not start now."""
         if not self.can_execute(entity):
             return False
         self.busy += 1
         return True
 
     def ending_execution(self, entity: Any) -> None:
-        """Record the end of a callback."""
+        """Count a callback of this group as ended."""
         self.busy -= 1
 
 
 class MutuallyExclusiveCallbackGroup(CallbackGroup):
-    """Group of callbacks of which one runs at a time."""
+    """Group of callbacks of which at most one runs at a time."""
 
     def can_execute(self, entity: Any) -> bool:
         """Return whether no other callback of the group is running."""
@@ -219,15 +220,15 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
 
 
 class ReentrantCallbackGroup(CallbackGroup):
-    """Group of callbacks that may all run concurrently."""
+    """Group of callbacks that may all run at the same time."""
 
     def can_execute(self, entity: Any) -> bool:
-        """Return True."""
+        """Return True: a callback of this group may start at any time."""
         return True
 
 
 class TimerInfo:
-    """Time at which a timer was due, and at which it was called."""
+    """Time at which a timer's call was due, and time at which the call happened."""
 
     def __init__(
         self,
@@ -236,13 +237,13 @@ class TimerInfo:
         actual_call_time: int = 0,
         clock_type: ClockType = ClockType.SYSTEM_TIME,
     ) -> None:
-        """Take two times in nanoseconds of a clock."""
+        """Store two times, given in nanoseconds, as times of one clock type."""
         self.expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
         self.actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
 
 
 class Timer(NodeEntity):
-    """Timer that calls back at multiples of its period, first one period after its creation."""
+    """Timer that calls its callback at every period, first one period after its creation."""
 
     is_a_callback = True
 
@@ -266,7 +267,7 @@ class Timer(NodeEntity):
 
     @property
     def timer_period_ns(self) -> int:
-        """Period in nanoseconds."""
+        """Period of the timer in nanoseconds."""
         return self._period
 
     @timer_period_ns.setter
@@ -277,15 +278,15 @@ class Timer(NodeEntity):
         self.seat.program.ask(change)
 
     def ready(self) -> bool:
-        """Whether the timer is due."""
+        """Return whether the timer's next call is due."""
         return not self._canceled and self.due <= self.seat.world.clock.now()
 
     def is_ready(self) -> bool:
-        """Return whether the timer is due."""
+        """Return whether the timer's next call is due."""
         return self.ready()
 
     def take(self) -> Work:
-        """Return the callback; the next call is at the next future multiple of the period."""
+        """Return the timer's callback; set the next call to the next multiple of the period."""
         now, due = self.seat.world.clock.now(), self.due
         self._last = now
         # As fast as possible must not hold simulated time still.
@@ -309,7 +310,7 @@ class Timer(NodeEntity):
         return work
 
     def cancel(self) -> None:
-        """Make no further call until `reset`."""
+        """Stop the timer's calls until `reset`."""
         self._canceled = True
 
     def is_canceled(self) -> bool:
@@ -317,7 +318,7 @@ class Timer(NodeEntity):
         return self._canceled
 
     def reset(self) -> None:
-        """Start again: the next call is one period from now."""
+        """Restart the timer: its next call is one period from now."""
 
         def restart() -> None:
             self._canceled = False
@@ -327,29 +328,29 @@ class Timer(NodeEntity):
         self.seat.program.ask(restart)
 
     def time_since_last_call(self) -> int:
-        """Return nanoseconds since the last call."""
+        """Return the nanoseconds since the timer's last call."""
         return self.seat.world.clock.now() - self._last
 
     def time_until_next_call(self) -> int | None:
-        """Return nanoseconds until the next call; None if cancelled."""
+        """Return the nanoseconds until the timer's next call; None if it is cancelled."""
         return None if self._canceled else self.due - self.seat.world.clock.now()
 
 
 class RateTimer(Timer):
-    """Ends a `spin_once` at every period of a rate, as a rate's timer does in ROS."""
+    """Timer of a `Rate`: ends a `spin_once` at every period, as in ROS 2."""
 
     only_ends_spin_once = True
     on_end: Callable[[], object] = staticmethod(lambda: None)
     """Called when it is destroyed."""
 
     def withdraw(self) -> None:
-        """End the rate."""
+        """Close the timer and end its rate."""
         super().withdraw()
         self.on_end()
 
 
 async def outcome(value: Any) -> Any:
-    """Return a callback's result; a coroutine is awaited."""
+    """Return a callback's result; if the value is a coroutine, await it first."""
     return await value if inspect.isawaitable(value) else value
 
 

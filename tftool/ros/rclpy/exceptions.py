@@ -6,14 +6,14 @@ from tftool.base.near_names import did_you_mean
 
 
 class NotInitializedException(Exception):
-    """Error for use before rclpy.init(), or after a shutdown."""
+    """Error for using rclpy before `rclpy.init()` or after a shutdown."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.init() has not been called", *args)
 
 
 class ROSInterruptException(Exception):
-    """Error for a sleep interrupted by a shutdown."""
+    """Error for a sleep that a shutdown interrupted."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.shutdown() has been called", *args)
@@ -27,7 +27,7 @@ class NoTypeSupportImportedException(Exception):
 
 
 class NameValidationException(ValueError):
-    """Error for an invalid name; shown with a caret below the position."""
+    """Error for an invalid name; its text marks the wrong position with a caret."""
 
     def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int) -> None:
         caret = " " * invalid_index + "^"
@@ -63,7 +63,7 @@ class InvalidServiceNameException(NameValidationException):
 
 
 class InvalidHandle(Exception):
-    """Error for the use of something destroyed."""
+    """Error for using a node or entity that is destroyed."""
 
 
 class ParameterException(Exception):
@@ -98,11 +98,11 @@ class InvalidParameterException(ParameterException):
 
 
 class InvalidParameterTypeException(ParameterException):
-    """Error for a parameter's value of another type."""
+    """Error for a parameter's value of the wrong type."""
 
 
 class InvalidParameterValueException(ParameterException):
-    """Error for a parameter's value that is refused."""
+    """Error for a parameter's value that the node rejects."""
 
     def __init__(self, parameter: str, value: object, reason: str) -> None:
         text = f"Invalid parameter value ({value!r}) for parameter '{parameter}'"
@@ -118,7 +118,7 @@ class ParameterImmutableException(ParameterException):
 
 
 class ParameterUninitializedException(ParameterException):
-    """Error for reading a parameter declared by type only, before it has a value."""
+    """Error for reading a parameter that was declared by type only and has no value yet."""
 
     def __init__(self, parameter: str) -> None:
         super().__init__(f"The parameter '{parameter}' is not initialized", parameter)

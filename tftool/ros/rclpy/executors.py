@@ -1,8 +1,8 @@
-"""rclpy's executors: they execute the callbacks of ready entities in a fixed order.
+"""rclpy's executors, which run the callbacks of a node's ready entities in a fixed order.
 
-Readiness is decided on the loop's thread; callbacks run on the spinning fiber. Timers run last
-within an instant, so that a listener's timer sees everything that the simulator and the
-broadcasters sent in that instant.
+The event loop's thread decides which entities are ready; the callbacks run in the thread that
+spins. Timers run last within an instant, so that a listener's timer sees everything that the
+simulator and the broadcasters sent in that instant.
 """
 
 import asyncio
@@ -25,29 +25,29 @@ THREADS = 4
 
 
 class ExternalShutdownException(Exception):
-    """Error for a shutdown while an executor was spinning."""
+    """Error raised by an executor that spins when its context is shut down."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("context has been shut down", *args)
 
 
 class ShutdownException(Exception):
-    """Error for an executor that was shut down."""
+    """Error for using an executor that is shut down."""
 
 
 class TimeoutException(Exception):
-    """Error for an executor's wait that exceeded its timeout."""
+    """Error for an executor's wait that took longer than its timeout."""
 
 
 class ConditionReachedException(Exception):
-    """Signal that an executor's condition became true."""
+    """Exception of rclpy for a condition that became true while an executor waited."""
 
 
 class Executor:
-    """Executes the callbacks of its nodes.
+    """Base of executors, which run the callbacks of the nodes added to them.
 
     Attributes:
-        spins_once: Whether the executor is in `spin_once`, which any traffic ends.
+        spins_once: Whether the executor is inside `spin_once`, which any piece of work ends.
     """
 
     def __init__(self, *, context: Context | None = None) -> None:
@@ -68,7 +68,7 @@ class Executor:
 
     @property
     def context(self) -> Context:
-        """Context whose shutdown ends the executor."""
+        """Context whose shutdown ends this executor's spinning."""
         return self._context
 
     def __enter__(self) -> "Executor":
@@ -78,7 +78,7 @@ class Executor:
         self.shutdown()
 
     def add_node(self, node: Any) -> bool:
-        """Add a node; return False if it was added before."""
+        """Add a node to this executor; return False if it is in it already."""
         seat = seat_of(node)
         if seat in self._seats:
             return False
@@ -93,7 +93,7 @@ class Executor:
         return True
 
     def remove_node(self, node: Any) -> None:
-        """Remove a node."""
+        """Remove a node from this executor."""
         seat = seat_of(node)
 
         def remove() -> None:
@@ -107,11 +107,11 @@ class Executor:
         self._program.ask(remove)
 
     def get_nodes(self) -> list[Any]:
-        """Return the nodes of the executor."""
+        """Return the nodes that were added to this executor."""
         return [seat.ros_node for seat in self._seats]
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Remove all nodes."""
+        """Shut the executor down and remove all its nodes."""
         if not self._over:
             self._over = True
             self._leave_context()
@@ -121,13 +121,13 @@ class Executor:
         return True
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
-        """Schedule a callback or coroutine; return a future of its result."""
+        """Schedule a callback or coroutine; return its `Task`, a future of the result."""
         task = Task(callback, args, kwargs, executor=self)
         self._schedule(task)
         return task
 
     def wake(self) -> None:
-        """Check for work again (in the loop's thread)."""
+        """Wake the threads that wait for work; called in the event loop's thread."""
         for waker in self._wakers:
             if not waker.done():
                 waker.set_result(None)
@@ -135,12 +135,12 @@ class Executor:
     # Spinning
 
     def spin(self) -> None:
-        """Execute callbacks until shutdown."""
+        """Execute the nodes' callbacks until the executor or its context is shut down."""
         while self._context.ok() and not self._over:
             self._step(None)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Wait for one callback, and execute it.
+        """Wait until one callback of the nodes is ready, and execute it.
 
         Raises:
             ShutdownException: If the executor was shut down.
@@ -157,7 +157,7 @@ class Executor:
             self.spins_once = False
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
-        """Execute callbacks until a future is done, or the time is up."""
+        """Execute the nodes' callbacks until a future is done or the timeout has passed."""
         deadline = self._deadline(timeout_sec)
         future.watch(lambda _: self._wake_from_anywhere())
         while not (future.done() or future.cancelled()):
@@ -171,7 +171,7 @@ class Executor:
     def spin_once_until_future_complete(
         self, future: Future, timeout_sec: float | None = None
     ) -> None:
-        """Wait for one callback, or for a future."""
+        """Wait for one callback and execute it; return earlier if the future is done."""
         if not (future.done() or future.cancelled()):
             future.watch(lambda _: self._wake_from_anywhere())
             self._step(self._deadline(timeout_sec), future)
@@ -185,7 +185,7 @@ class Executor:
         return deadline is not None and deadline + by <= self._program.clock.now()
 
     def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
-        """Execute one callback; return False if the time was up, or on another wake-up."""
+        """Execute one callback; return False if none was ready by the deadline or a wake-up."""
         if self._tasks:
             self._advance(*self._tasks.popleft())
             return True
@@ -208,7 +208,7 @@ class Executor:
         return True
 
     def _raise_failure(self) -> None:
-        """Raise the exception that ended another thread of this executor."""
+        """Raise the exception of a callback that ran in another thread of this executor, if any."""
         failure, self._failure = self._failure, None
         if failure is not None:
             raise failure
@@ -244,7 +244,7 @@ class Executor:
     async def _next(
         self, deadline: Stamp | None, future: Future | None, takes: bool = True
     ) -> tuple[NodeEntity, Work] | None:
-        """Return the next work, if any; None if it was woken for another reason."""
+        """Wait for work; return the entity and its work, or None at the deadline or a wake-up."""
         clock = self._program.clock
         if self._has_released:
             self._has_released = False
@@ -286,7 +286,7 @@ class Executor:
         return None
 
     def _entities(self) -> Iterator[NodeEntity]:
-        """Return all entities in the order of execution: timers first."""
+        """Yield all entities of the executor's nodes in the order of execution: timers first."""
         for seat in list(self._seats):
             yield from (one for one in seat.entities if isinstance(one, Timer))
             yield from (one for one in seat.entities if not isinstance(one, Timer))
@@ -320,7 +320,7 @@ class Executor:
         return min(moments, default=None)
 
     async def _pause(self, waker: "asyncio.Future[None]", due: Stamp | None) -> None:
-        """Wait for arrivals, or for a turn at some time."""
+        """Wait for the waker, or for this program's turn at the time `due`."""
         owner = self._program
         if due is None:
             await waker
@@ -336,14 +336,14 @@ class Executor:
 
 
 class SingleThreadedExecutor(Executor):
-    """Executor that runs one callback at a time."""
+    """Executor that runs one callback at a time, in the thread that spins."""
 
 
 class MultiThreadedExecutor(Executor):
-    """Executor that runs callbacks concurrently, as their groups allow, each on its own fiber.
+    """Executor that runs callbacks at the same time, as far as their groups permit.
 
-    The spinning thread calls no callback itself: as in ROS 2, a long callback does not delay the
-    return of `spin_until_future_complete` beyond its future's completion.
+    Each callback runs in a worker thread, never in the thread that spins: as in ROS 2, a long
+    callback does not delay the return of `spin_until_future_complete` once its future is done.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
@@ -354,11 +354,11 @@ class MultiThreadedExecutor(Executor):
         """Done when no thread spins any more; None while none does."""
 
     def spin(self) -> None:
-        """Execute callbacks until shutdown."""
+        """Execute the nodes' callbacks until the executor or its context is shut down."""
         self._lead(Future(), None)
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
-        """Execute callbacks until a future is done, or the time is up."""
+        """Execute the nodes' callbacks until a future is done or the timeout has passed."""
         if self._let_go is not None:
             # A callback waits: it may be what the last of the threads is busy with.
             super().spin_until_future_complete(future, timeout_sec)
@@ -366,7 +366,7 @@ class MultiThreadedExecutor(Executor):
             self._lead(future, self._deadline(timeout_sec))
 
     def _lead(self, future: Future, deadline: Stamp | None) -> None:
-        """Run the workers until a future is done."""
+        """Let the worker threads run callbacks until a future is done or the deadline passes."""
         future.watch(lambda _: self._wake_from_anywhere())
         let_go = self._let_go = Future()
         self._program.ask(lambda: self._hire(let_go))
@@ -405,7 +405,7 @@ class MultiThreadedExecutor(Executor):
 
 
 def executor_of(owner: "program.Program") -> Executor:
-    """Return the executor that `rclpy.spin` uses."""
+    """Return the executor that `rclpy.spin` uses in a program, creating it at the first call."""
     if owner.executor is None:
         owner.executor = SingleThreadedExecutor()
     executor: Executor = owner.executor
@@ -414,7 +414,7 @@ def executor_of(owner: "program.Program") -> Executor:
 
 @contextmanager
 def serving(executor: Any, node: Any) -> Iterator[None]:
-    """Let an executor serve a node inside this block, and after it if it did before."""
+    """Add a node to an executor for this block; a node that was added before stays in it."""
     added = executor.add_node(node)
     try:
         yield
@@ -424,7 +424,7 @@ def serving(executor: Any, node: Any) -> Iterator[None]:
 
 
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
-    """Block until a future is done, executing the node's callbacks if no executor does."""
+    """Block until a future is done; execute the node's callbacks here if it has no executor."""
     executor = seat.executor or executor_of(seat.program)
     if seat.executor is None and executor.context is not seat.context:
         with SingleThreadedExecutor(context=seat.context) as executor:

@@ -1,4 +1,4 @@
-"""rclpy's futures, and the tasks of coroutines."""
+"""Futures of rclpy, and the tasks in which executors run coroutines."""
 
 import asyncio
 import contextlib
@@ -9,7 +9,7 @@ from typing import Any
 
 
 class _Stepping(threading.local):
-    """Asyncio task that advances an executor's task, in each thread."""
+    """Per thread: the asyncio task in which an executor is running a step of a `Task`."""
 
     beneath: "asyncio.Task[Any] | None" = None
 
@@ -25,7 +25,7 @@ def _asyncio_task() -> "asyncio.Task[Any] | None":
 
 
 class Future:
-    """A result that is not there yet."""
+    """Placeholder for a result that arrives later."""
 
     def __init__(self, *, executor: Any = None) -> None:
         self._done = False
@@ -51,7 +51,7 @@ class Future:
         return self.result()
 
     def _over_there(self, loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
-        """Wait inside asyncio's loop, as one of its tasks does."""
+        """Wait for the future inside a task of asyncio's loop, without blocking the loop."""
         over = loop.create_future()
 
         def settle() -> None:
@@ -66,7 +66,7 @@ class Future:
         yield from over
 
     def done(self) -> bool:
-        """Return whether there is a result."""
+        """Return whether the future has a result or an exception."""
         return self._done
 
     def cancelled(self) -> bool:
@@ -74,7 +74,7 @@ class Future:
         return self._cancelled
 
     def cancel(self) -> None:
-        """Cancel the future; does nothing once it is done."""
+        """Cancel the future; do nothing if it is done."""
         with self._mutex:
             if self._done:
                 return
@@ -82,10 +82,10 @@ class Future:
         self._tell()
 
     def result(self) -> Any:
-        """Return the result; None if there is none.
+        """Return the result; None if the future is not done.
 
         Raises:
-            BaseException: If an exception is the answer.
+            BaseException: If the future was completed with an exception.
         """
         if self._exception is not None:
             self._asked = True
@@ -93,12 +93,12 @@ class Future:
         return self._result
 
     def exception(self) -> BaseException | None:
-        """Return the exception, if there is one."""
+        """Return the exception that completed the future; None if there is none."""
         self._asked = True
         return self._exception
 
     def set_result(self, result: Any) -> None:
-        """Set the result."""
+        """Complete the future with a result."""
         with self._mutex:
             self._result = result
             self._done = True
@@ -106,7 +106,7 @@ class Future:
         self._tell()
 
     def set_exception(self, exception: BaseException) -> None:
-        """Set an exception as the result."""
+        """Complete the future with an exception, which `result` raises."""
         with self._mutex:
             self._exception = exception
             self._asked = False
@@ -115,14 +115,14 @@ class Future:
         self._tell()
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback` with this future when it is done (at once if it is).
+        """Call `callback` with this future when it is done, or at once if it is done already.
 
         The executor that completes the future runs the callback as its next task, as in ROS 2.
         """
         self._add(callback, self._callbacks, self._call)
 
     def watch(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback` in the thread that completes the future, never as a task."""
+        """Call `callback`, not as a task, in the thread that completes the future."""
         self._add(callback, self._watchers, lambda watcher: watcher(self))
 
     def _add(
@@ -139,7 +139,7 @@ class Future:
             call(callback)
 
     def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
-        """Remove `callback`; return whether it had been registered."""
+        """Remove a callback of `add_done_callback`; return whether it was registered."""
         with self._mutex:
             found = callback in self._callbacks
             self._callbacks[:] = [one for one in self._callbacks if one != callback]
@@ -162,12 +162,12 @@ class Future:
             raise TypeError("a coroutine as done-callback needs a future with an executor")
 
     def set_executor(self, executor: Any) -> None:
-        """Set the executor for the callbacks; None runs them where the result is set."""
+        """Set the executor that runs the callbacks; with None, the completing thread runs them."""
         self._executor = executor
 
 
 class Task(Future):
-    """A callback or coroutine that an executor runs, and its result."""
+    """Future of a callback or coroutine that an executor runs."""
 
     def __init__(
         self,
@@ -187,7 +187,7 @@ class Task(Future):
             self._handler = lambda: function(*(args or ()), **(kwargs or {}))
 
     def __call__(self) -> Any:
-        """Run until the task waits or ends; return the awaited object, if any."""
+        """Run until the task waits or ends; return the object it waits for, if any."""
         if self._done or self._cancelled:
             return None
         beneath, _STEPPING.beneath = _STEPPING.beneath, _asyncio_task()
@@ -211,11 +211,11 @@ class Task(Future):
         return None
 
     def executing(self) -> bool:
-        """Return whether a step of it is running."""
+        """Return whether a step of this task is running now."""
         return self._is_stepping
 
     def cancel(self) -> None:
-        """Cancel the task; a coroutine is closed."""
+        """Cancel the task and close its coroutine."""
         if self._coroutine is not None and not self._done:
             self._coroutine.close()
         super().cancel()

@@ -1,4 +1,4 @@
-"""rclpy's lifecycle nodes, whose states change by calls or services, as in design.ros2.org."""
+"""Lifecycle nodes of rclpy, whose states change by method calls or services (design.ros2.org)."""
 
 from collections.abc import Callable, Iterable
 from enum import IntEnum
@@ -12,26 +12,26 @@ from tftool.world.node_parameters import answered
 
 
 class TransitionCallbackReturn(IntEnum):
-    """Result of a transition's callback."""
+    """Result of the callback of a lifecycle transition."""
 
     SUCCESS = 97
     FAILURE = 98
     ERROR = 99
 
     def to_label(self) -> str:
-        """Return the name of the transition that follows."""
+        """Return the name of the transition that follows a callback with this result."""
         return f"transition_{self.name.lower()}"
 
 
 class LifecycleState(NamedTuple):
-    """Name and number of a state."""
+    """Name and number of a lifecycle state."""
 
     label: str
     state_id: int
 
 
 class Transition(NamedTuple):
-    """Transition between two states."""
+    """Lifecycle transition from one state to another: its number, name and both states."""
 
     number: int
     label: str
@@ -92,23 +92,23 @@ GRAPH = _REQUESTS + tuple(
 
 
 class StateMachine:
-    """State of a lifecycle node."""
+    """Current state of a lifecycle node, with the transitions it permits."""
 
     def __init__(self) -> None:
         self.state = LifecycleState("unconfigured", STATES["unconfigured"])
 
     @property
     def current_state(self) -> tuple[int, str]:
-        """Number and name of the state."""
+        """Number and name of the current state."""
         return self.state.state_id, self.state.label
 
     @property
     def available_transitions(self) -> list[Transition]:
-        """Return the transitions possible from here."""
+        """Transitions that begin in the current state."""
         return [one for one in GRAPH if one.start == self.state.label]
 
     def take(self, wanted: str | int) -> Transition:
-        """Start a transition by its name or number.
+        """Enter the goal state of a transition, given by name or number; return the transition.
 
         Raises:
             RuntimeError: If the transition does not begin in the current state.
@@ -129,27 +129,27 @@ SUCCESS = TransitionCallbackReturn.SUCCESS
 
 
 class ManagedEntity:
-    """Entity notified of every transition of its node."""
+    """Object that a lifecycle node notifies of every transition of the node."""
 
     def _succeed(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Handle a transition by doing nothing."""
+        """Return SUCCESS: the default callback of every transition."""
         return SUCCESS
 
     on_configure = on_cleanup = on_shutdown = on_activate = on_deactivate = on_error = _succeed
 
 
 class SimpleManagedEntity(ManagedEntity):
-    """Entity that is enabled while its node is active."""
+    """Managed entity that is enabled while its lifecycle node is active."""
 
     _enabled = False
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Enable the entity."""
+        """Enable the entity when its node becomes active."""
         self._enabled = True
         return SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Disable the entity."""
+        """Disable the entity when its node becomes inactive."""
         self._enabled = False
         return SUCCESS
 
@@ -162,7 +162,7 @@ class SimpleManagedEntity(ManagedEntity):
     def when_enabled(
         wrapped: F | None = None, *, when_not_enabled: Callable[[], object] | None = None
     ) -> Any:
-        """Decorate a method: while disabled, only `when_not_enabled` is called."""
+        """Decorate a method to run only while enabled; else `when_not_enabled` runs instead."""
 
         def decorate(method: F) -> Any:
             @wraps(method)
@@ -177,16 +177,16 @@ class SimpleManagedEntity(ManagedEntity):
 
 
 class LifecyclePublisher(SimpleManagedEntity, Publisher):
-    """A publisher that sends only while its node is active."""
+    """Publisher that sends messages only while its lifecycle node is active."""
 
     def publish(self, msg: Any) -> None:
-        """Send a message if the node is active."""
+        """Send a message; drop it if the node is not active."""
         if self._enabled:
             super().publish(msg)
 
 
 def _telling(callback: str) -> Any:
-    """Make a node's default callback of a transition."""
+    """Return the default method for a transition: it calls each managed entity's callback."""
 
     def tell(self: "LifecycleNodeMixin", state: LifecycleState) -> TransitionCallbackReturn:
         for entity in list(self._managed_entities):
@@ -201,7 +201,7 @@ def _telling(callback: str) -> Any:
 
 
 def _triggering(transition: str, change_of_state: str) -> Any:
-    """Make a node's method that runs a transition."""
+    """Return the method `trigger_…` of lifecycle nodes, which runs a transition."""
 
     def trigger(self: "LifecycleNodeMixin") -> TransitionCallbackReturn:
         return change(self, transition)
@@ -212,7 +212,7 @@ def _triggering(transition: str, change_of_state: str) -> Any:
 
 
 class LifecycleNodeMixin(ManagedEntity):
-    """Methods of a lifecycle node."""
+    """Methods that a node needs to be a lifecycle node."""
 
     on_configure = _telling("on_configure")
     on_cleanup = _telling("on_cleanup")
@@ -239,11 +239,11 @@ class LifecycleNodeMixin(ManagedEntity):
     trigger_shutdown = _triggering("shutdown", "any state to finalized")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
-        """Add an entity to notify of every transition."""
+        """Add an entity that this node notifies of every transition."""
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
-        """Create a publisher that sends only while this node is active."""
+        """Create a publisher that sends messages only while this node is active."""
         node: Any = self
         publisher: LifecyclePublisher = node.create_publisher(
             *args, publisher_class=LifecyclePublisher, **kwargs
@@ -252,7 +252,7 @@ class LifecycleNodeMixin(ManagedEntity):
         return publisher
 
     def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
-        """Close a lifecycle publisher."""
+        """Destroy a lifecycle publisher; return whether it belonged to this node."""
         if publisher in self._managed_entities:
             self._managed_entities.remove(publisher)
         node: Any = self
@@ -260,7 +260,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
 
 class LifecycleNode(LifecycleNodeMixin, Node):
-    """A node that must be configured and activated before it works."""
+    """Node that must be configured and activated before it works."""
 
     def __init__(
         self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any
@@ -272,10 +272,10 @@ class LifecycleNode(LifecycleNodeMixin, Node):
 
 
 def change(node: LifecycleNodeMixin, wanted: str | int) -> TransitionCallbackReturn:
-    """Run a transition of a node; return its callback's result.
+    """Run a lifecycle transition of a node; return the result of the transition's callback.
 
     Raises:
-        RuntimeError: If the transition does not begin where the node is.
+        RuntimeError: If the transition does not begin in the node's current state.
     """
     machine = node._state_machine
     before = machine.state
@@ -315,7 +315,7 @@ def _describe(message: Any, transition: Transition) -> Any:
 
 
 def _serve(node: Any, callback_group: Any) -> None:
-    """Serve a node's state and transitions."""
+    """Create the services that report and change a lifecycle node's state."""
     machine: StateMachine = node._state_machine
     described = INTERFACES.message("lifecycle_msgs/TransitionDescription")
     state_kind = INTERFACES.message("lifecycle_msgs/State")

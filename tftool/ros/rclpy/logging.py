@@ -1,4 +1,4 @@
-"""rclpy's loggers, which write to the world's log."""
+"""Loggers of rclpy, which write to tftool's log."""
 
 import inspect
 import os
@@ -16,7 +16,7 @@ from tftool.world.node_parameters import Answer, answered
 
 
 class LoggingSeverity(IntEnum):
-    """Severity of a line."""
+    """Severity of a log message."""
 
     UNSET = 0
     DEBUG = 10
@@ -30,18 +30,18 @@ _LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 5
 
 
 class SkipFirst:
-    """Name of rclpy's filter behind `skip_first=True`: programs import it and never call it."""
+    """Class behind `skip_first=True` in rclpy: programs import its name but never call it."""
 
 
 class RcutilsLogger:
-    """Logger of one name."""
+    """Logger with a name; each name has its own lowest severity."""
 
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._calls: dict[tuple[CodeType, int] | None, _Call] = {}
 
     def get_child(self, name: str) -> "RcutilsLogger":
-        """Return a child logger.
+        """Return the logger named `name` below this logger.
 
         Raises:
             ValueError: If the name is empty.
@@ -51,11 +51,11 @@ class RcutilsLogger:
         return RcutilsLogger(f"{self.name}.{name}" if self.name else name)
 
     def set_level(self, level: int) -> None:
-        """Set the lowest severity to log."""
+        """Set the lowest severity that this logger logs."""
         program.current().log_levels[self.name] = int(LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """Return the lowest severity that is logged."""
+        """Return the lowest severity that is logged, which a parent logger may set."""
         levels = program.current().log_levels
         name = self.name
         while name:
@@ -65,7 +65,7 @@ class RcutilsLogger:
         return LoggingSeverity(levels.get("", LoggingSeverity.INFO))
 
     def is_enabled_for(self, severity: int) -> bool:
-        """Return whether a line of that level would be logged."""
+        """Return whether a message of that severity would be logged."""
         return severity >= self.get_effective_level()
 
     def log(
@@ -79,14 +79,15 @@ class RcutilsLogger:
         throttle_time_source_type: Any = None,
         name: str = "",
     ) -> bool:
-        """Log a line; return whether it was logged.
+        """Log a message; return whether it was logged.
 
-        `once`, `skip_first` and `throttle_duration_sec` count separately for each calling line.
-        Several together must all permit a line.
+        `once`, `skip_first` and `throttle_duration_sec` count separately for each line of the
+        user's code that logs. With several of these options, a message is logged only if all of
+        them permit it.
 
         Raises:
-            ValueError: If one call in the code asks for another level, name or filter than
-                before: in ROS 2 it must not.
+            ValueError: If a line of code changes its severity, name or filters between two calls,
+                which ROS 2 forbids.
         """
         owner = program.running()
         if owner is None:
@@ -120,7 +121,7 @@ class RcutilsLogger:
     def _called(
         self, frame: FrameType | None, severity: int, name: str, settings: tuple[bool, bool, int]
     ) -> "_Call":
-        """Return the record of a call in the code."""
+        """Return the record of the user's line of code that logs, creating it at its first call."""
         # The last tells two calls on one line apart.
         place = (frame.f_code, frame.f_lasti) if frame is not None else None
         call = self._calls.get(place)
@@ -130,30 +131,30 @@ class RcutilsLogger:
         return call
 
     def debug(self, message: object, **kwargs: Any) -> bool:
-        """Log a line for debugging."""
+        """Log a message with severity DEBUG; return whether it was logged."""
         return self.log(message, LoggingSeverity.DEBUG, **kwargs)
 
     def info(self, message: object, **kwargs: Any) -> bool:
-        """Log information."""
+        """Log a message with severity INFO; return whether it was logged."""
         return self.log(message, LoggingSeverity.INFO, **kwargs)
 
     def warning(self, message: object, **kwargs: Any) -> bool:
-        """Log a warning."""
+        """Log a message with severity WARN; return whether it was logged."""
         return self.log(message, LoggingSeverity.WARN, **kwargs)
 
     warn = warning
 
     def error(self, message: object, **kwargs: Any) -> bool:
-        """Log an error."""
+        """Log a message with severity ERROR; return whether it was logged."""
         return self.log(message, LoggingSeverity.ERROR, **kwargs)
 
     def fatal(self, message: object, **kwargs: Any) -> bool:
-        """Log a fatal error."""
+        """Log a message with severity FATAL; return whether it was logged."""
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
 
 class _Call:
-    """A logging call in the code: its options, and how often it logged."""
+    """Line of the user's code that logs: its severity, logger and filters, and their counts."""
 
     def __init__(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
         self._severity = severity
@@ -166,10 +167,10 @@ class _Call:
         self._last: Stamp = 0
 
     def require(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
-        """Check that the options are the same as before.
+        """Check that severity, name and filters are the same as at the first call.
 
         Raises:
-            ValueError: If the request does not fit.
+            ValueError: If one of them has changed.
         """
         if severity != self._severity:
             raise ValueError("Logger severity cannot be changed between calls.")
@@ -179,7 +180,7 @@ class _Call:
             raise ValueError("Logging filter parameters cannot be changed between calls.")
 
     def passes(self, now: Stamp) -> bool:
-        """Return whether a line may be logged now; checked in ROS 2's order, with its counts."""
+        """Return whether the filters permit a message now, checked in ROS 2's order."""
         if self._throttle:
             if now < self._last + self._throttle:
                 return False
@@ -194,7 +195,7 @@ class _Call:
 
 
 def _rosout_of(owner: program.Program, logger: str) -> Any:
-    """Return the /rosout publisher of a logger: of the node with the nearest parent logger."""
+    """Return the /rosout publisher of the node whose logger is the nearest parent of `logger`."""
     told = [seat.rosout for seat in owner.nodes if seat.rosout is not None]
     fitting = (one for one in told if one.speaks_for(logger))
     return max(fitting, key=lambda rosout: len(rosout.logger), default=None)
@@ -211,7 +212,7 @@ _root_logger = RcutilsLogger()
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """Return the logger of a name.
+    """Return the logger with a name.
 
     Raises:
         ValueError: If the name is empty.
@@ -222,20 +223,20 @@ def get_logger(name: str) -> RcutilsLogger:
 
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
-    """Set the lowest severity that the logger of a name logs."""
+    """Set the lowest severity that the logger with a name logs."""
     program.current().log_levels[name] = int(LoggingSeverity(level))
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
-    """Return the lowest severity that the logger of a name logs."""
+    """Return the lowest severity that the logger with a name logs."""
     return RcutilsLogger(name).get_effective_level()
 
 
 def get_logging_severity_from_string(level: str) -> LoggingSeverity:
-    """Return the level of a name.
+    """Return the severity with a name such as "info".
 
     Raises:
-        RuntimeError: If there is nothing with that name.
+        RuntimeError: If no severity has that name.
     """
     try:
         return LoggingSeverity[level.upper()]
@@ -244,7 +245,7 @@ def get_logging_severity_from_string(level: str) -> LoggingSeverity:
 
 
 def clear_config() -> None:
-    """Remove every level that was set."""
+    """Remove the severities set for all loggers."""
     program.current().log_levels.clear()
 
 
@@ -256,18 +257,18 @@ def get_logging_directory() -> Path:
 
 
 def initialize() -> None:
-    """Do nothing."""
+    """Do nothing: logging needs no initialisation here."""
 
 
 def shutdown() -> None:
-    """Do nothing."""
+    """Do nothing: logging needs no shutdown here."""
 
 
 _NO_LEVEL = "Failed reason: Invalid logger level."
 
 
 def logger_services() -> Iterator[tuple[str, Any, Answer]]:
-    """Yield each service's name below its node, its type, and its handler."""
+    """Yield the services that read and set logger levels: name below the node, type, handler."""
     level_kind: Any = INTERFACES.message("rcl_interfaces/LoggerLevel")
     result_kind: Any = INTERFACES.message("rcl_interfaces/SetLoggerLevelsResult")
 

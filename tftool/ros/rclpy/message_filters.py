@@ -1,4 +1,4 @@
-"""message_filters: subscriptions of one topic, or of several synchronised by stamps."""
+"""Filters of ROS's message_filters, which cache messages or synchronise topics by stamp."""
 
 from collections.abc import Callable, Sequence
 from itertools import product
@@ -9,26 +9,27 @@ from tftool.ros.rclpy.time import Duration, ROSClock, Time
 
 
 class SimpleFilter:
-    """Passes messages to registered callbacks."""
+    """Base of filters, which pass messages to registered callbacks."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
 
     def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802
-        """Call `cb` with every message, and with `args` after it."""
+        """Call `cb(message, *args)` with every message; return the number of this registration."""
         connection = len(self.callbacks)
         self.callbacks[connection] = (cb, args)
         return connection
 
     def signalMessage(self, *msg: Any) -> None:  # noqa: N802
-        """Pass messages on."""
+        """Call the registered callbacks with a message, or with one message of each topic."""
         for callback, args in list(self.callbacks.values()):
             callback(*msg, *args)
 
 
 class Subscriber(SimpleFilter):
-    """A subscription as a filter: `Subscriber(node, type, topic)`, with the options of
-    subscriptions.
+    """Filter of one subscription, made as `Subscriber(node, type, topic, …)`.
+
+    Further arguments are those of `Node.create_subscription`.
     """
 
     def __init__(self, node: Any, msg_type: Any, topic: str, *args: Any, **kwargs: Any) -> None:
@@ -40,11 +41,11 @@ class Subscriber(SimpleFilter):
         self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
 
     def callback(self, msg: Any) -> None:
-        """Pass a message on."""
+        """Pass a received message to the registered callbacks."""
         self.signalMessage(msg)
 
     def getTopic(self) -> str:  # noqa: N802
-        """Return the topic's name."""
+        """Return the name of the subscribed topic."""
         return self.topic
 
     def __getattr__(self, key: str) -> Any:
@@ -55,7 +56,7 @@ class Subscriber(SimpleFilter):
 
 
 def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
-    """Return a message's time, or now if it has none; None, and a warning, if that is forbidden."""
+    """Return a message's stamp, or the current time if messages without one are allowed."""
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
         stamp = msg.header.stamp
         return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
@@ -69,7 +70,7 @@ def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
 
 
 class Cache(SimpleFilter):
-    """Stores the last messages."""
+    """Filter that stores a filter's last `cache_size` messages with their times."""
 
     def __init__(
         self, f: SimpleFilter, cache_size: int = 1, allow_headerless: bool = False
@@ -82,11 +83,11 @@ class Cache(SimpleFilter):
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
-        """Store a filter's messages."""
+        """Store the messages of a filter from now on."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Store a message."""
+        """Store a message and pass it on; a message without a usable time is dropped."""
         stamp = _stamp(msg, self.allow_headerless, "message_filters_cache")
         if stamp is None:
             return
@@ -95,15 +96,15 @@ class Cache(SimpleFilter):
         self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802
-        """Return the messages between two times."""
+        """Return the stored messages between two times, both included."""
         return self._where(lambda stamp: from_stamp <= stamp <= to_stamp)
 
     def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802
-        """Return the oldest message at or after a time; None without one."""
+        """Return the oldest stored message at or after a time; None if there is none."""
         return next(iter(self._where(lambda kept: kept >= stamp)), None)
 
     def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802
-        """Return the newest message at or before a time; None without one."""
+        """Return the newest stored message at or before a time; None if there is none."""
         return next(reversed(self._where(lambda kept: kept <= stamp)), None)
 
     def _where(self, fits: Callable[[Time], bool]) -> list[Any]:
@@ -111,20 +112,20 @@ class Cache(SimpleFilter):
         return [msg for stamp, msg in kept if fits(stamp)]
 
     def getLastestTime(self) -> Time | None:  # noqa: N802
-        """Return the time of the newest message; ROS 2 spells it so."""
+        """Return the time of the newest stored message. The method's spelling is ROS 2's."""
         return self.cache_times[-1] if self.cache_times else None
 
     def getOldestTime(self) -> Time | None:  # noqa: N802
-        """Return the time of the oldest message."""
+        """Return the time of the oldest stored message; None if there is none."""
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:  # noqa: N802
-        """Return the newest message; None without one."""
+        """Return the newest stored message; None if there is none."""
         return self.cache_msgs[-1] if self.cache_msgs else None
 
 
 class TimeSynchronizer(SimpleFilter):
-    """Passes on sets of messages with equal stamps, one from each filter."""
+    """Filter that passes on sets of messages with equal stamps, one from each input filter."""
 
     def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
         super().__init__()
@@ -132,7 +133,7 @@ class TimeSynchronizer(SimpleFilter):
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802
-        """Register some filters."""
+        """Set the input filters whose messages are synchronised."""
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
             one.registerCallback(self.add, queue, index)
@@ -140,7 +141,7 @@ class TimeSynchronizer(SimpleFilter):
         ]
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Add a filter's message."""
+        """Store a filter's message; pass on the sets of equal stamps that are complete."""
         self._keep(Time.from_msg(msg.header.stamp).nanoseconds, msg, my_queue)
         for stamp in sorted(set.intersection(*(set(queue) for queue in self.queues))):
             self._hand_on([stamp] * len(self.queues))
@@ -156,7 +157,7 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Passes on sets of messages with stamps less than `slop` seconds apart."""
+    """Filter that passes on sets of messages whose stamps are less than `slop` seconds apart."""
 
     def __init__(
         self,
@@ -170,7 +171,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Add a filter's message, and match the nearest ones of the others."""
+        """Store a filter's message; pass it on with the nearest message of each other filter."""
         time = _stamp(msg, self.allow_headerless, "message_filters_approx")
         if time is None:
             return

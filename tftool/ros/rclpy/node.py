@@ -1,4 +1,4 @@
-"""rclpy's Node."""
+"""Class Node of rclpy, which users' nodes derive from."""
 
 import copy
 import sys
@@ -40,7 +40,7 @@ E = TypeVar("E", bound=NodeEntity)
 
 
 class Node(NodeGraph, NodeParameters):
-    """A node as rclpy knows it; see rclpy's own documentation for each method."""
+    """Node of ROS 2 with rclpy's methods, which rclpy's own documentation describes."""
 
     def __init__(
         self,
@@ -110,7 +110,7 @@ class Node(NodeGraph, NodeParameters):
         return f"/{self._tftool.namespace}"
 
     def get_fully_qualified_name(self) -> str:
-        """Return namespace and name."""
+        """Return the node's namespace and name, joined, with a leading slash."""
         return f"/{names.join(self._tftool.namespace, self._tftool.name)}"
 
     def get_logger(self) -> RcutilsLogger:
@@ -123,12 +123,12 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def context(self) -> Context:
-        """Context of the node."""
+        """Context in which the node was created."""
         return self._context
 
     @property
     def executor(self) -> Any:
-        """Executor of the node; None without one."""
+        """Executor to which the node is added; None if there is none."""
         return self._tftool.executor
 
     @executor.setter
@@ -145,12 +145,12 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def default_callback_group(self) -> CallbackGroup:
-        """Group of callbacks without a group of their own."""
+        """Group of the callbacks for which no group was given."""
         return self._default_callback_group
 
     @property
     def handle(self) -> AbstractContextManager[None]:
-        """Handle that raises InvalidHandle once destroyed."""
+        """Context manager that raises InvalidHandle if the node is destroyed."""
         return required(self._tftool.require)
 
     def __enter__(self) -> "Node":
@@ -160,11 +160,11 @@ class Node(NodeGraph, NodeParameters):
         self.destroy_node()
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Return a topic's full name, after remapping."""
+        """Return a topic's full name; unless `only_expand`, after remapping."""
         return f"/{self._tftool.full(topic, remap=not only_expand)}"
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """Return a service's full name, after remapping."""
+        """Return a service's full name; unless `only_expand`, after remapping."""
         return f"/{self._tftool.full(service, remap=not only_expand, is_service=True)}"
 
     # What it has
@@ -180,7 +180,7 @@ class Node(NodeGraph, NodeParameters):
         qos_overriding_options: Any = None,
         publisher_class: Any = None,
     ) -> Publisher:
-        """Create a publisher."""
+        """Create a publisher of a topic."""
         _require_message(msg_type)
         full = self._tftool.full(topic)
         profile = self.__profile(Publisher, full, qos_profile, qos_overriding_options)
@@ -202,7 +202,7 @@ class Node(NodeGraph, NodeParameters):
         raw: bool = False,
         content_filter_options: Any = None,
     ) -> Subscription:
-        """Create a subscription that calls `callback` with every message."""
+        """Create a subscription that calls `callback` with every message of a topic."""
         _require_message(msg_type)
         _require_callable(callback)
         full = self._tftool.full(topic)
@@ -217,7 +217,7 @@ class Node(NodeGraph, NodeParameters):
     def __profile(
         self, kind: Any, full: str, given: QoSProfile | int, options: QoSOverridingOptions | None
     ) -> QoSProfile:
-        """Return the profile of a topic's end, with parameters for what they may override."""
+        """Return an endpoint's QoS profile after declaring parameters that may change it."""
         profile = profile_of(given)
         if options is not None:
             profile = copy.copy(profile)
@@ -225,7 +225,7 @@ class Node(NodeGraph, NodeParameters):
         return profile
 
     def __watch(self, made: Any, group: Any, wanted: Any) -> None:
-        """Watch for events of a topic's other ends."""
+        """Register the event callbacks of a new publisher or subscription, if any are given."""
         if wanted is None:
             return
         group = group or self._default_callback_group
@@ -239,7 +239,7 @@ class Node(NodeGraph, NodeParameters):
         clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
-        """Create a timer that calls `callback`, first after one period; None makes a mere timer."""
+        """Create a timer that calls `callback` every period; with None, it calls nothing."""
         if callback is None:
             self._warn_of_missing_callback(user_line(sys._getframe(1)))
         else:
@@ -292,12 +292,12 @@ class Node(NodeGraph, NodeParameters):
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
-        """Create a guard condition, which calls back when triggered."""
+        """Create a guard condition that calls `callback` when triggered."""
         group = callback_group or self._default_callback_group
         return self.__keep(GuardCondition, callback, group)
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        """Create a rate for a loop.
+        """Create a rate, whose `sleep` makes a loop run `frequency` times a second.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -319,7 +319,10 @@ class Node(NodeGraph, NodeParameters):
         services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
         callback_group: CallbackGroup | None = None,
     ) -> None:
-        """Serve the services that ROS gives every node; of two with one name the first responds."""
+        """Create the services that ROS 2 gives every node, such as those for its parameters.
+
+        If another node of the same name has them already, that node stays the one that responds.
+        """
         seat, wanted = self._tftool, list(services)
         group = callback_group or self._default_callback_group
 
@@ -342,12 +345,12 @@ class Node(NodeGraph, NodeParameters):
     destroy_client = destroy_service = destroy_guard_condition = __destroy
 
     def destroy_node(self) -> None:
-        """Close everything."""
+        """Destroy the node and all its publishers, subscriptions, timers, clients and services."""
         self._tftool.leave()
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """Publishers of the node, without its logger's /rosout publisher, as in ROS."""
+        """Publishers of the node, except that of its log on /rosout, as in ROS 2."""
         yield from (one for one in self.__all(Publisher) if one is not self._tftool.rosout)
 
     @property

@@ -1,4 +1,4 @@
-"""A node's queries about other nodes, and the descriptions of topics' ends."""
+"""Methods of a node that list nodes, topics, services and actions, and endpoint descriptions."""
 
 from collections.abc import Callable, Iterable, Iterator
 from copy import copy
@@ -24,7 +24,7 @@ from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Role
 
 
 class TopicEndpointTypeEnum(IntEnum):
-    """Kind of a topic's endpoint."""
+    """Kind of a topic's endpoint: publisher or subscription."""
 
     INVALID = 0
     PUBLISHER = 1
@@ -33,11 +33,11 @@ class TopicEndpointTypeEnum(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class TypeHash:
-    """Hash of an interface: a version of the algorithm, and 32 bytes.
+    """Hash of a message type: the version of the hash algorithm, and 32 bytes.
 
     Attributes:
-        version: 1; -1 where there is no hash.
-        value: The bytes.
+        version: Version of the algorithm, 1; -1 without a hash.
+        value: The 32 bytes of the hash.
     """
 
     version: int = -1
@@ -51,7 +51,7 @@ class TypeHash:
 
 @dataclass(slots=True)
 class TopicEndpointInfo:
-    """Publisher or subscription of a topic, with its quality of service."""
+    """Description of a topic's publisher or subscription: node, type and quality of service."""
 
     node_name: str = ""
     node_namespace: str = ""
@@ -87,7 +87,7 @@ def _time(length: Duration) -> str:
 
 
 def endpoint_info(end: Endpoint) -> TopicEndpointInfo:
-    """Return the description of a publisher or a subscription."""
+    """Return the description of a publisher or subscription for ROS programs."""
     namespace, _, name = end.node.rpartition("/")
     publishes = end.role == PUBLISHER
     return TopicEndpointInfo(
@@ -106,11 +106,11 @@ NamesAndTypes = list[tuple[str, list[str]]]
 
 
 class NodeNameNonExistentError(Exception):
-    """Error for a query about an unknown node."""
+    """Error for a query about a node that does not exist."""
 
 
 class NodeGraph:
-    """A node's methods for the graph."""
+    """Methods of a node that list the other nodes and their topics, services and actions."""
 
     _tftool: NodeSeat
 
@@ -121,7 +121,7 @@ class NodeGraph:
     # Nodes
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Block until a node exists."""
+        """Block until a node exists; return False if the timeout passes first."""
         wanted = fully_qualified_node_name.strip("/")
         return self._tftool.wait_until(lambda: wanted in self.__nodes(), timeout)
 
@@ -130,12 +130,12 @@ class NodeGraph:
         return [name for name, _ in self.get_node_names_and_namespaces()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
-        """Return the names of all nodes with their namespaces."""
+        """Return (name, namespace) of all nodes."""
         parted = (full.rpartition("/") for full in self.__look(self.__nodes))
         return [(name, f"/{namespace}") for namespace, _, name in parted]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
-        """Return names, namespaces and the single enclave."""
+        """Return (name, namespace, enclave) of all nodes; the enclave is always "/"."""
         return [(*one, "/") for one in self.get_node_names_and_namespaces()]
 
     def __nodes(self) -> list[str]:
@@ -144,7 +144,7 @@ class NodeGraph:
     # Topics
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
-        """Return every topic, and its types."""
+        """Return every topic's name with its types."""
         return self.__look(self.__topics)
 
     def __topics(self) -> NamesAndTypes:
@@ -171,13 +171,13 @@ class NodeGraph:
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Return the ROS nodes that publish a topic, with their quality of service."""
+        """Return a description of each publisher of a topic in a ROS node."""
         return [endpoint_info(end) for end in self.__ends(topic_name, PUBLISHER)]
 
     def get_subscriptions_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Return the ROS nodes that subscribe to a topic, with their quality of service."""
+        """Return a description of each subscription to a topic in a ROS node."""
         return [endpoint_info(end) for end in self.__ends(topic_name, SUBSCRIPTION)]
 
     def __ends(self, topic_name: str, role: Role) -> list[Endpoint]:
@@ -187,27 +187,27 @@ class NodeGraph:
     # Services
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """Return every service, with its type if known."""
+        """Return every service's name with its type, if the type is known."""
         return self.__look(lambda: _listed(self.__served()))
 
     def __served(self, by: str | None = None) -> Iterator[tuple[str, str]]:
-        """Yield services with their types: all, or those of one node."""
+        """Yield (name, type) of each service, or of the services of one node."""
         for name, offer in self._tftool.world.services().items():
             if by in (None, offer.node):
                 yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
-        """Count the servers of a service; at most one of other processes."""
+        """Count the servers of a service; servers in other processes count as at most one."""
         full = self._tftool.full(service_name, is_service=True)
         return self.__look(lambda: self._tftool.world.count_services(full))
 
     def count_clients(self, service_name: str) -> int:
-        """Count the ROS nodes of this process with a client of a service."""
+        """Count the clients of a service in this process's ROS nodes."""
         full = self._tftool.full(service_name, is_service=True)
         return self.__look(lambda: sum(name == full for name, _ in self.__called()))
 
     def __called(self, by: str | None = None) -> Iterator[tuple[str, str]]:
-        """Yield the services of this process's clients: of all, or of one node's."""
+        """Yield (name, type) of each service that this process's clients, or one node's, call."""
         for one in _entities(self._tftool, by):
             if isinstance(one, Client):
                 yield one.full, one.srv_type.interface__
@@ -217,25 +217,25 @@ class NodeGraph:
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """Return the topics that a ROS node publishes."""
+        """Return (name, types) of each topic that a ROS node publishes."""
         return _of_node(self._tftool, node_name, node_namespace, self.__held, PUBLISHER)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """Return the topics to which a ROS node subscribes."""
+        """Return (name, types) of each topic to which a ROS node subscribes."""
         return _of_node(self._tftool, node_name, node_namespace, self.__held, SUBSCRIPTION)
 
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
-        """Return the services of a node."""
+        """Return (name, types) of each service that a node serves."""
         return _of_node(self._tftool, node_name, node_namespace, self.__served)
 
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
-        """Return the services that a ROS node of this process calls."""
+        """Return (name, types) of each service that a ROS node of this process calls."""
         return _of_node(self._tftool, node_name, node_namespace, self.__called)
 
     def __held(self, node: str, role: Role) -> Iterator[tuple[str, str]]:
@@ -247,7 +247,7 @@ class NodeGraph:
 
 
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
-    """Return every served action with its type."""
+    """Return (name, types) of every action with a server."""
     seat = seat_of(node)
     found: NamesAndTypes = seat.program.ask(lambda: _listed(_served_actions(None, seat)))
     return found
@@ -256,7 +256,7 @@ def get_action_names_and_types(node: Any) -> NamesAndTypes:
 def get_action_server_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Return the actions that a node serves.
+    """Return (name, types) of each action that a node serves.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -268,7 +268,7 @@ def get_action_server_names_and_types_by_node(
 def get_action_client_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Return the actions of which a ROS node in this process has clients.
+    """Return (name, types) of each action of which a ROS node in this process has a client.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -282,7 +282,7 @@ def _node_names(seat: NodeSeat) -> list[str]:
 
 
 def _entities(seat: NodeSeat, by: str | None) -> Iterator[Any]:
-    """Return the entities of this process's ROS nodes, or of the one with a full name."""
+    """Yield the entities of this process's ROS nodes, or of the node with the full name `by`."""
     for program in seat.world.nodes:
         for other in program.nodes if isinstance(program, Program) else ():
             if by in (None, other.authority):
@@ -308,7 +308,7 @@ def _of_node(
     find: Callable[..., Iterable[tuple[str, str]]],
     *args: Any,
 ) -> NamesAndTypes:
-    """Return what `find` returns for a node, by its full name."""
+    """Return the (name, types) that `find` yields for a node; raise if the node does not exist."""
     full = join(namespace, name)
 
     def found() -> NamesAndTypes:
@@ -320,7 +320,7 @@ def _of_node(
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
-    """Return names and types, sorted; unknown types are left out."""
+    """Group (name, type) pairs by name, sorted; a name with an unknown type gets no type."""
     found: dict[str, set[str]] = {}
     for name, kind in pairs:
         found.setdefault(f"/{name}", set()).update([kind] if kind else [])

@@ -1,4 +1,4 @@
-"""rclpy's parameters: named, typed values; a node's store, and its faces as services and events."""
+"""Parameters of rclpy nodes: named, typed values, with their services and change events."""
 
 import array
 import math
@@ -29,7 +29,7 @@ from tftool.world.node_parameters import Answer, parameter_services
 
 
 class ParameterType(IntEnum):
-    """Type of a parameter."""
+    """Type of a parameter's value, with rcl_interfaces' numbers."""
 
     NOT_SET = 0
     BOOL = 1
@@ -44,10 +44,10 @@ class ParameterType(IntEnum):
 
     @classmethod
     def from_parameter_value(cls, value: Any) -> "ParameterType":
-        """Return the type of a Python value.
+        """Return the parameter type of a Python value.
 
         Raises:
-            TypeError: If the value can be no parameter.
+            TypeError: If a parameter cannot have such a value.
         """
         if value is None:
             return cls.NOT_SET
@@ -66,7 +66,7 @@ class ParameterType(IntEnum):
         raise TypeError(f"The given value is not one of the allowed types: {value!r}")
 
     def check(self, value: Any) -> bool:
-        """Return whether a value is of this type."""
+        """Return whether a Python value is of this parameter type."""
         if self >= ParameterType.BYTE_ARRAY and isinstance(value, list | tuple) and not len(value):
             return True
         try:
@@ -80,7 +80,7 @@ Type = ParameterType
 
 @dataclass(slots=True)
 class Parameter:
-    """One parameter's name, type and value; the type follows from the value unless given."""
+    """Name, type and value of one parameter; the type follows from the value unless given."""
 
     Type: ClassVar[type[ParameterType]] = ParameterType
 
@@ -98,30 +98,30 @@ class Parameter:
 
     @property
     def _value(self) -> Any:
-        """Return its value by the name that ROS's class keeps it under; nodes read it."""
+        """Value of the parameter, under the private name that some ROS programs read."""
         return self.value
 
     def get_parameter_value(self) -> Any:
-        """Return the value as an rcl_interfaces ParameterValue."""
+        """Return the value as an rcl_interfaces ParameterValue message."""
         return value_message(self.value, int(self.type_))
 
     def to_parameter_msg(self) -> Any:
-        """Return the parameter as an rcl_interfaces Parameter."""
+        """Return the parameter as an rcl_interfaces Parameter message."""
         return INTERFACES.message("rcl_interfaces/Parameter")(
             name=self.name, value=self.get_parameter_value()
         )
 
     @classmethod
     def from_parameter_msg(cls, param_msg: Any) -> "Parameter":
-        """Return the Parameter of an rcl_interfaces Parameter."""
+        """Convert an rcl_interfaces Parameter message to a Parameter."""
         return cls(param_msg.name, ParameterType(param_msg.value.type), value_of(param_msg.value))
 
 
 def parameter_value_to_python(parameter_value: Any) -> Any:
-    """Return the Python value of a ParameterValue; None if it is not set.
+    """Return the Python value in a ParameterValue message; None if it is not set.
 
     Raises:
-        RuntimeError: If the type is not that of a parameter.
+        RuntimeError: If the message's type number is unknown.
     """
     try:
         return value_of(parameter_value)
@@ -130,7 +130,7 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 
 
 def get_parameter_value(string_value: str) -> Any:
-    """Return a text as a ParameterValue, parsed as YAML; else the text itself."""
+    """Return a text's value, parsed as YAML, as a ParameterValue message; else the text itself."""
     value = names.yaml_value(string_value)
     return Parameter("", value=string_value if value is None else value).get_parameter_value()
 
@@ -144,17 +144,17 @@ def parameter_dict_from_yaml_file(
     target_nodes: list[str] | None = None,
     namespace: str = "",
 ) -> dict[str, Any]:
-    """Return the parameters in a file as messages, by name.
+    """Read a parameter file; return its parameters as messages, by name.
 
     Args:
-        parameter_file: Path.
-        use_wildcard: Whether entries under `/**` count, too.
-        target_nodes: The nodes whose parameters are wanted, all without any.
+        parameter_file: Path of the YAML file.
+        use_wildcard: Whether to include entries under `/**`.
+        target_nodes: Names of the nodes whose parameters to return; all nodes if empty.
         namespace: Prefix of the parameters' names.
 
     Raises:
         FileNotFoundError: If there is no such file.
-        InputError: If it cannot be read, is not YAML, or is laid out otherwise.
+        InputError: If the file cannot be read, is not YAML, or is not a parameter file.
     """
     if not Path(parameter_file).exists():
         raise FileNotFoundError(f"there is no parameter file '{parameter_file}'")
@@ -175,7 +175,7 @@ Setter = Callable[[list[Parameter]], Any]
 
 
 class NodeParameters:
-    """A node's methods for parameters."""
+    """Methods of a node that declare, read and set its parameters."""
 
     def _start_parameters(
         self,
@@ -214,12 +214,12 @@ class NodeParameters:
     ) -> Parameter:
         """Declare a parameter; a value from the command line or launch file takes precedence.
 
-        `value` is a default, or a `Parameter.Type` when there is none.
+        `value` is the default value, or a `Parameter.Type` to declare the type alone.
 
         Raises:
             ParameterAlreadyDeclaredException: If the parameter is declared already.
             ValueError: If the type is NOT_SET, or a type is given with `dynamic_typing`.
-            InvalidParameterTypeException: If the given value is of another type.
+            InvalidParameterTypeException: If the value is not of the declared type.
         """
         return self.__declare_one(name, value, descriptor, ignore_override)
 
@@ -229,10 +229,10 @@ class NodeParameters:
         parameters: Sequence[tuple[Any, ...]],
         ignore_override: bool = False,
     ) -> list[Parameter]:
-        """Declare several parameters: tuples of name, value and descriptor.
+        """Declare several parameters, given as tuples of name, value and descriptor.
 
         Warns:
-            UserWarning: Of a name alone: any value fits, which is seldom meant.
+            UserWarning: If a tuple has a name only, so that any type of value is accepted.
         """
         prefix = f"{namespace}." if namespace else ""
         for one in parameters:
@@ -289,7 +289,7 @@ class NodeParameters:
         return parameter
 
     def undeclare_parameter(self, name: str) -> None:
-        """Remove a parameter."""
+        """Remove a declared parameter."""
         self.__known(name)
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
@@ -306,7 +306,7 @@ class NodeParameters:
         """Return a declared parameter.
 
         Raises:
-            ParameterNotDeclaredException: If the parameter is not declared, with the nearest name.
+            ParameterNotDeclaredException: If it is not declared; the text names similar ones.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None)
@@ -328,7 +328,7 @@ class NodeParameters:
         return alternative_value or found or Parameter(name, Type.NOT_SET, None)
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """Return declared parameters below a prefix, by the rest of their names."""
+        """Return the declared parameters below a prefix, by their names without the prefix."""
         start = f"{prefix}." if prefix else ""
         return {
             name.removeprefix(start): parameter
@@ -341,23 +341,23 @@ class NodeParameters:
         return [self.get_parameter(name).type_ for name in names]
 
     def describe_parameter(self, name: str) -> Any:
-        """Return a declared parameter's descriptor; an empty one if undeclared ones are allowed."""
+        """Return a parameter's descriptor; an empty one for an undeclared, allowed parameter."""
         if name not in self._parameters and self._allow_undeclared_parameters:
             return INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
         self.__known(name)
         return self._descriptors[name]
 
     def describe_parameters(self, names: Iterable[str]) -> list[Any]:
-        """Return several descriptors."""
+        """Return the descriptors of several parameters."""
         return [self.describe_parameter(name) for name in names]
 
     def list_parameters(self, prefixes: Sequence[str], depth: int = 0) -> Any:
-        """Return the names below some prefixes; without prefixes all.
+        """Return the names of parameters below some prefixes, or of all without prefixes.
 
-        `depth` is the number of levels below the prefix to list, 0 for all.
+        `depth` is the number of levels to list below a prefix; 0 lists all levels.
 
         Raises:
-            TypeError: If the prefixes are no list or tuple of strings, or the depth no integer.
+            TypeError: If the prefixes are not a list or tuple of strings, or depth not an integer.
             ValueError: If the depth is negative.
         """
         if not isinstance(prefixes, (list, tuple)) or not all(
@@ -377,19 +377,19 @@ class NodeParameters:
     # Setting
 
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[Any]:
-        """Set parameters one by one; return for each whether it was accepted.
+        """Set parameters one by one; return a result for each, accepted or not.
 
         Raises:
-            ParameterNotDeclaredException: If one is not declared; those before it are set.
+            ParameterNotDeclaredException: If one is not declared; the ones before it stay set.
             TypeError: If something is not a Parameter.
         """
         return [self.set_parameters_atomically([one]) for one in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Any:
-        """Set parameters together: all or none.
+        """Set all given parameters, or none if one of them is rejected; return one result.
 
         Raises:
-            ParameterNotDeclaredException: If one, or one that a callback added, is not declared.
+            ParameterNotDeclaredException: If one, given or added by a callback, is not declared.
             TypeError: If something is not a Parameter.
         """
         self.__settable(parameter_list)
@@ -441,20 +441,20 @@ class NodeParameters:
             after(changes)
 
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
-        """Replace a declared parameter's descriptor; its name and type stay.
+        """Replace a declared parameter's descriptor; its name and type do not change.
 
         Args:
-            name: The parameter.
+            name: Name of the parameter.
             descriptor: New descriptor.
-            alternative_value: A ParameterValue that takes the place of one that no longer fits.
+            alternative_value: ParameterValue to set if the new descriptor excludes the old value.
 
         Returns:
-            The ParameterValue it has then.
+            The parameter's value after this call, a ParameterValue message.
 
         Raises:
             ParameterNotDeclaredException: If the parameter is not declared.
             ParameterImmutableException: If the parameter is read-only.
-            InvalidParameterValueException: If neither value fits; all stays as it was.
+            InvalidParameterValueException: If neither value fits; nothing is changed then.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None).get_parameter_value()
@@ -525,32 +525,32 @@ class NodeParameters:
         return set_result(True, "")
 
     def add_on_set_parameters_callback(self, callback: Setter) -> None:
-        """Register a callback that accepts or rejects changes; the last one is called first."""
+        """Register a callback that accepts or rejects changes; the newest is called first."""
         self._on_set_parameters_callbacks.append(callback)
 
     def remove_on_set_parameters_callback(self, callback: Setter) -> None:
-        """Remove a callback that accepts or rejects changes."""
+        """Remove a callback registered with `add_on_set_parameters_callback`."""
         self._on_set_parameters_callbacks.remove(callback)
 
     def remove_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Remove a callback that rewrites changes."""
+        """Remove a callback registered with `add_pre_set_parameters_callback`."""
         self._pre_set_parameters_callbacks.remove(callback)
 
     def remove_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Remove a callback for accepted changes."""
+        """Remove a callback registered with `add_post_set_parameters_callback`."""
         self._post_set_parameters_callbacks.remove(callback)
 
     def add_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Register a callback that rewrites every list of changes."""
+        """Register a callback that may rewrite a list of changes before it is checked."""
         self._pre_set_parameters_callbacks.append(callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Register a callback for accepted changes."""
+        """Register a callback that is called with the changes after they are set."""
         self._post_set_parameters_callbacks.append(callback)
 
 
 def _is_on_step(value: float, limits: Any) -> bool:
-    """Return whether a value is an end of a range, or a whole number of steps above its start."""
+    """Return whether a value is a whole number of steps above a range's start, or its end."""
     if not limits.step or value == limits.to_value:
         return True
     if isinstance(value, int):
@@ -560,18 +560,18 @@ def _is_on_step(value: float, limits: Any) -> bool:
 
 
 def unused_parameters(node: NodeParameters) -> list[str]:
-    """Yield a sentence for each parameter that was given but never declared."""
+    """Return a sentence for each parameter that was given to a node but never declared."""
     return [undeclared(name, node._parameters) for name in node._unused_parameters]
 
 
 def set_result(successful: bool, reason: str) -> Any:
-    """Return the result of setting parameters."""
+    """Return a SetParametersResult message: success, and the reason of a rejection."""
     kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
     return kind(successful=successful, reason=reason)
 
 
 def _checked_descriptor(descriptor: Any) -> Any:
-    """Return a ParameterDescriptor, an empty one for None."""
+    """Return the given ParameterDescriptor, or an empty one for None; raise for another type."""
     wanted: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
     if descriptor is None:
         return wanted()
@@ -583,7 +583,7 @@ def _checked_descriptor(descriptor: Any) -> Any:
 
 
 def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, Any]:
-    """Return a declared parameter's type and default; None without a default."""
+    """Return the type and default value of a parameter being declared; None without a default."""
     if isinstance(declared, INTERFACES.message("rcl_interfaces/ParameterValue")):
         if not descriptor.dynamic_typing:
             raise ValueError(
@@ -622,7 +622,7 @@ def _hint(wanted: Type, value: Any) -> str:
 
 
 def teller(seat: NodeSeat) -> Callable[..., None]:
-    """Return a node's publisher of parameter events, created at once."""
+    """Create a node's publisher of parameter events; return a function that publishes changes."""
     kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
     publisher: Publisher = seat.keep(
         Publisher, seat, kind, PARAMETER_EVENTS, PARAMETER_EVENTS[1:], qos_profile_parameter_events
@@ -650,7 +650,7 @@ def teller(seat: NodeSeat) -> Callable[..., None]:
 
 
 def services_of(node: NodeParameters) -> Iterator[tuple[str, Any, Answer]]:
-    """Return the services of a node's parameters."""
+    """Yield the services that read and set a node's parameters: name, type, handler."""
 
     def values(names: Sequence[str]) -> list[Any]:
         # None at all if one has no value, as in ROS 2.

@@ -1,4 +1,4 @@
-"""rclpy's client for other nodes' parameters, and its handler for their changes."""
+"""Client of rclpy for another node's parameters, and handler of parameter change events."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ Callback = Callable[[Future], object]
 
 
 class AsyncParameterClient:
-    """Client of another node's parameter services."""
+    """Client of another node's parameter services; its methods return futures."""
 
     def __init__(
         self,
@@ -52,11 +52,11 @@ class AsyncParameterClient:
         }
 
     def services_are_ready(self) -> bool:
-        """Return whether the node's services exist."""
+        """Return whether the other node's parameter services exist."""
         return all(client.service_is_ready() for client in self._clients.values())
 
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
-        """Block until the node's services exist; return whether they do."""
+        """Block until the other node's parameter services exist; return False at the timeout."""
         seat = seat_of(self.node)
         # Waited for together: one after the other, each would have the whole time for itself.
         names = [client.full for client in self._clients.values()]
@@ -75,7 +75,7 @@ class AsyncParameterClient:
         depth: int | None = None,
         callback: Callback | None = None,
     ) -> Future:
-        """Request the names below some prefixes; without prefixes all."""
+        """Request the names of the parameters below some prefixes, or of all without prefixes."""
         return self._ask("ListParameters", callback, prefixes=prefixes or [], depth=depth or 0)
 
     def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
@@ -91,29 +91,29 @@ class AsyncParameterClient:
         return self._ask("DescribeParameters", callback, names=names)
 
     def set_parameters(self, parameters: Sequence[Any], callback: Callback | None = None) -> Future:
-        """Set parameters, given as Parameters or messages, one by one."""
+        """Set parameters, given as Parameters or messages; each is accepted or rejected alone."""
         return self._ask("SetParameters", callback, parameters=_messages(parameters))
 
     def set_parameters_atomically(
         self, parameters: Sequence[Any], callback: Callback | None = None
     ) -> Future:
-        """Set parameters together: all or none."""
+        """Set all given parameters, or none if one is rejected."""
         return self._ask("SetParametersAtomically", callback, parameters=_messages(parameters))
 
     def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
-        """Delete parameters with dynamic types."""
+        """Delete parameters that were declared with dynamic typing."""
         return self.set_parameters([Parameter(name) for name in names], callback)
 
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Set parameters from a file."""
+        """Set the parameters of a file; each is accepted or rejected alone."""
         return self.set_parameters(_of_file(parameter_file, use_wildcard), callback)
 
     def load_parameter_file_atomically(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Set parameters from a file together: all or none."""
+        """Set all parameters of a file, or none if one is rejected."""
         return self.set_parameters_atomically(_of_file(parameter_file, use_wildcard), callback)
 
     def on_parameter_event(
@@ -122,7 +122,7 @@ class AsyncParameterClient:
         qos_profile: QoSProfile = qos_profile_parameter_events,
         **options: Any,
     ) -> Any:
-        """Call `callback` with every change of any node's parameters."""
+        """Subscribe `callback` to the changes of any node's parameters."""
         kind = INTERFACES.message("rcl_interfaces/ParameterEvent")
         return self.node.create_subscription(
             kind, PARAMETER_EVENTS, callback, qos_profile, **options
@@ -139,21 +139,21 @@ def _messages(parameters: Sequence[Any]) -> list[Any]:
 
 @dataclass(eq=False, slots=True)
 class ParameterEventCallbackHandle:
-    """Handle of a callback for every event."""
+    """Handle of a callback registered for every parameter event."""
 
     callback: Callable[[Any], object]
 
 
 @dataclass(eq=False, slots=True)
 class ParameterCallbackHandle(ParameterEventCallbackHandle):
-    """Handle of a callback for one parameter of one node."""
+    """Handle of a callback registered for one parameter of one node."""
 
     parameter_name: str
     node_name: str
 
 
 class ParameterEventHandler:
-    """Calls back when parameters of this or another node change."""
+    """Handler that calls registered callbacks when parameters of any node change."""
 
     def __init__(
         self,
@@ -175,7 +175,7 @@ class ParameterEventHandler:
         )
 
     def destroy(self) -> None:
-        """Unsubscribe."""
+        """Unsubscribe from parameter events; no callback is called any more."""
         self.node.destroy_subscription(self.parameter_event_subscription)
 
     def _arrived(self, event: Any) -> None:
@@ -188,7 +188,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
-        """Return one node's parameter in an event; None if the event is about another."""
+        """Return the message of one node's parameter in an event; None if it is not in it."""
         if event.node != node_name:
             return None
         told = ParameterEventHandler.get_parameters_from_event(event)
@@ -196,29 +196,29 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameters_from_event(event: Any) -> Iterator[Any]:
-        """Return the new and changed parameters of an event."""
+        """Yield the messages of an event's new and changed parameters."""
         yield from event.new_parameters
         yield from event.changed_parameters
 
     def add_parameter_callback(
         self, parameter_name: str, node_name: str, callback: Callable[[Any], object]
     ) -> ParameterCallbackHandle:
-        """Call `callback` with a parameter's message whenever it is set."""
+        """Call `callback` with the parameter's message whenever one parameter is set."""
         handle = ParameterCallbackHandle(callback, parameter_name, self._resolve_path(node_name))
-        # As in ROS 2, who came last is told first.
+        # As in ROS 2, the callback registered last is called first.
         self._of_one.insert(0, handle)
         return handle
 
     def add_parameter_event_callback(
         self, callback: Callable[[Any], object]
     ) -> ParameterEventCallbackHandle:
-        """Call `callback` with every event."""
+        """Call `callback` with every parameter event of any node."""
         handle = ParameterEventCallbackHandle(callback)
         self._of_all.insert(0, handle)
         return handle
 
     def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
-        """Remove the callback.
+        """Remove a callback registered with `add_parameter_callback`.
 
         Raises:
             RuntimeError: If the callback was not registered.
@@ -226,7 +226,7 @@ class ParameterEventHandler:
         _remove(self._of_one, handle)
 
     def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
-        """Remove the callback.
+        """Remove a callback registered with `add_parameter_event_callback`.
 
         Raises:
             RuntimeError: If the callback was not registered.
@@ -234,7 +234,7 @@ class ParameterEventHandler:
         _remove(self._of_all, handle)
 
     def configure_nodes_filter(self, node_names: Iterable[str] | None = None) -> bool:
-        """Return whether events can be filtered before arrival, which only works for no events."""
+        """Return False if node names are given: filtering before delivery is not supported."""
         return not node_names
 
     def _resolve_path(self, node_name: str = "") -> str:

@@ -1,4 +1,4 @@
-"""rclpy's quality-of-service profiles. Within a process only depth and latching matter."""
+"""Quality-of-service profiles of rclpy. Within a process only depth and durability matter."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
@@ -12,22 +12,22 @@ from tftool.world.endpoints import Quality, Timing, conflict
 class _Policy(IntEnum):
     @classmethod
     def short_keys(cls) -> list[str]:
-        """Return the names in lower case."""
+        """Return the names of all values in lower case."""
         return [policy.name.lower() for policy in cls]
 
     @property
     def short_key(self) -> str:
-        """Name of the policy in lower case."""
+        """Name of this value in lower case."""
         return self.name.lower()
 
     @classmethod
     def get_from_short_key(cls, name: str) -> int:
-        """Return the policy of a lower-case name."""
+        """Return the number of the value with a lower-case name."""
         return cls[name.upper()].value
 
 
 class HistoryPolicy(_Policy):
-    """Number of queued messages."""
+    """Whether a queue keeps the last messages, as many as its depth, or all."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
@@ -39,7 +39,7 @@ class HistoryPolicy(_Policy):
 
 
 class ReliabilityPolicy(_Policy):
-    """Whether a message may be lost."""
+    """Whether every message must be delivered, or messages may be lost."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_RELIABILITY_SYSTEM_DEFAULT = 0
@@ -52,7 +52,7 @@ class ReliabilityPolicy(_Policy):
 
 
 class DurabilityPolicy(_Policy):
-    """Whether late subscribers get earlier messages."""
+    """Whether late subscribers receive messages that were sent before."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT = 0
@@ -65,7 +65,7 @@ class DurabilityPolicy(_Policy):
 
 
 class LivelinessPolicy(_Policy):
-    """Way in which a publisher shows that it is alive."""
+    """Way in which a publisher shows that it still runs."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -81,7 +81,7 @@ QoSLivelinessPolicy = LivelinessPolicy
 
 
 class QoSPolicyKind(IntEnum):
-    """One setting of a profile."""
+    """Name of one setting of a QoS profile, as a number."""
 
     INVALID = 1
     DURABILITY = 2
@@ -96,14 +96,14 @@ class QoSPolicyKind(IntEnum):
 
 
 class InvalidQoSProfileException(Exception):
-    """Error for an incomplete or contradictory profile."""
+    """Error for an incomplete or contradictory QoS profile."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("Invalid QoSProfile", *args)
 
 
 class QoSProfile:
-    """Settings of a publisher or subscription."""
+    """Quality-of-service settings of a publisher or subscription."""
 
     def __init__(self, **kwargs: Any) -> None:
         known = ("history", "depth", "reliability", "durability", "lifespan", "deadline",
@@ -142,12 +142,12 @@ class QoSProfile:
 
 
 def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
-    """Return the part of a profile that determines compatibility and kept messages.
+    """Return the settings of a profile that decide on compatibility and stored messages.
 
     Args:
-        profile: The profile.
-        offered: Whether the quality is a publisher's. The best that is available is then the best
-            there is; of a subscription it is whatever it can get.
+        profile: Profile of a publisher or subscription.
+        offered: Whether the profile is a publisher's. "Best available" then means the strictest
+            setting; for a subscription it means the least strict one.
     """
     reliability, durability = profile.reliability, profile.durability
     asks_little = reliability is ReliabilityPolicy.BEST_AVAILABLE and not offered
@@ -171,7 +171,7 @@ def _limit(duration: Duration) -> int | None:
 
 
 class QoSCompatibility(IntEnum):
-    """Whether a publisher and a subscription are compatible."""
+    """Result of comparing a publisher's profile with a subscription's."""
 
     OK = 0
     WARNING = 1
@@ -181,7 +181,7 @@ class QoSCompatibility(IntEnum):
 def qos_check_compatible(
     publisher_qos: QoSProfile, subscription_qos: QoSProfile
 ) -> tuple[QoSCompatibility, str]:
-    """Return whether two profiles are compatible, and why not."""
+    """Return whether two profiles are compatible, and the reason if not."""
     policy = conflict(
         quality_of(publisher_qos, offered=True), quality_of(subscription_qos, offered=False)
     )
@@ -203,7 +203,7 @@ def _time(length: int | None) -> Duration:
 
 
 def profile_from(quality: Quality) -> QoSProfile:
-    """Return the profile of another process's endpoint; what is not known is as by default."""
+    """Return the QoS profile of another process's endpoint, with defaults for unknown settings."""
     timing = quality.timing or Timing()
     manual = timing.is_manual
     return QoSProfile(
@@ -223,7 +223,7 @@ def profile_from(quality: Quality) -> QoSProfile:
 
 
 def profile_of(given: "QoSProfile | int") -> QoSProfile:
-    """Return a profile from a profile or a depth.
+    """Return the given QoS profile, or the default profile with the given depth.
 
     Raises:
         TypeError: If the argument is neither a profile nor a depth.
@@ -263,7 +263,7 @@ qos_profile_best_available = QoSProfile(
 
 
 class QoSPresetProfiles(Enum):
-    """Preset profiles; `.value` is the profile."""
+    """Preset QoS profiles of rclpy; `.value` is the profile."""
 
     UNKNOWN = qos_profile_unknown
     DEFAULT = qos_profile_default
@@ -277,22 +277,22 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """Return the names in lower case."""
+        """Return the presets' names in lower case."""
         return [seat.lower() for seat in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:
-        """Return the profile of a lower-case name."""
+        """Return the preset profile with a lower-case name."""
         return cls[name.upper()].value
 
 
 class InvalidQosOverridesError(Exception):
-    """Error for a refused profile from parameters."""
+    """Error for a QoS profile, changed by parameters, that is invalid or rejected."""
 
 
 @dataclass(slots=True)
 class QosCallbackResult:
-    """Result of a callback that checks a profile."""
+    """Result of a callback that checks a QoS profile."""
 
     successful: bool = False
     reason: str = ""
@@ -300,7 +300,7 @@ class QosCallbackResult:
 
 @dataclass(slots=True)
 class QoSOverridingOptions:
-    """Policies of a topic that parameters may set, and the callback that checks the result."""
+    """QoS policies that parameters may change, and the callback that checks the result."""
 
     policy_kinds: Sequence[QoSPolicyKind]
     _: KW_ONLY
@@ -309,13 +309,13 @@ class QoSOverridingOptions:
 
     @classmethod
     def with_default_policies(cls, **options: Any) -> "QoSOverridingOptions":
-        """Return options for history, depth and reliability."""
+        """Return options that let parameters change history, depth and reliability."""
         kinds = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
         return cls(kinds, **options)
 
 
 def qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
-    """Return a policy's value as a parameter: a lower-case name, or a number."""
+    """Return one policy of a profile as a parameter's value: a lower-case name or a number."""
     value = getattr(qos, policy.name.lower())
     if isinstance(value, Duration):
         return value.nanoseconds
@@ -325,10 +325,10 @@ def qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
 def declare_qos_parameters(
     entity_type: Any, node: Any, topic: str, qos: QoSProfile, options: QoSOverridingOptions
 ) -> None:
-    """Declare the parameters of a topic's policies, and apply their values to the profile.
+    """Declare parameters for a topic's QoS policies, and set the profile to their values.
 
     Raises:
-        InvalidQosOverridesError: If a value is none of its policy, or the callback refuses.
+        InvalidQosOverridesError: If a parameter's value is invalid, or the callback rejects it.
     """
     sort = "publisher" if "Publisher" in entity_type.__name__ else "subscription"
     which = f"{sort}_{options.entity_id}" if options.entity_id else sort

@@ -1,8 +1,9 @@
-"""rclpy.event_handler: events about the other ends of a topic.
+"""Events of rclpy.event_handler about a publisher's or subscription's counterparts.
 
-Events report endpoints that appear or disappear ("matched"), an incompatible quality of service
-("incompatible_qos"), silence for too long ("deadline"), and a missing sign of life ("liveliness").
-Other events do not occur: no message is lost, and a name has one type.
+Events report matched endpoints that appear or disappear ("matched"), an incompatible quality of
+service ("incompatible_qos"), silence for too long ("deadline"), and publishers that appear to have
+stopped ("liveliness"). ROS 2's other events do not occur: no message is lost, and a topic has one
+type.
 """
 
 import asyncio
@@ -19,11 +20,11 @@ from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 
 
 class UnsupportedEventTypeError(Exception):
-    """Error for an unknown kind of event."""
+    """Error for an event type that is not supported."""
 
 
 class QoSPublisherEventType(IntEnum):
-    """Event of a publisher."""
+    """Type of a publisher's event, with ROS 2's numbers."""
 
     RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
     RCL_PUBLISHER_LIVELINESS_LOST = 1
@@ -33,7 +34,7 @@ class QoSPublisherEventType(IntEnum):
 
 
 class QoSSubscriptionEventType(IntEnum):
-    """Event of a subscription."""
+    """Type of a subscription's event, with ROS 2's numbers."""
 
     RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0
     RCL_SUBSCRIPTION_LIVELINESS_CHANGED = 1
@@ -44,14 +45,14 @@ class QoSSubscriptionEventType(IntEnum):
 
 
 class QoSCountInfo(NamedTuple):
-    """Count of an event, and its change since the last report."""
+    """Total count of an event, and its change since the last report."""
 
     total_count: int = 0
     total_count_change: int = 0
 
 
 class QoSLivelinessChangedInfo(NamedTuple):
-    """Numbers of publishers that are alive and not alive."""
+    """Numbers of publishers that are alive and not alive, and their changes."""
 
     alive_count: int = 0
     not_alive_count: int = 0
@@ -60,7 +61,7 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSIncompatibleInfo(NamedTuple):
-    """Number of incompatible endpoints, and the last one's violated policy."""
+    """Number of incompatible endpoints, and the policy that excludes the last one."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -68,7 +69,7 @@ class QoSIncompatibleInfo(NamedTuple):
 
 
 class QoSMatchedInfo(NamedTuple):
-    """Number of matched endpoints, in total and at present."""
+    """Number of matched endpoints, since the start and at present, and their changes."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -81,7 +82,7 @@ Told = Callable[[Any], object] | None
 
 @dataclass(slots=True)
 class PublisherEventCallbacks:
-    """Callbacks for a publisher's events."""
+    """Callbacks for a publisher's events; None for events to ignore."""
 
     incompatible_qos: Told = None
     liveliness: Told = None
@@ -93,7 +94,7 @@ class PublisherEventCallbacks:
 
 @dataclass(slots=True)
 class SubscriptionEventCallbacks:
-    """Callbacks for a subscription's events."""
+    """Callbacks for a subscription's events; None for events to ignore."""
 
     incompatible_qos: Told = None
     liveliness: Told = None
@@ -105,15 +106,15 @@ class SubscriptionEventCallbacks:
 
 
 class Silence:
-    """Reports when too much time has passed since the last sign of life."""
+    """Timer that reports when no message or sign of life has come for too long."""
 
     def __init__(self, seat: NodeSeat, limit: int | None, told: Callable[[], object]) -> None:
-        """Wait for the first sign.
+        """Create the timer, which starts at the first sign of life.
 
         Args:
-            seat: Seat of the node whose clock is used.
-            limit: Longest allowed silence, nanoseconds; None for any.
-            told: Is called on the loop's thread, once until there is a sign again.
+            seat: tftool's state of the node, whose clock is used.
+            limit: Longest allowed silence in nanoseconds; None for no limit.
+            told: Function called in the event loop's thread, once per silence that is too long.
         """
         self._seat = seat
         self._limit = limit
@@ -122,13 +123,13 @@ class Silence:
         self._timer: asyncio.Future[None] | None = None
 
     def end(self) -> None:
-        """Record a sign."""
+        """Record a sign of life: the time limit starts again."""
         self._last = self._seat.world.clock.now()
         if self._timer is None and self._limit is not None:
             self._wait(self._limit)
 
     def stop(self) -> None:
-        """Stop reporting."""
+        """Stop the timer: no silence is reported any more."""
         if self._timer is not None:
             self._timer.cancel()
 
@@ -149,10 +150,10 @@ class Silence:
 
 
 class EndpointWatch(WorkQueue):
-    """Calls a node's callbacks when other ends of a topic come and go."""
+    """Work queue that calls a node's callbacks for the events of one endpoint."""
 
     def __init__(self, seat: NodeSeat, group: Any, own: Endpoint, wanted: Any) -> None:
-        """Watch an endpoint of a topic (in the loop's thread)."""
+        """Watch a publisher or subscription for events; called in the event loop's thread."""
         super().__init__(seat, group)
         self._own = own
         self._wanted = wanted
@@ -215,7 +216,7 @@ class EndpointWatch(WorkQueue):
             self._tell(self._wanted.liveliness, self._lives)
 
     def message_passed(self) -> None:
-        """Record a message; the next one is due within the deadline."""
+        """Record that a message was sent or received; the deadline for the next starts now."""
         self._deadline.end()
 
     def _miss(self) -> None:
@@ -224,7 +225,7 @@ class EndpointWatch(WorkQueue):
         self._deadline.end()
 
     def lease_expired(self) -> None:
-        """Report a publisher whose liveliness lease has expired."""
+        """Report that this publisher's liveliness lease has expired."""
         self._lost = QoSCountInfo(self._lost.total_count + 1, 1)
         self._tell(self._wanted.liveliness, self._lost)
 
@@ -233,7 +234,7 @@ class EndpointWatch(WorkQueue):
             self.put(lambda: callback(info))
 
     def withdraw(self) -> None:
-        """Stop watching."""
+        """Stop watching the endpoint."""
         super().withdraw()
         self._stop()
         self._deadline.stop()

@@ -1,8 +1,8 @@
-"""A node's connection to the world, shared by its publishers, timers and services.
+"""State that tftool keeps for each rclpy node, shared by its publishers, timers and services.
 
-A node's class belongs to the user, who may use the attributes `world`, `graph` or `entities` as
-well: so tftool's state is in one attribute, `_tftool`. The node's own attributes, such as its clock
-and parameters, are private as in rclpy.
+A node's class belongs to the user, who may use attribute names such as `world`, `graph` or
+`entities`: so tftool's state is in one attribute, `_tftool`. The node's own attributes, such as its
+clock and parameters, are private as in rclpy.
 """
 
 import asyncio
@@ -22,21 +22,21 @@ T = TypeVar("T")
 
 
 class NodeSeat:
-    """A program's node as its entities and its executor use it.
+    """State that tftool keeps for one rclpy node, used by its entities and its executor.
 
     Attributes:
-        program: Program of the node.
-        world: World.
-        name: Name after renaming.
-        namespace: Namespace, without slashes at the ends.
-        options: Options of `--ros-args` for it.
+        program: User's program that created the node.
+        world: World in which the node's topics and services are.
+        name: Name of the node, after renaming by `__node`.
+        namespace: Namespace of the node, without slashes at the ends.
+        options: Options of `--ros-args` for the node.
         context: rclpy's context of the node.
-        ros_node: The node as the user holds it.
-        executor: Executor of the node; None without one.
-        was_served: Whether an executor has ever served it.
-        rosout: Publisher of its log messages, None without one.
-        entities: Entities that can become ready, in the order of creation.
-        authority: Authority of its transforms.
+        ros_node: The user's `Node` object.
+        executor: Executor to which the node is added; None if there is none.
+        was_served: Whether the node was ever added to an executor.
+        rosout: Publisher of the node's log messages; None if there is none.
+        entities: The node's publishers, subscriptions, timers and the like, oldest first.
+        authority: Name under which the node publishes transforms.
     """
 
     def __init__(
@@ -98,16 +98,16 @@ class NodeSeat:
     # What it has
 
     def require_of(self, entity: Any) -> None:
-        """Check that an entity still belongs to it.
+        """Check that a publisher, timer or other entity still belongs to the node.
 
         Raises:
-            InvalidHandle: If that is destroyed.
+            InvalidHandle: If the entity is destroyed.
         """
         if entity not in self.entities:
             raise InvalidHandle(f"a {type(entity).__name__} of '{self.name}' is destroyed")
 
     def require(self) -> None:
-        """Check that it may get new entities.
+        """Check that the node may get new entities, that is, was not destroyed.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -116,7 +116,7 @@ class NodeSeat:
             raise InvalidHandle(f"node '{self.name}' is destroyed: it can have nothing new")
 
     def keep(self, make: Callable[..., T], *args: Any) -> T:
-        """Call `make` in the loop's thread, and add the new entity to executors.
+        """Create an entity by `make(*args)` in the event loop's thread, and add it to the node.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -126,14 +126,14 @@ class NodeSeat:
         return entity
 
     def add(self, make: Callable[..., T], *args: Any) -> T:
-        """Make an entity (in the loop's thread)."""
+        """Create an entity by `make(*args)` and add it; called in the event loop's thread."""
         entity = make(*args)
         self.entities.append(entity)
         self.wake()
         return entity
 
     def forget(self, entity: Any) -> bool:
-        """Close an entity; return whether it belonged to the node."""
+        """Close an entity and remove it from the node; return whether it belonged to the node."""
 
         def drop() -> bool:
             if entity not in self.entities:
@@ -145,7 +145,7 @@ class NodeSeat:
         return bool(self.program.ask(drop))
 
     def leave(self) -> None:
-        """Close everything, called in the program's thread."""
+        """Destroy the node with all its entities; called in the program's thread."""
         if not self._destroyed:
             self.program.unserved.append((self.name, self.unserved()))
             self.program.ask(self.withdraw)
@@ -153,18 +153,18 @@ class NodeSeat:
                 self.program.nodes.remove(self)
 
     def unserved(self) -> int:
-        """Return how many callbacks wait for an executor that never came."""
+        """Count the node's callbacks, if no executor has ever served the node; else return 0."""
         return 0 if self.was_served else sum(one.is_a_callback for one in self.entities)
 
     # On the loop's thread
 
     def wake(self) -> None:
-        """Wake the executor that spins the node."""
+        """Wake the executor that spins the node, so that it looks for work."""
         if self.executor is not None:
             self.executor.wake()
 
     def withdraw(self) -> None:
-        """Leave the world."""
+        """Remove the node from the world; called in the event loop's thread."""
         if self._destroyed:
             return
         self._destroyed = True
@@ -187,7 +187,7 @@ class NodeSeat:
     # Waiting
 
     def wait_until(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
-        """Block until something exists in the world; return whether it does."""
+        """Block until `there` is true or the timeout passes; return whether it became true."""
         if timeout_sec is not None and timeout_sec <= 0:
             timeout_sec = 0.0
         return bool(self.program.ask(lambda: self._appears(there, timeout_sec)))
@@ -213,10 +213,10 @@ class NodeSeat:
 
 
 def seat_of(node: Any) -> NodeSeat:
-    """Return the seat of a user's node.
+    """Return tftool's state of a user's node.
 
     Raises:
-        TypeError: If the object is no node, or its `__init__` did not call `super().__init__`.
+        TypeError: If it is not a node, or its `__init__` did not call `super().__init__`.
     """
     seat = getattr(node, "_tftool", None)
     if not isinstance(seat, NodeSeat):

@@ -1,6 +1,6 @@
-"""Clients and services.
+"""Clients and servers of ROS services.
 
-Requests and responses wait until an executor takes them, as with all entities.
+Requests and responses are queued until an executor of the node processes them.
 """
 
 import asyncio
@@ -22,7 +22,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class ServiceIntrospectionState(IntEnum):
-    """Parts of its requests and responses that a service publishes."""
+    """Parts of its requests and responses that a service publishes for debugging."""
 
     OFF = 0
     METADATA = 1
@@ -30,15 +30,15 @@ class ServiceIntrospectionState(IntEnum):
 
 
 class _Introspected:
-    """Introspection of a service or client."""
+    """Methods of ROS 2's service introspection, for clients and servers."""
 
     def configure_introspection(self, clock: Any, qos: Any, state: int) -> None:
-        """Store the setting; requests and responses are not published here."""
+        """Store the introspection state; tftool publishes no requests or responses."""
         self.introspection_state = ServiceIntrospectionState(state)
 
 
 class Client(_Introspected, Requester):
-    """Client of a service."""
+    """Client that sends requests to a service."""
 
     def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
         super().__init__(seat, group)
@@ -48,21 +48,21 @@ class Client(_Introspected, Requester):
 
     @property
     def service_name(self) -> str:
-        """The service's full name."""
+        """Full name of the service."""
         return f"/{self.full}"
 
     def is_served(self) -> bool:
-        """Whether a server is available (in the loop's thread)."""
+        """Return whether a server is available; called in the event loop's thread."""
         return self.seat.world.has_service(self.full)
 
     service_is_ready = Requester.server_is_ready
     wait_for_service = Requester.wait_for_server
 
     def call_async(self, request: Any) -> Future:
-        """Send a request; the response arrives while an executor spins.
+        """Send a request; return a future of the response, which arrives while an executor spins.
 
         Raises:
-            TypeError: If the request is of another type.
+            TypeError: If the request is not a message of the service's Request type.
         """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
@@ -86,7 +86,7 @@ class Client(_Introspected, Requester):
         return future.result()
 
     def remove_pending_request(self, future: Future) -> None:
-        """Stop waiting for a response."""
+        """Stop waiting for the response of a request, given by its future."""
         future.cancel()
 
     async def _call(self, request: Any) -> Any:
@@ -98,7 +98,7 @@ class Client(_Introspected, Requester):
 
 
 class Service(_Introspected, WorkQueue):
-    """Server of a service."""
+    """Server that responds to the requests of a service."""
 
     def __init__(
         self,
@@ -119,14 +119,14 @@ class Service(_Introspected, WorkQueue):
 
     @property
     def service_name(self) -> str:
-        """The service's full name."""
+        """Full name of the service."""
         return f"/{self.full}"
 
     async def asked(self, request: Any) -> Any:
-        """Queue a request for an executor; return a future of its response.
+        """Queue a request for the executor; return a future of the response.
 
         Raises:
-            TftoolError: If too many wait already.
+            TftoolError: If the queue of requests is full.
         """
         if self.is_full:
             raise TftoolError(
@@ -157,7 +157,7 @@ class Service(_Introspected, WorkQueue):
         self.seat.program.ask(send)
 
     def withdraw(self) -> None:
-        """Stop serving; waiting clients are told that no response will come."""
+        """Stop serving; clients that wait for a response get an error."""
         super().withdraw()
         self._stop()
         for answer in self._open:

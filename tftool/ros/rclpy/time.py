@@ -1,4 +1,4 @@
-"""rclpy's times, durations, clocks and rates, based on the world's clock."""
+"""Times, durations, clocks and rates of rclpy, based on tftool's clock."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ _FOR_EVER = 10**18
 
 
 class ClockType(IntEnum):
-    """Kind of a clock."""
+    """Type of a clock, with ROS 2's numbers."""
 
     UNINITIALIZED = 0
     ROS_TIME = 1
@@ -32,7 +32,7 @@ class ClockType(IntEnum):
 
 @total_ordering
 class Duration:
-    """A duration in whole nanoseconds."""
+    """Length of time in whole nanoseconds."""
 
     __slots__ = ("_nanoseconds",)
 
@@ -43,7 +43,7 @@ class Duration:
 
     @property
     def nanoseconds(self) -> int:
-        """The duration in nanoseconds."""
+        """Length of the duration in nanoseconds."""
         return self._nanoseconds
 
     def __repr__(self) -> str:
@@ -77,12 +77,12 @@ class Duration:
         return Duration(nanoseconds=self._nanoseconds * factor)
 
     def to_msg(self) -> Any:
-        """Return the duration as a builtin_interfaces Duration."""
+        """Return the duration as a builtin_interfaces Duration message."""
         return values.time_message(self._nanoseconds, "Duration")
 
     @classmethod
     def from_msg(cls, msg: Any) -> "Duration":
-        """Return the Duration of a builtin_interfaces Duration."""
+        """Convert a builtin_interfaces Duration message to a Duration."""
         return cls(nanoseconds=values.stamp_of(msg))
 
 
@@ -97,7 +97,7 @@ Infinite = Duration(nanoseconds=_RANGE - 1)
 
 @total_ordering
 class Time:
-    """A time in whole nanoseconds; 0 in a lookup means the latest."""
+    """Point in time in whole nanoseconds; in a lookup, 0 means the latest time."""
 
     __slots__ = ("_clock_type", "_nanoseconds")
 
@@ -121,16 +121,16 @@ class Time:
 
     @property
     def nanoseconds(self) -> int:
-        """The time in nanoseconds."""
+        """Nanoseconds since the start of the clock."""
         return self._nanoseconds
 
     @property
     def clock_type(self) -> ClockType:
-        """Kind of the time's clock."""
+        """Type of the clock that the time belongs to."""
         return self._clock_type
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
-        """Return whole seconds, and the remaining nanoseconds."""
+        """Return the time as whole seconds and remaining nanoseconds."""
         return self._nanoseconds // S_TO_NS, self._nanoseconds % S_TO_NS
 
     def __repr__(self) -> str:
@@ -170,20 +170,20 @@ class Time:
         return self._nanoseconds < self._alike(other)
 
     def to_msg(self) -> Any:
-        """Return the time as a builtin_interfaces Time."""
+        """Return the time as a builtin_interfaces Time message."""
         return values.time_message(self._nanoseconds)
 
     @classmethod
     def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> "Time":
-        """Return the Time of a builtin_interfaces Time."""
+        """Convert a builtin_interfaces Time message to a Time."""
         return cls(nanoseconds=values.stamp_of(msg), clock_type=clock_type)
 
 
 class Clock:
-    """The world's clock, of any type: a simulated world has only one time."""
+    """Clock of ROS. All types show the same time: a simulated world has only one."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> "Clock":
-        """Make the clock of that type; ROS time has its own class."""
+        """Create a clock of a type; for ROS time, a `ROSClock`."""
         return super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
 
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
@@ -197,12 +197,12 @@ class Clock:
 
     @property
     def clock_type(self) -> ClockType:
-        """Kind of clock."""
+        """Type of the clock."""
         return self._clock_type
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether time is simulated."""
+        """Whether this clock shows simulated time."""
         return self._program.strict
 
     def now(self) -> Time:
@@ -210,24 +210,24 @@ class Clock:
         return Time(nanoseconds=self._program.now(), clock_type=self._clock_type)
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
-        """Block until a time; return False if the program or context ended meanwhile."""
+        """Block until a time on this clock; return False if the program or context ended first."""
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
         return self._sleep(until.nanoseconds - self.now().nanoseconds, context)
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
-        """Block for a duration; return False if the program or context ended meanwhile."""
+        """Block for a duration; return False if the program or context ended first."""
         return self._sleep(rel_time.nanoseconds, context)
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block on the world's clock; return False if something else ended it."""
+        """Block for nanoseconds of this clock; return False if something ended it early."""
         _require_started(context)
         return self._block(duration, context)
 
     def _block(
         self, duration: int, context: Any, is_over: Callable[[], bool] = lambda: False
     ) -> bool:
-        """Block for a duration or until it is over; return whether program and context go on."""
+        """Block for nanoseconds, or until `is_over`; return False if program or context ended."""
 
         def has_ended() -> bool:
             return context is not None and not context.ok()
@@ -247,10 +247,10 @@ class Clock:
         pre_callback: Callable[[], object] | None = None,
         post_callback: "Callable[[TimeJump], object] | None" = None,
     ) -> "JumpHandle":
-        """Register for time jumps; only a ROS clock with a time source ever jumps.
+        """Register callbacks for time jumps, which only a clock with a time source makes.
 
         Raises:
-            ValueError: If there is neither of the callbacks.
+            ValueError: If neither callback is given.
         """
         if pre_callback is None and post_callback is None:
             raise ValueError("One of pre_callback or post_callback must be callable")
@@ -261,16 +261,16 @@ class Clock:
 
 
 def _require_started(context: Any) -> None:
-    """Refuse to sleep in a context that is not initialised, or shut down."""
+    """Raise NotInitializedException if a context is given that is not initialised."""
     if context is not None and not context.ok():
         raise NotInitializedException
 
 
 class ROSClock(Clock):
-    """Clock of nodes."""
+    """Clock of ROS time, as nodes have; a `TimeSource` may set its time."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> "ROSClock":
-        """Make one."""
+        """Create a clock of ROS time."""
         return object.__new__(cls)
 
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
@@ -281,15 +281,15 @@ class ROSClock(Clock):
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether time is simulated."""
+        """Whether this clock shows simulated time or the time of a time source."""
         return super().ros_time_is_active if self._is_overridden is None else self._is_overridden
 
     def now(self) -> Time:
-        """Return the present time, or the time source's last one while it is active."""
+        """Return the present time, or the last time set by an active time source."""
         return self._override if self._is_overridden else super().now()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Use the time source or the world's time from now on (called by the time source)."""
+        """Switch between the time source's time and the world's; the time source calls this."""
         if enabled is bool(self._is_overridden):
             self._is_overridden = enabled
             return
@@ -298,10 +298,10 @@ class ROSClock(Clock):
             self._is_overridden = enabled
 
     def set_ros_time_override(self, time: Time) -> None:
-        """Set the clock's time while its time source is active.
+        """Set the time that the clock shows while its time source is active.
 
         Raises:
-            TypeError: If that is not a Time.
+            TypeError: If the argument is not a Time.
         """
         if not isinstance(time, Time):
             raise TypeError(
@@ -316,7 +316,7 @@ class ROSClock(Clock):
             self._override = override
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block until this clock has advanced so far; return False if its time source changed."""
+        """Block for nanoseconds of this clock; return False if its time source was switched."""
         _require_started(context)
         until, is_changed = super().now().nanoseconds + duration, False
         if self._is_overridden:
@@ -340,7 +340,7 @@ class ROSClock(Clock):
 
     @contextmanager
     def _jumping(self, jump: "TimeJump") -> Iterator[None]:
-        """Call the registered callbacks around the jump made in this block."""
+        """Call the registered jump callbacks before and after the jump made in this block."""
         handles = [one for one in self._jump_handles if one.concerns(jump)]
         for handle in handles:
             handle.call_before()
@@ -350,7 +350,7 @@ class ROSClock(Clock):
 
 
 class ClockChange(IntEnum):
-    """Change of a clock's time source."""
+    """Switch of a clock between the world's time and its time source."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -360,7 +360,7 @@ class ClockChange(IntEnum):
 
 @dataclass(kw_only=True, eq=False)
 class JumpThreshold:
-    """Smallest jump for which a callback is called."""
+    """Smallest jump of a clock for which a callback is called."""
 
     min_forward: Duration | None
     min_backward: Duration | None
@@ -377,14 +377,14 @@ class JumpThreshold:
 
 @dataclass(eq=False)
 class TimeJump:
-    """One jump of a clock."""
+    """One jump of a clock: its length, and whether the clock's source was switched."""
 
     clock_change: ClockChange
     delta: Duration
 
 
 class JumpHandle:
-    """A registered callback for jumps; the newest of a clock is called last."""
+    """Registration of callbacks for a clock's jumps; they are called in order of registration."""
 
     def __init__(
         self,
@@ -399,7 +399,7 @@ class JumpHandle:
         siblings.append(self)
 
     def concerns(self, jump: TimeJump) -> bool:
-        """Return whether the jump exceeds the threshold."""
+        """Return whether a jump reaches this registration's threshold."""
         least, most = self._threshold.min_forward, self._threshold.min_backward
         changes = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
         return (
@@ -409,7 +409,7 @@ class JumpHandle:
         )
 
     def unregister(self) -> None:
-        """Remove the callback."""
+        """Remove the registered callbacks."""
         if self in self._siblings:
             self._siblings.remove(self)
 
@@ -421,7 +421,7 @@ class JumpHandle:
 
 
 class Rate:
-    """Sleeps so that a loop runs at a rate."""
+    """Timer for a loop, whose `sleep` makes the loop run at a fixed rate."""
 
     def __init__(self, seat: Any, timer: Any) -> None:
         self.timer = timer
@@ -435,10 +435,10 @@ class Rate:
         timer.on_end = self._end
 
     def sleep(self) -> None:
-        """Block until the next period.
+        """Block until the next period begins.
 
         Raises:
-            ROSInterruptException: If the context is shut down, before or meanwhile.
+            ROSInterruptException: If the context is shut down, before or during the sleep.
             RuntimeError: If the rate is destroyed.
         """
         if self._over:
@@ -459,7 +459,7 @@ class Rate:
             raise ROSInterruptException
 
     def destroy(self) -> None:
-        """Destroy the rate, and wake sleeping threads."""
+        """Destroy the rate, and wake the threads that sleep in it."""
         self.timer.destroy()
 
     def _end(self) -> None:

@@ -1,7 +1,7 @@
-"""rclpy.time_source: clocks that follow `/clock`, apart from the world's own time.
+"""Source of rclpy.time_source, which sets clocks to the times of the topic `/clock`.
 
-A node's own clock follows the world. For programs that make a `TimeSource` themselves, mostly
-tests, a node's parameter `use_sim_time` decides whether attached clocks follow `/clock`.
+A node's own clock needs none: it shows tftool's time. Programs that make a `TimeSource`
+themselves are mostly tests; their node's parameter `use_sim_time` switches it on.
 """
 
 from typing import Any
@@ -17,7 +17,7 @@ USE_SIM_TIME_NAME = "use_sim_time"
 
 
 class TimeSource:
-    """Source that sets clocks from `/clock` while its node's `use_sim_time` is true."""
+    """Source that sets attached clocks from `/clock` while its node's `use_sim_time` is true."""
 
     def __init__(self, *, node: Any = None) -> None:
         self._node: Any = None
@@ -30,7 +30,7 @@ class TimeSource:
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether the clocks follow `/clock`."""
+        """Whether the attached clocks follow `/clock`."""
         return self._ros_time_is_active
 
     @ros_time_is_active.setter
@@ -59,7 +59,7 @@ class TimeSource:
         self._clock_sub = None
 
     def attach_node(self, node: Any) -> None:
-        """Follow a node's parameter `use_sim_time`.
+        """Attach a node whose parameter `use_sim_time` switches this source on and off.
 
         Raises:
             TypeError: If the object is not a node.
@@ -84,14 +84,14 @@ class TimeSource:
         node.add_on_set_parameters_callback(self._on_parameters)
 
     def detach_node(self) -> None:
-        """Stop following a node; does nothing without one."""
+        """Detach the node, if any, and stop following `/clock`."""
         if self._node is not None:
             self._node.remove_on_set_parameters_callback(self._on_parameters)
         self._unsubscribe()
         self._node = None
 
     def attach_clock(self, clock: Any) -> None:
-        """Add a clock that the source shall set.
+        """Add a clock that this source sets.
 
         Raises:
             ValueError: If the clock is not of ROS time.
@@ -104,7 +104,7 @@ class TimeSource:
             self._clocks.append(clock)
 
     def clock_callback(self, message: Any) -> None:
-        """Set the clocks to the time of a `/clock` message."""
+        """Set the attached clocks to the time in a `/clock` message."""
         self._last_time_set = Time.from_msg(message.clock)
         for clock in self._clocks:
             clock.set_ros_time_override(self._last_time_set)

@@ -1,4 +1,4 @@
-"""Publishers and subscriptions, and messages as ROS 2's bytes."""
+"""Publishers and subscriptions of rclpy, and conversion of messages to bytes and back."""
 
 from collections import deque
 from collections.abc import Callable
@@ -22,7 +22,7 @@ from tftool.world.world import TransformMessage
 
 
 def serialize_message(message: Any) -> bytes:
-    """Return the bytes of a message.
+    """Return a message in ROS 2's serialised form (CDR).
 
     Raises:
         TypeError: If the object is not a message.
@@ -33,16 +33,16 @@ def serialize_message(message: Any) -> bytes:
 
 
 def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
-    """Return the message of some bytes.
+    """Return the message of a type that some bytes in ROS 2's serialised form contain.
 
     Raises:
-        MalformedMessage: If the bytes are no message of that type.
+        MalformedMessage: If the bytes are not a message of that type.
     """
     return codec(message_type).decode(bytes(serialized_message))
 
 
 class Publisher(NodeEntity):
-    """Sends messages on a topic; its `endpoint` is its entry in the graph."""
+    """Publisher that sends messages on a topic; `endpoint` is its entry in the graph."""
 
     def __init__(
         self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
@@ -74,11 +74,11 @@ class Publisher(NodeEntity):
 
     @property
     def topic_name(self) -> str:
-        """The topic's full name."""
+        """Full name of the topic."""
         return f"/{self.full}"
 
     def publish(self, msg: Any) -> None:
-        """Send a message, or a message's bytes.
+        """Send a message, given as an object or in serialised form.
 
         Raises:
             TypeError: If the message has another type.
@@ -109,11 +109,11 @@ class Publisher(NodeEntity):
         self._topic.publish(value, self.endpoint)
 
     def get_subscription_count(self) -> int:
-        """Count the subscriptions."""
+        """Return the number of subscriptions to the topic."""
         return int(self.seat.program.ask(lambda: self._topic.subscribers))
 
     def assert_liveliness(self) -> None:
-        """Assert liveliness, for subscribers that request manual assertion."""
+        """Report that this publisher is alive, for subscribers that require such reports."""
         self.seat.program.ask(self._be_alive)
 
     def _be_alive(self) -> None:
@@ -127,11 +127,11 @@ class Publisher(NodeEntity):
             self.event_watch.lease_expired()
 
     def wait_for_all_acked(self, timeout: Any = None) -> bool:
-        """Return True: `publish` returns after delivery to the whole world."""
+        """Return True at once: `publish` returns only after delivery in this process."""
         return True
 
     def withdraw(self) -> None:
-        """Leave the graph; messages kept for late subscribers are dropped."""
+        """Remove the publisher from the graph, and drop messages stored for late subscribers."""
         super().withdraw()
         self._withdrawn = True
         if self._lease is not None:
@@ -142,7 +142,7 @@ class Publisher(NodeEntity):
 
 
 class MessageInfo(TypedDict):
-    """Facts about a message for a callback's second argument; stamps in nanoseconds."""
+    """Stamps (nanoseconds) and sequence numbers of a message, for callbacks with two arguments."""
 
     source_timestamp: int
     received_timestamp: int
@@ -151,7 +151,7 @@ class MessageInfo(TypedDict):
 
 
 class Subscription(NodeEntity):
-    """Receives a topic's messages; its `endpoint` is its entry in the graph."""
+    """Subscription that receives a topic's messages; `endpoint` is its entry in the graph."""
 
     is_a_callback = True
 
@@ -196,11 +196,11 @@ class Subscription(NodeEntity):
 
     @property
     def topic_name(self) -> str:
-        """The topic's full name."""
+        """Full name of the topic."""
         return f"/{self.full}"
 
     def get_publisher_count(self) -> int:
-        """Count the publishers of its topic."""
+        """Return the number of publishers of the topic."""
         ends = self.seat.world.endpoints
         return int(self.seat.program.ask(lambda: len(ends.of(self.full, PUBLISHER))))
 
@@ -218,11 +218,11 @@ class Subscription(NodeEntity):
                 self.event_watch.message_passed()
 
     def ready(self) -> bool:
-        """Return whether a message waits."""
+        """Return whether a received message waits for the executor."""
         return bool(self._queue)
 
     def take(self) -> Work:
-        """Return the callback with the oldest waiting message."""
+        """Remove the oldest received message; return a call of the callback with it."""
         stamp, value = self._queue.popleft()
 
         def work() -> Any:
@@ -244,7 +244,7 @@ class Subscription(NodeEntity):
         return work
 
     def withdraw(self) -> None:
-        """Unsubscribe."""
+        """Unsubscribe from the topic, and drop received messages."""
         super().withdraw()
         self._stop()
         self._leave()
@@ -254,18 +254,18 @@ class Subscription(NodeEntity):
 
 
 class RosoutPublisher(Publisher):
-    """Publisher of the lines of one node's loggers.
+    """Publisher on /rosout of the log messages of one node.
 
     Attributes:
         logger: The name of the node's logger.
     """
 
     def __init__(self, seat: NodeSeat, logger: str, profile: QoSProfile | None) -> None:
-        """Start publishing.
+        """Create the publisher on /rosout.
 
         Args:
-            seat: The node's.
-            logger: The name of the node's logger; those of its children begin with it.
+            seat: tftool's state of the node.
+            logger: Name of the node's logger, with which the names of its child loggers begin.
             profile: Quality of service; None for ROS 2's default.
         """
         kind: Any = INTERFACES.message("rcl_interfaces/Log")
@@ -273,11 +273,11 @@ class RosoutPublisher(Publisher):
         self.logger = logger
 
     def speaks_for(self, logger: str) -> bool:
-        """Return whether a logger is the node's, or a child of it."""
+        """Return whether a logger is the node's logger or a child of it."""
         return logger == self.logger or logger.startswith(f"{self.logger}.")
 
     def tell(self, level: int, logger: str, text: str, place: tuple[str, str, int]) -> None:
-        """Publish a line (in the loop's thread); `place` is its file, function and number."""
+        """Publish a log message; `place` is (file, function, line). Called in the loop's thread."""
         file, function, line = place
         message = self.msg_type(
             stamp=values.time_message(self.seat.world.clock.now()),
@@ -292,5 +292,5 @@ class RosoutPublisher(Publisher):
 
 
 def _room(profile: QoSProfile) -> int | None:
-    """Return how many messages a profile keeps; None for all of them."""
+    """Return how many messages a queue with this profile stores; None for no limit."""
     return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)
