@@ -144,10 +144,10 @@ def test_the_table_shows_milliseconds_bars_and_statics_as_such():
         "",
         "frame    in     broadcaster       rate              delay     most",
         "A␛       world  static[b]       static                  -        -",
-        "turtle1  world  broadcaster1  10.00 Hz  ████████  20.0 ms  20.0 ms",
+        "turtle1  world  broadcaster1  10.00 Hz  ▇▇▇▇▇▇▇▇  20.0 ms  20.0 ms",
         "",
         "broadcaster       rate              delay     most",
-        "broadcaster1  10.00 Hz  ████████  20.0 ms  20.0 ms",
+        "broadcaster1  10.00 Hz  ▇▇▇▇▇▇▇▇  20.0 ms  20.0 ms",
         "static[b]            -                  -        -",
     ]
 

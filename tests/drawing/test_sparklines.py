@@ -12,8 +12,8 @@ from tftool.geometry.rigid import Transform
 def test_a_curve_goes_from_nothing_to_its_largest_value():
     assert sparkline([0, 5, 10], 3) == "▁▄▇"
     assert sparkline([0, 5, 10], 3, ascii_only=True).isascii()
-    assert sparkline([1, None, 1, 1], 6) == "  ▇ ▇▇"
-    assert sparkline([9, 1, 2], 2) == "▄▇"
+    assert sparkline([1, None, 1, 1], 6) == "▇▇ ▇▇▇"
+    assert sparkline([9, 1, 2], 2) == "▇▂"
     assert sparkline([None, None], 4) == ""
     assert sparkline([0.0, -1.0], 2) == "▁▁"
 

@@ -1,36 +1,54 @@
 """Sparklines of rate and delay of each frame over the last seconds."""
 
 from collections import deque
-from collections.abc import Iterable
-from typing import Final
+from collections.abc import Iterable, Sequence
+from typing import Final, NamedTuple
 
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.traffic import Traffic
 from tftool.drawing.table_columns import TableColumn
 
-LOOKS: Final = 60
+LOOKS: Final = 240
 """Looks that are remembered."""
+
+CELLS: Final = 60
+"""Cells of the longest curve beside a tree."""
 
 # No full block: curves of neighbouring rows would merge.
 _SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇"}
 
 
 def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = False) -> str:
-    """Draw values from zero to their maximum, the newest on the right.
+    """Draw values from zero to their maximum, the newest on the right, over the whole width.
 
     Args:
         values: The values, oldest first; None where there is none.
-        width: Cells across; older values are left out.
+        width: Cells across; a cell of several values shows the largest.
         ascii_only: Draw with ASCII characters alone.
     """
-    shown = list(values)[-width:]
+    kept = list(values)
+    if all(one is None for one in kept):
+        return ""
+    shown = []
+    for cell in range(width):
+        first, last = (place * len(kept) // width for place in (cell, cell + 1))
+        # The largest of several, or short peaks would come and go.
+        part = [one for one in kept[first : max(first + 1, last)] if one is not None]
+        shown.append(max(part, default=None))
     highest = max((one for one in shown if one is not None), default=0.0)
     signs = _SIGNS[ascii_only]
-    cells = [
+    return "".join(
         " " if one is None else signs[round(max(0.0, one) / (highest or 1.0) * (len(signs) - 1))]
         for one in shown
-    ]
-    return "".join(cells).rjust(width) if any(one is not None for one in shown) else ""
+    )
+
+
+class TrafficLook(NamedTuple):
+    """Rate and delay of a frame at one look; None where unknown."""
+
+    moment: Stamp
+    rate: float | None
+    delay: float | None
 
 
 class TrafficHistory:
@@ -38,22 +56,31 @@ class TrafficHistory:
 
     def __init__(self) -> None:
         self._counts: dict[str, deque[tuple[Stamp, int]]] = {}
-        self._rates: dict[str, deque[float | None]] = {}
-        self._delays: dict[str, deque[float | None]] = {}
+        self._looks: dict[str, deque[TrafficLook]] = {}
 
-    def look(self, now: Stamp, traffic: Traffic) -> None:
-        """Record how many messages arrived since the last look, and the newest delay."""
+    def look(self, now: Stamp, traffic: Traffic, *, over: int = 4) -> None:
+        """Record how many messages arrived since earlier looks, and the newest delay.
+
+        Args:
+            now: The clock's time.
+            traffic: The received messages.
+            over: Looks that a rate counts: over one alone it would jump by a whole message.
+        """
         for name, link in traffic.links.items():
             if link.is_static:
                 continue
-            # A rate over one look alone would jump by a whole message.
-            counts = self._counts.setdefault(name, deque(maxlen=4))
+            counts = self._counts.setdefault(name, deque(maxlen=over))
             counts.append((now, link.series.total))
             (first, before), (last, total) = counts[0], counts[-1]
-            rates = self._rates.setdefault(name, deque(maxlen=LOOKS))
-            rates.append((total - before) / as_seconds(last - first) if last > first else None)
-            delays = self._delays.setdefault(name, deque(maxlen=LOOKS))
-            delays.append(link.series.latest_delay)
+            rate = (total - before) / as_seconds(last - first) if last > first else None
+            # A silent link has no delay, only a last one.
+            delay = None if rate == 0.0 else link.series.latest_delay
+            looks = self._looks.setdefault(name, deque(maxlen=LOOKS))
+            looks.append(TrafficLook(now, rate, delay))
+
+    def looks(self, frame: str) -> Sequence[TrafficLook]:
+        """Return the remembered looks at a frame, oldest first."""
+        return tuple(self._looks.get(frame, ()))
 
     def columns(
         self, frames: Iterable[str], width: int, *, ascii_only: bool = False
@@ -65,23 +92,25 @@ class TrafficHistory:
             width: Cells of the table.
             ascii_only: Draw with ASCII characters alone.
         """
-        cells = max(12, min(LOOKS, (width - 100) // 2))
-        names = list(frames)
+        cells = max(12, min(CELLS, (width - 100) // 2))
+        kept = [self.looks(name) for name in frames]
         return [
             TableColumn(
                 heading,
-                [(sparkline(kept.get(name, ()), cells, ascii_only=ascii_only), style)
-                 for name in names],
+                [
+                    (sparkline([one[part] for one in looks], cells, ascii_only=ascii_only), style)
+                    for looks in kept
+                ],
                 # The heading stands above the newest value.
                 stands_right=True,
                 # They leave before any number does.
                 goes=goes,
             )
-            for heading, kept, style, goes in (
-                ("rate, lately", self._rates, "green", -1),
-                ("delay, lately", self._delays, "yellow", -2),
+            for heading, part, style, goes in (
+                ("rate, lately", 1, "green", -1),
+                ("delay, lately", 2, "yellow", -2),
             )
-        ]  # fmt: skip
+        ]
 
 
 NO_HISTORY: Final = TrafficHistory()

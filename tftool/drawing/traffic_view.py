@@ -14,7 +14,6 @@ from tftool.base.stamps import FRAME_TIMEOUT, Duration, Stamp, as_seconds
 from tftool.buffer.traffic import FrameTraffic, NetDelay, Series, Traffic
 from tftool.doctor.findings import STALE_AFTER, STOPPED_AFTER, STOPPED_PERIODS
 from tftool.drawing.echo_view import in_words
-from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.drawing.table_columns import Cell, TableColumn, fit
 
 NONE = "-"
@@ -59,7 +58,7 @@ def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False)
             f"Net delay     avg = {_number(average)}: max = {_number(chain.delay.maximum)}"
         )
     found += ["", "Frames:"]
-    found += [frame_line(link, as_tf2=as_tf2) for link in _links(traffic, chain)]
+    found += [frame_line(link, as_tf2=as_tf2) for link in links_of(traffic, chain)]
     found += ["", "All Broadcasters:"]
     found += [
         sender_line(name, series, as_tf2=as_tf2) for name, series in sorted(traffic.senders.items())
@@ -94,7 +93,6 @@ def table(
     width: int,
     height: int,
     ascii_only: bool = False,
-    history: TrafficHistory = NO_HISTORY,
 ) -> Text:
     """Return a table of frames, in the chain's order if there is one, and of publishers.
 
@@ -109,9 +107,8 @@ def table(
         width: Columns there are.
         height: Lines there are; the rest is counted.
         ascii_only: Whether to draw with ASCII only.
-        history: Rates and delays of the last looks.
     """
-    links = _links(traffic, chain)
+    links = links_of(traffic, chain)
     if chain is not None:
         places = {frame: place for place, frame in enumerate(chain.frames)}
         links.sort(key=lambda link: places[link.frame])
@@ -124,15 +121,14 @@ def table(
         TableColumn("in", parents, caps=(24, 12), goes=4),
         TableColumn("broadcaster", senders, caps=(24, 16, 11), goes=3),
         *_measures(now, series, statics, ascii_only),
-        *history.columns([link.frame for link in links], width, ascii_only=ascii_only),
     ]
-    names = [(visible(link.frame), _late(now, link.series, link.is_static)) for link in links]
+    names = [(visible(link.frame), late_style(now, link.series, link.is_static)) for link in links]
     frames = _rows("frame", names, columns, width, more)
 
     by_name = sorted(traffic.senders.items())
     of_senders = [one for _, one in by_name]
     measured = _measures(now, of_senders, [False] * len(by_name), ascii_only)
-    names = [(visible(name), _late(now, one, False)) for name, one in by_name]
+    names = [(visible(name), late_style(now, one, False)) for name, one in by_name]
     broadcasters = _rows("broadcaster", names, measured, width, more)
 
     words = wrap_words(_title(as_seconds(now - began), chain), width)
@@ -150,8 +146,8 @@ def _title(seconds: float, chain: Chain | None) -> str:
     path = ", ".join(visible(one) for one in chain.frames)
     return (
         f"{in_words(chain.target, chain.source)}, for {seconds:.0f} s, by way of {path}: "
-        f"net delay {_milliseconds(chain.delay.average)} on average, "
-        f"{_milliseconds(chain.delay.maximum)} at most"
+        f"net delay {milliseconds(chain.delay.average)} on average, "
+        f"{milliseconds(chain.delay.maximum)} at most"
     )
 
 
@@ -183,7 +179,7 @@ def _measures(
 ) -> list[TableColumn]:
     """Return rate, delay, and silence of each repeated transform."""
     rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
-    late = [_late(now, one, still) for one, still in zip(series, statics, strict=True)]
+    late = [late_style(now, one, still) for one, still in zip(series, statics, strict=True)]
 
     def cells(values: list[str]) -> list[Cell]:
         return [
@@ -197,54 +193,53 @@ def _measures(
     ]
     fastest = max([one.rate or 0.0 for one in series], default=0.0)
     bars = [
-        ("" if still else _bar(one.rate or 0.0, fastest, ascii_only), style or "green")
+        ("" if still else bar(one.rate or 0.0, fastest, ascii_only=ascii_only), style or "green")
         for one, still, style in zip(series, statics, late, strict=True)
     ]
     silent = [
-        (f"{short_duration(_silence(now, one))} ago" if _is_silent(now, one, still) else "", style)
+        (f"{short_duration(silence(now, one))} ago" if is_silent(now, one, still) else "", style)
         for one, still, style in zip(series, statics, late, strict=True)
     ]
     return [
         TableColumn("rate", shown, stands_right=True, goes=6),
         TableColumn("", bars, goes=1),
         TableColumn(
-            "delay", cells([_milliseconds(one.average_delay) for one in series]), True, goes=5
+            "delay", cells([milliseconds(one.average_delay) for one in series]), True, goes=5
         ),
         TableColumn(
-            "most", cells([_milliseconds(one.maximum_delay) for one in series]), True, goes=2
+            "most", cells([milliseconds(one.maximum_delay) for one in series]), True, goes=2
         ),
         TableColumn("last heard", silent, True),
     ]
 
 
-_EIGHTHS = "▏▎▍▌▋▊▉█"
 BAR = 8
 """Cells of the longest bar."""
 
 
-def _bar(rate: float, fastest: float, ascii_only: bool) -> str:
+def bar(rate: float, fastest: float, cells: int = BAR, *, ascii_only: bool) -> str:
+    """Return a bar as long as a rate is high; bars in neighbouring lines stay apart."""
     if fastest <= 0.0 or rate <= 0.0:
         return ""
-    if ascii_only:
-        return "#" * max(1, round(BAR * rate / fastest))
-    whole, part = divmod(max(1, round(8 * BAR * rate / fastest)), 8)
-    return _EIGHTHS[-1] * whole + (_EIGHTHS[part - 1] if part else "")
+    return ("#" if ascii_only else "▇") * max(1, round(cells * rate / fastest))
 
 
-def _silence(now: Stamp, series: Series) -> Duration:
+def silence(now: Stamp, series: Series) -> Duration:
+    """Return the time since the last message."""
     return 0 if series.last is None else now - series.last
 
 
-def _is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
+def is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
+    """Whether a link is silent for many of its periods."""
     if is_static or series.rate is None:
         return False
-    return as_seconds(_silence(now, series)) > max(STOPPED_AFTER, STOPPED_PERIODS / series.rate)
+    return as_seconds(silence(now, series)) > max(STOPPED_AFTER, STOPPED_PERIODS / series.rate)
 
 
-def _late(now: Stamp, series: Series, is_static: bool) -> str:
+def late_style(now: Stamp, series: Series, is_static: bool) -> str:
     """Return the style of a delayed link; "" for others."""
-    if _is_silent(now, series, is_static):
-        return "red" if as_seconds(_silence(now, series)) > FRAME_TIMEOUT else "yellow"
+    if is_silent(now, series, is_static):
+        return "red" if as_seconds(silence(now, series)) > FRAME_TIMEOUT else "yellow"
     delay = series.average_delay
     if is_static or delay is None or delay <= STALE_AFTER:
         return ""
@@ -269,7 +264,7 @@ def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[
             "static": link.is_static,
             **_object(link.series),
         }
-        for link in _links(traffic, chain)
+        for link in links_of(traffic, chain)
     ]
     result["broadcasters"] = [
         {"broadcaster": name, **_object(series)} for name, series in sorted(traffic.senders.items())
@@ -277,7 +272,8 @@ def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[
     return result
 
 
-def _links(traffic: Traffic, chain: Chain | None) -> list[FrameTraffic]:
+def links_of(traffic: Traffic, chain: Chain | None) -> list[FrameTraffic]:
+    """Return the links of a report, by name."""
     wanted: Collection[str] = traffic.links if chain is None else chain.frames
     return [link for name, link in sorted(traffic.links.items()) if name in wanted]
 
@@ -301,5 +297,6 @@ def _number(value: float | None) -> str:
     return "unknown" if value is None else format(value, "g")
 
 
-def _milliseconds(value: float | None) -> str:
+def milliseconds(value: float | None) -> str:
+    """Format seconds as milliseconds."""
     return NONE if value is None else f"{value * 1e3:.1f} ms"

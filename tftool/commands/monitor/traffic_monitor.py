@@ -3,9 +3,10 @@
 import json
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import ExitStack
 from enum import Enum, auto
+from typing import Any
 
 from rich import box
 from rich.console import Console, Group, RenderableType
@@ -18,13 +19,13 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.buffer.traffic import NetDelay, Traffic
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.on_screen import screen_lacks
 from tftool.commands.shared.pair_wait import PairWait
 from tftool.commands.shared.pairs import FramePair
 from tftool.commands.shared.terminal import Redrawing
 from tftool.drawing import theme
 from tftool.drawing import traffic_view as view
 from tftool.drawing.echo_view import in_words
-from tftool.drawing.sparklines import TrafficHistory
 from tftool.screens.terminal.panel_text import title_bar
 from tftool.screens.terminal.text_style import Look
 from tftool.world.clock import Phase, pace_of
@@ -59,7 +60,6 @@ class TrafficReport:
         self.style = style
         self.traffic = Traffic()
         self.chain: view.Chain | None = None
-        self.history = TrafficHistory()
 
     def begin(self, buffer: Buffer, now: Stamp) -> None:
         """Find the chain, and insert static transforms as a late subscriber receives them."""
@@ -93,7 +93,6 @@ class TrafficReport:
 
     def table(self, console: Console, now: Stamp, began: Stamp) -> RenderableType:
         """Return the report as a framed table that fits the terminal."""
-        self.history.look(now, self.traffic)
         ascii_only = console.options.ascii_only
         # A small terminal has no room for a frame; the line below all of it is the cursor's.
         is_framed = console.width >= 60 and console.height >= 12
@@ -105,7 +104,6 @@ class TrafficReport:
             width=console.width - 4 * is_framed,
             height=console.height - 1 - 3 * is_framed,
             ascii_only=ascii_only,
-            history=self.history,
         )
         if not is_framed:
             return shown
@@ -184,6 +182,10 @@ async def watch_session(
         for topic, is_static in ((world.tf, False), (world.tf_static, True)):
             stack.callback(subscribe(topic, is_static))
         report.begin(world.buffer, began)
+        if report.style is ReportStyle.TABLE and not screen_lacks():
+            stack.callback(lambda: Console().print(report.table(Console(), clock.now(), began)))
+            await _shown(world, report, beside(repeat(lambda: None), measure()))
+            return
         report.announce(period, lasting)
         if report.style is ReportStyle.TABLE:
             redrawing = stack.enter_context(Redrawing(clock))
@@ -192,3 +194,14 @@ async def watch_session(
         else:
             writing = repeat(lambda: report.write(clock.now()))
         await beside(writing, measure())
+
+
+async def _shown(world: World, report: TrafficReport, life: Coroutine[Any, Any, None]) -> None:
+    """Show the report on a full screen until q is pressed or `life` is over."""
+    from tftool.screens.terminal.screen_options import Setting, setting_from
+    from tftool.screens.terminal.traffic_app import TrafficWatch
+    from tftool.screens.terminal.world_app import show
+
+    encoding = sys.stdout.encoding or "ascii"
+    setting = setting_from(os.environ, encoding, Setting(title="tftool monitor"))
+    await show(TrafficWatch(world, report.traffic, report.chain, setting), life)

@@ -269,7 +269,7 @@ def _bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Loo
     right = Text.assemble(
         (clock + "  ", look.ink(look.palette.text)), (words, look.ink(ink, bold=True)), " "
     )
-    left = padded(" " + title, max(0, width - right.cell_len), more=look.more)
+    left = padded(" " + title, max(0, width - right.cell_len - 1), more=look.more) + " "
     return Text.assemble((left, look.ink(look.palette.text, bold=True)), right)
 
 

@@ -1,0 +1,123 @@
+"""The screen of `tftool monitor`: curves of rates and delays."""
+
+import asyncio
+
+import pytest
+from rich.cells import cell_len
+
+from tests.screens.visiting import screen
+from tests.world.nodes.harness import new_world
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.buffer.traffic import NetDelay, Traffic
+from tftool.drawing.traffic_view import Chain
+from tftool.geometry.rigid import Transform
+from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.traffic_app import TrafficWatch
+
+
+def received(frames, now):
+    """Five seconds of messages: the first frame at 10 Hz, each other one at half of that."""
+    traffic = Traffic()
+    for place, name in enumerate(frames):
+        for message in range(50 if place == 0 else 25):
+            arrival = now - seconds(5.0) + seconds(message * (0.1 if place == 0 else 0.2))
+            sample = TransformStamped(arrival - seconds(0.02), "map", name, Transform.identity())
+            traffic.receive(arrival, [sample], f"node_{place}", is_static=False)
+    fixed = TransformStamped(now, "base", "plate", Transform.identity())
+    traffic.receive(now, [fixed], "static_node", is_static=True)
+    return traffic
+
+
+def shown(*keys, frames=("base", "odom"), size=(80, 24), chain=None, **setting):
+    """Return the lines of the screen after some keys."""
+    world = new_world()
+    traffic = received(frames, world.clock.now())
+    app = TrafficWatch(world, traffic, chain, Setting(title="tftool monitor", **setting))
+    lines = []
+
+    async def main():
+        async with app.run_test(size=size) as pilot:
+            await pilot.pause()
+            app.look_again()
+            await pilot.press(*keys)
+            await pilot.pause()
+            if app.is_running:
+                lines.extend(screen(app))
+
+    asyncio.run(main())
+    assert app.failure is None
+    assert [cell_len(line) for line in lines] == [size[0]] * len(lines)
+    return lines
+
+
+def line_of(lines, word):
+    return next(place for place, line in enumerate(lines) if word in line)
+
+
+def test_panels_take_all_rows_of_the_screen_between_title_and_keys():
+    for size in ((80, 24), (200, 60)):
+        lines = shown(size=size)
+
+        assert "tftool monitor: 3 frames" in lines[0]
+        assert "Frames" in lines[1]
+        assert lines[-2].startswith("╰")
+        assert lines[-1].rstrip().endswith("q quit")
+        # Both curves share the rows of their panel.
+        tall = line_of(lines, "│odom ") - line_of(lines, "│base ")
+        assert tall >= (size[1] - 14) // 2
+
+
+def test_numbers_and_origin_of_a_frame_are_beside_its_curves():
+    text = "\n".join(shown())
+
+    assert "10.00 Hz" in text
+    assert "5.00 Hz" in text
+    assert "20.0 ms" in text
+    assert "in map" in text
+    assert "from node_1" in text
+    assert "static" in text
+
+
+def test_more_frames_than_rows_are_counted_and_scrolled():
+    many = [f"link_{n:02}" for n in range(60)]
+
+    lines = shown(frames=many)
+    assert any("link_00" in line for line in lines)
+    assert "more" in "".join(lines)
+    moved = shown("down", "down", frames=many)
+    assert not any("link_01" in line for line in moved)
+    assert "2 above" in "".join(moved)
+
+
+def test_frames_are_sorted_by_rate():
+    frames = ("zebra", "ant")
+
+    named = shown(frames=frames)
+    assert line_of(named, "ant ") < line_of(named, "zebra ")
+    rated = shown("s", frames=frames)
+    assert line_of(rated, "zebra ") < line_of(rated, "ant ")
+    assert "sort: rate" in rated[-1]
+
+
+def test_a_chain_names_its_pair_and_its_delay():
+    delay = NetDelay()
+    delay.add(0.25)
+
+    lines = shown(chain=Chain("odom", "base", ("base", "map", "odom"), delay), size=(120, 40))
+
+    assert "base in odom, net delay 250.0 ms" in lines[0]
+    assert "sort: chain" in lines[-1]
+    assert not any("plate" in line for line in lines)
+
+
+@pytest.mark.parametrize("size", [(20, 5), (40, 10), (80, 24), (200, 60)])
+def test_ascii_and_small_terminals(size):
+    lines = shown(size=size, ascii_only=True)
+
+    assert "".join(lines).isascii()
+
+
+def test_keys_are_told_and_q_ends_it():
+    assert any("light or dark" in line for line in shown("question_mark"))
+    assert shown("q") == []

@@ -1,0 +1,332 @@
+"""Rates and delays of received transforms as curves that fill a screen."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from rich.cells import cell_len
+from rich.style import Style
+from rich.text import Text
+
+from tftool.base.color import Color
+from tftool.base.escaping import visible
+from tftool.base.fixed_width import fitted, padded
+from tftool.base.short_numbers import short_duration
+from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.buffer.traffic import FrameTraffic, Series, Traffic
+from tftool.drawing import theme
+from tftool.drawing.cells import Dots, blended, packed
+from tftool.drawing.sparklines import TrafficHistory, TrafficLook, sparkline
+from tftool.drawing.traffic_view import (
+    NONE,
+    bar,
+    is_silent,
+    late_style,
+    milliseconds,
+    silence,
+)
+from tftool.geometry.rigid_arrays import Floats
+
+LONGEST: Final = seconds(60)
+SHORTEST: Final = seconds(5)
+"""Time across the curves: all of it at first, then the last minute."""
+
+NUMBER: Final = 10
+"""Cells of a number with its unit."""
+
+GUTTER: Final = 5
+"""Cells left of a curve, for its scale."""
+
+WITH_SCALE: Final = 3
+"""Lines of a curve from which it has a scale."""
+
+_STEPS: Final = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+
+
+@dataclass(frozen=True, slots=True)
+class TrafficLayout:
+    """Size and style of the curves.
+
+    Attributes:
+        width: Cells across.
+        height: Lines there are.
+        palette: The screen's colours.
+        ascii_only: Whether to draw with ASCII alone.
+        first: Number of rows above the first one shown.
+    """
+
+    width: int
+    height: int
+    palette: theme.Palette = theme.DARK
+    ascii_only: bool = False
+    first: int = 0
+
+    @property
+    def more(self) -> str:
+        """Return the sign for omitted text."""
+        return "~" if self.ascii_only else "…"
+
+    @property
+    def names(self) -> int:
+        """Return the cells of a frame's name."""
+        return max(10, min(30, self.width // 4))
+
+    @property
+    def curve(self) -> int:
+        """Return the cells of one of two curves, with its scale; 0 if there is no room."""
+        left = self.width - self.names - 2 * NUMBER - 4
+        return left // 2 if left >= 2 * (GUTTER + 6) else 0
+
+    def ink(self, color: Color, *, bold: bool = False) -> Style:
+        """Return a style."""
+        return theme.ink(color, bold=bold)
+
+    def state(self, late: str) -> Color:
+        """Return the colour of numbers, amber or red of a late link."""
+        palette = self.palette
+        return {"yellow": palette.warning, "red": palette.error}.get(late, palette.text)
+
+
+def curves(
+    now: Stamp, links: Sequence[FrameTraffic], history: TrafficHistory, layout: TrafficLayout
+) -> list[Text]:
+    """Draw each link's rate and delay over the last minute; the lines are shared evenly.
+
+    Args:
+        now: The clock's time.
+        links: The links, from top to bottom.
+        history: Rates and delays of the last looks.
+        layout: Size and style.
+    """
+    dim = layout.ink(layout.palette.dim)
+    if not links:
+        return [Text("No transforms yet.", dim)]
+    window = _window(now, links, history)
+    lines = [_heading(as_seconds(window), layout)][: layout.height - 1]
+    room = layout.height - len(lines)
+    shown = links[layout.first :]
+    if len(links) > room:
+        shown = shown[: max(1, room - 1)]
+    repeated = sum(not one.is_static for one in shown)
+    spare = max(0, room - len(shown))
+    for link in shown:
+        extra = 0
+        if not link.is_static and len(links) <= room:
+            extra = -(-spare // repeated)
+            spare, repeated = spare - extra, repeated - 1
+        lines += _block(now, link, history.looks(link.frame), window, 1 + extra, layout)
+    if len(shown) < len(links):
+        left = len(links) - len(shown) - layout.first
+        up, down = ("^", "v") if layout.ascii_only else ("↑", "↓")
+        words = [f"{down} {left} more"] if left else []
+        words += [f"{up} {layout.first} above"] if layout.first else []
+        lines.append(Text("   ".join(words), layout.ink(layout.palette.accent, bold=True)))
+    return lines
+
+
+def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
+    """List the publishers with their rates, as bars that take the width, and delays.
+
+    Args:
+        now: The clock's time.
+        traffic: The received messages.
+        layout: Size and style.
+    """
+    palette = layout.palette
+    dim = layout.ink(palette.dim)
+    found = sorted(traffic.senders.items())
+    fastest = max([one.rate or 0.0 for _, one in found], default=0.0)
+    longest = max([cell_len(visible(name)) for name, _ in found], default=0)
+    names = max(len("broadcaster"), min(longest, layout.width // 3))
+    cells = layout.width - names - 3 * NUMBER - 4
+    numbers = f"{'rate':>{NUMBER}}{'delay':>{NUMBER}}{'most':>{NUMBER}}"
+    lines = [Text(fitted(padded("broadcaster", names) + numbers, layout.width, more=""), dim)]
+    room = layout.height - 1
+    for name, one in found if len(found) <= room else found[: max(1, room - 1)]:
+        late = late_style(now, one, False)
+        rate = NONE if one.rate is None else f"{one.rate:.2f} Hz"
+        line = Text.assemble(
+            (padded(visible(name), names, more=layout.more), dim),
+            (f"{rate:>{NUMBER}}", layout.ink(layout.state(late))),
+            (f"{milliseconds(one.average_delay):>{NUMBER}}", layout.ink(layout.state(late))),
+            (f"{milliseconds(one.maximum_delay):>{NUMBER}}", dim),
+        )
+        if cells >= 8:
+            drawn = bar(one.rate or 0.0, fastest, cells, ascii_only=layout.ascii_only)
+            line.append("  " + drawn, layout.ink(_rate_color(palette)))
+        line.truncate(layout.width)
+        lines.append(line)
+    if len(found) > len(lines) - 1:
+        words = f"{len(found) - len(lines) + 1} more"
+        lines.append(Text(words, layout.ink(palette.accent, bold=True)))
+    return lines
+
+
+def _window(now: Stamp, links: Sequence[FrameTraffic], history: TrafficHistory) -> Duration:
+    begun = min([looks[0].moment for one in links if (looks := history.looks(one.frame))] or [now])
+    return max(SHORTEST, min(LONGEST, now - begun))
+
+
+def _rate_color(palette: theme.Palette) -> Color:
+    return Color(0, 120, 50) if palette is theme.LIGHT else Color(110, 230, 130)
+
+
+def _delay_color(palette: theme.Palette) -> Color:
+    return Color(0, 110, 160) if palette is theme.LIGHT else Color(110, 200, 255)
+
+
+def _heading(span: float, layout: TrafficLayout) -> Text:
+    over = f"last {span:.0f} s"
+    wide = layout.curve
+    words = padded("frame", layout.names)
+    for word in ("rate", "delay"):
+        words += f"{word:>{NUMBER}}  " + (f"{over:>{wide - 1}} " if wide else "")
+    return Text(fitted(words, layout.width, more=""), layout.ink(layout.palette.dim))
+
+
+def _block(
+    now: Stamp,
+    link: FrameTraffic,
+    looks: Sequence[TrafficLook],
+    window: Duration,
+    height: int,
+    layout: TrafficLayout,
+) -> list[Text]:
+    """Return the lines of one link: words, and both curves beside their numbers."""
+    palette = layout.palette
+    dim = layout.ink(palette.dim)
+    late = late_style(now, link.series, link.is_static)
+    state = layout.ink(layout.state(late))
+    color = theme.readable(theme.of_name(link.frame), palette)
+    name = layout.ink(layout.state(late) if late else color, bold=True)
+    # A blank line below keeps tall curves of neighbours apart.
+    tall = height - 1 if height > WITH_SCALE else height
+    rates, delays = _numbers(now, link, tall)
+    words = [
+        visible(link.frame),
+        f" in {visible(link.parent)}",
+        f" from {visible(link.sender)}",
+    ]
+    drawn = [
+        _curve(looks, part, now, window, (layout.curve, tall), ink, layout)
+        for part, ink in ((1, _rate_color(palette)), (2, _delay_color(palette)))
+    ]
+    lines = []
+    for row in range(tall):
+        word = words[row] if row < len(words) else ""
+        line = Text(no_wrap=True, overflow="crop")
+        line.append(padded(word, layout.names, more=layout.more), dim if row else name)
+        for texts, cells in zip((rates, delays), drawn, strict=True):
+            text = texts[row] if row < len(texts) else ""
+            is_dim = row > 0 or link.is_static
+            line.append(f"{text:>{NUMBER}}  ", dim if is_dim else state)
+            line.append_text(cells[row] if cells else Text())
+        line.truncate(layout.width)
+        lines.append(line)
+    return [*lines, *[Text()] * (height - tall)]
+
+
+def _numbers(now: Stamp, link: FrameTraffic, tall: int) -> tuple[list[str], list[str]]:
+    """Return the numbers left of both curves, a line each."""
+    series: Series = link.series
+    if link.is_static:
+        return ["static"], []
+    rates = [NONE if series.rate is None else f"{series.rate:.2f} Hz"]
+    if is_silent(now, series, link.is_static):
+        since = f"{short_duration(silence(now, series))} ago"
+        rates = [*rates, since] if tall > 1 else [since]
+    most = series.maximum_delay
+    words = (
+        "" if most is None else f"max {most:.1f} s" if most >= 1.0 else f"max {most * 1e3:.0f} ms"
+    )
+    return rates, [milliseconds(series.average_delay), words]
+
+
+def _curve(
+    looks: Sequence[TrafficLook],
+    part: int,
+    now: Stamp,
+    window: Duration,
+    size: tuple[int, int],
+    color: Color,
+    layout: TrafficLayout,
+) -> list[Text]:
+    """Draw one curve from 0 to a round number above its maximum, filled; a line per row."""
+    columns, rows = size
+    if not columns or not looks:
+        return [Text(" " * columns)] * rows
+    columns -= 1
+    palette = layout.palette
+    found = [one for one in looks if one.moment >= now - window]
+    values: list[float | None] = [one[part] for one in found]
+    if rows < WITH_SCALE:
+        shown = sparkline(values, columns, ascii_only=layout.ascii_only)
+        last = Text(shown or " " * columns, layout.ink(color)).append(" ")
+        return [*[Text(" " * (columns + 1))] * (rows - 1), last]
+    columns -= GUTTER
+    highest = max((one for one in values if one is not None), default=0.0)
+    # Microseconds of jitter are no reason for a full scale.
+    top = max(1e-3, _above(highest))
+    heights = _heights(found, values, now, window, 2 * columns) / top
+    scale = {0: _short(top * (1e3 if part == 2 else 1.0)), rows - 1: "0"}
+    lines = []
+    for row, cells in enumerate(_filled(heights, columns, rows, color, palette, layout.ascii_only)):
+        line = Text(f"{scale.get(row, ''):>{GUTTER - 1}} ", layout.ink(palette.dim))
+        lines.append(line.append_text(Text.assemble(*cells)).append(" "))
+    return lines
+
+
+def _heights(
+    looks: Sequence[TrafficLook],
+    values: Iterable[float | None],
+    now: Stamp,
+    window: Duration,
+    count: int,
+) -> Floats:
+    """Return the value in each of `count` columns of dots; NaN before the first look."""
+    moments = np.array([as_seconds(one.moment - now + window) for one in looks])
+    known = np.array([math.nan if one is None else one for one in values])
+    at = np.linspace(0.0, as_seconds(window), count)
+    drawn: Floats = np.interp(at, moments, known, left=math.nan)
+    return drawn
+
+
+def _filled(
+    heights: Floats,
+    columns: int,
+    rows: int,
+    color: Color,
+    palette: theme.Palette,
+    ascii_only: bool,
+) -> list[list[tuple[str, str]]]:
+    """Return the cells of a curve, bright, above a fill that fades towards the bottom."""
+    dots = Dots(columns, rows)
+    last = 4 * rows - 1
+    known = np.flatnonzero(np.isfinite(heights))
+    tops = last - np.rint(np.clip(heights[known], 0.0, 1.0) * last).astype(np.int64)
+    if not ascii_only:
+        counts = last + 1 - tops
+        across = np.repeat(known, counts)
+        down = last - (np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts))
+        shares = 0.72 * (1.0 - down // 4 / max(1, rows)) + 0.18
+        ground = np.full(len(down), packed(palette.panel), np.int64)
+        dots.mark(across, down, blended(ground, color, shares))
+    points = np.stack([known + 0.5, tops + 0.5], 1)
+    near = np.flatnonzero(np.diff(known) == 1)
+    dots.draw(np.stack([points[near], points[near + 1]], 1), packed(color))
+    return dots.rows(ascii_only=ascii_only)
+
+
+def _above(value: float) -> float:
+    """Return a round number a little above a value."""
+    if value <= 0.0:
+        return 1.0
+    wanted = 1.08 * value
+    power = 10.0 ** math.floor(math.log10(wanted))
+    return next((power * step for step in _STEPS if power * step >= wanted), 10.0 * power)
+
+
+def _short(value: float) -> str:
+    return f"{value:.3g}"[: GUTTER - 1]
