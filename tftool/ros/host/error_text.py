@@ -1,4 +1,4 @@
-"""Sentences about exceptions from users' code, and about names that are not provided."""
+"""Texts of errors in users' code, and of errors about names that tftool does not provide."""
 
 import builtins
 import inspect
@@ -30,12 +30,12 @@ DEFINED = (
 
 
 def missing_name(module: str, name: str, known: Sequence[str]) -> str:
-    """Return a sentence about a name that one of our modules lacks.
+    """Return a sentence about a name that one of tftool's ROS modules lacks.
 
     Args:
-        module: The module.
-        name: The name that was asked for.
-        known: Names in the module.
+        module: ROS name of the module, such as "rclpy.node".
+        name: The name that a program tried to import.
+        known: Names that the module has.
     """
     # Only what may be a slip: another name of ROS 2's is none.
     near = near_names(name, known, alike=0.8)
@@ -56,13 +56,13 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
 
 
 def undeclared(parameter: str, known: Iterable[str]) -> str:
-    """Return a sentence about a parameter that was given but not declared."""
+    """Return a sentence about a parameter that was given to a node but never declared."""
     hint = did_you_mean(parameter, known)
     return f"parameter '{parameter}' was given, but the node declares none of that name{hint}"
 
 
 def near_keyword(keyword: str, called: Any) -> str:
-    """Return the end of a sentence about an unknown keyword of a function or class."""
+    """Return "; did you mean …" with the keyword nearest to an unknown one, or ""."""
     kinds = getattr(called, "__mro__", None)
     known: set[str] = set()
     for function in [called] if kinds is None else [vars(one).get("__init__") for one in kinds]:
@@ -74,7 +74,7 @@ def near_keyword(keyword: str, called: Any) -> str:
 
 
 def missing_module(name: str) -> str:
-    """Return a sentence about a missing module of a package that we provide."""
+    """Return a sentence about a missing module of a ROS package that tftool provides in part."""
     package = name.partition(".")[0]
     known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
     near = near_names(name, known, alike=0.8)
@@ -83,7 +83,7 @@ def missing_module(name: str) -> str:
 
 
 def missing_package(name: str) -> str:
-    """Return a sentence about a package that is neither installed nor provided."""
+    """Return a sentence about a package that is neither installed nor provided by tftool."""
     packages = sorted(
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )
@@ -113,7 +113,7 @@ def _sentence(text: str) -> str:
 
 
 def error_sentence(error: BaseException) -> str:
-    """Return the error in users' code: file, line, function, the line, the error."""
+    """Return an error's text with the place in the user's code: file, line, function, source."""
     if isinstance(error, SyntaxError):
         return syntax_sentence(error)
     if isinstance(error, InputError | UsageError | StuckError):
@@ -133,7 +133,7 @@ _KEYWORD = re.compile(r"\b(\w+)\s*=(?!=)")
 
 
 def _keywords_of_call(trace: TracebackType | None) -> list[str]:
-    """Return the keywords in the source of the call that failed."""
+    """Return the keyword arguments in the source of the call that failed."""
     last = traceback.extract_tb(trace)[-1]
     # Before Python 3.11 only the first line of the call is known.
     first = last.lineno or 0
@@ -143,7 +143,7 @@ def _keywords_of_call(trace: TracebackType | None) -> list[str]:
 
 
 def _near_name(error: BaseException) -> str:
-    """Return the known name similar to a misspelt one, as the end of a sentence."""
+    """Return "; did you mean …" with the known name nearest to a misspelt one, or ""."""
     frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
     if not frames or "did you mean" in str(error):
         return ""
@@ -163,7 +163,7 @@ def _near_name(error: BaseException) -> str:
 
 
 def syntax_sentence(error: SyntaxError) -> str:
-    """Return the position of a syntax error, and the user's line with a caret below it."""
+    """Return a syntax error's position, and the source line with a caret below it."""
     where = f"{error.filename}:{error.lineno}:{error.offset}"
     sentence = f"{where}: {type(error).__name__}: {error.msg}"
     text = (error.text or "").rstrip("\n")

@@ -1,4 +1,4 @@
-"""Executables of packages: a user's console script or file, or one of our nodes."""
+"""Programs of packages: a user's console script or file, or one of tftool's own nodes."""
 
 import shlex
 from collections.abc import Callable, Mapping, Sequence
@@ -39,20 +39,20 @@ T = TypeVar("T")
 
 
 class HasItsOwnCommand(UsageError):
-    """Error for starting an interactive program among others; it has its own command."""
+    """Error for starting a program that needs the keyboard, for which tftool has a command."""
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """Request to start one of our executables.
+    """Request to start one of tftool's own nodes, as `ros2 run` would.
 
     Attributes:
-        world: World.
-        name: Node's full name.
+        world: World that the node joins.
+        name: Full name of the node.
         namespace: Namespace of the node.
-        arguments: Own arguments.
-        parameters: Values given for its node.
-        options: Everything `--ros-args` said.
+        arguments: The program's arguments, without those of ROS.
+        parameters: Values given for the node's parameters; used ones are removed.
+        options: All options after `--ros-args`.
     """
 
     world: World
@@ -63,14 +63,14 @@ class Asked:
     options: RosOptions
 
     def text(self, name: str, default: str) -> str:
-        """Return a text parameter, and declare it."""
+        """Remove a text parameter and return it, or the default."""
         return str(self.parameters.pop(name, default))
 
     def take(self, name: str, default: T, fits: Callable[[Any], bool], what: str) -> T:
-        """Return a parameter, and declare it.
+        """Remove a parameter and return it, or the default.
 
         Raises:
-            UsageError: If it does not fit: `what` names the values that do.
+            UsageError: If `fits` rejects the value; `what` describes valid values.
         """
         value: T = self.parameters.pop(name, default)
         if isinstance(value, bool) is not isinstance(default, bool) or not fits(value):
@@ -78,11 +78,11 @@ class Asked:
         return value
 
     def flag(self, name: str, default: bool) -> bool:
-        """Return a boolean parameter."""
+        """Remove a boolean parameter and return it, or the default."""
         return self.take(name, default, lambda _: True, "true or false")
 
     def number(self, name: str, default: float) -> float:
-        """Return a parameter that is a finite number."""
+        """Remove a finite number and return it, or the default."""
 
         def fits(value: Any) -> bool:
             return isinstance(value, int | float) and isfinite(value)
@@ -90,7 +90,7 @@ class Asked:
         return float(self.take(name, default, fits, "a number"))
 
     def channel(self, name: str, default: int) -> int:
-        """Return a parameter that is a colour channel."""
+        """Remove a colour channel, 0 to 255, and return it, or the default."""
 
         def fits(value: Any) -> bool:
             return isinstance(value, int) and 0 <= value <= 255
@@ -155,10 +155,10 @@ def _mimic(asked: Asked) -> Node:
 
 
 def _robot_of(asked: Asked) -> "Robot | None":
-    """Return a node's robot: by parameter robot_description, or by a file's name.
+    """Return a robot model from the parameter robot_description or a file's name, if given.
 
     Raises:
-        UsageError: If neither is one, with the mistakes.
+        UsageError: If the description is not valid; the text lists the mistakes.
     """
     # numpy comes with it, which other nodes do without.
     from tftool.robots.robot_model import Robot, load_urdf
@@ -276,7 +276,7 @@ OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
 
 
 def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
-    """Return every executable by package and name, and its file if it has one."""
+    """Return every known program as (package, name), with its file if it has one."""
     found: dict[tuple[str, str], Path | None] = dict.fromkeys(_OURS)
     for package in workspace.packages.values():
         found |= {(package.name, name): package.place_of_script(name) for name in package.scripts}
@@ -284,7 +284,7 @@ def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
 
 
 def check(workspace: Workspace, package: str, executable: str) -> None:
-    """Refuse an unknown executable.
+    """Raise an error if a package has no such program.
 
     Raises:
         HasItsOwnCommand: If the program needs a terminal of its own.
@@ -323,18 +323,18 @@ def start(
     options: RosOptions,
     on_exit: Callable[[Program], object] | None = None,
 ) -> Node:
-    """Start an executable in a world.
+    """Start a program in a world: a user's, or one of tftool's own nodes.
 
     Args:
         world: World to join.
         workspace: Workspace of users' packages, searched first.
-        package: Package; None for a file.
-        executable: Name there, or the file.
-        label: Name of the program among others: "listener-4".
-        argv: Whole `sys.argv`.
-        arguments: Own arguments.
+        package: Name of the package; None for a file.
+        executable: Name of the program in the package, or path of the file.
+        label: Name of the program in log lines, such as "listener-4".
+        argv: The program's whole `sys.argv`.
+        arguments: The program's arguments without those of ROS.
         options: Options of `--ros-args`.
-        on_exit: Called once a program of a user's has ended.
+        on_exit: Function called when a user's program has ended.
 
     Raises:
         HasItsOwnCommand: If the program needs a terminal of its own.

@@ -1,11 +1,11 @@
-"""Fibers: users' blocking code and the event loop taking turns.
+"""Fibers: threads in which users' code runs and blocks, taking turns with the event loop.
 
-A fiber is a thread whose code may block as ROS nodes do (`rclpy.spin`, `time.sleep`,
-`client.call`). It never touches the world itself: it sends a request, the event loop executes it,
-and the thread sleeps until the answer. For the loop it is like a coroutine.
+Code on a fiber may block as ROS nodes do (`rclpy.spin`, `time.sleep`, `client.call`). The thread
+never touches tftool's world itself: it sends a request, the event loop executes the request,
+and the thread sleeps until the answer. For the loop, a fiber is like a coroutine.
 
-On the simulated clock the loop waits while a fiber runs, so that only one of them runs at any time,
-and two runs are exactly equal. On the wall clock the loop goes on, so that busy code blocks nothing
+On the simulated clock the loop waits while a fiber runs. So only one fiber runs at any time, and
+two runs are exactly equal. On the wall clock the loop goes on, so that busy code blocks nothing
 else.
 """
 
@@ -27,45 +27,45 @@ from tftool.world.clock import Clock
 T = TypeVar("T")
 
 PATIENCE = 2.0
-"""Real seconds a fiber may be busy before it is named."""
+"""Real seconds that a fiber may be busy before a warning names its line of code."""
 
 GIVE_UP = 10.0
-"""Real seconds after which simulated time, which stands still meanwhile, gives a fiber up."""
+"""Real seconds for which simulated time waits for a busy fiber; then the fiber is stopped."""
 
 GRACE = 0.25
-"""Real seconds a fiber is given to come to rest by itself, once a signal has come."""
+"""Real seconds that a busy fiber may run on after a signal, before an exception is raised in it."""
 
 GRACE_AT_END = 1.0
-"""Real seconds it is given where the run ended without one: less than the world waits for it."""
+"""`GRACE` when a run ends without a signal; less than the time the world waits for a fiber."""
 
 AFTERLIFE = 50
-"""How often an interrupted fiber may ask to wait before it is left alone."""
+"""Number of waits that an interrupted fiber may start; then its thread is abandoned."""
 
 LAST_REQUESTS = 1000
-"""How much an interrupted fiber may ask for without waiting, such as to publish; then its
-requests raise as its waits do."""
+"""Number of requests without a wait, such as to publish, of an interrupted fiber; further ones
+raise an exception, as its waits do."""
 
 
 _local = threading.local()
 
 
 class EndedError(TftoolError):
-    """Error for a request to a world that has ended."""
+    """Error for a request to a world whose run has ended."""
 
 
 class StuckError(TftoolError):
-    """Error for a callback that did not end while simulated time waited for it."""
+    """Error for a callback that ran too long while simulated time waited for it."""
 
 
 @dataclass(frozen=True, slots=True)
 class CodeLine:
-    """A line of a user's code.
+    """Line of code in a user's file.
 
     Attributes:
-        file: The file's path.
-        line: Number, from 1.
+        file: Path of the file.
+        line: Line number, from 1.
         function: Function that contains the line.
-        text: The line itself, stripped.
+        text: Source of the line, without surrounding blanks.
     """
 
     file: str
@@ -79,7 +79,7 @@ class CodeLine:
 
 
 def user_line(frame: FrameType | None) -> CodeLine | None:
-    """Return the innermost line of a stack outside our code and Python's own."""
+    """Return the innermost line of a stack that is in a user's file."""
     while frame is not None:
         file = frame.f_code.co_filename
         if is_users_file(file):
@@ -89,7 +89,7 @@ def user_line(frame: FrameType | None) -> CodeLine | None:
 
 
 def user_line_of_error(trace: TracebackType | None) -> CodeLine | None:
-    """Return the innermost line of a traceback outside our code and Python's own."""
+    """Return the innermost line of a traceback that is in a user's file."""
     found = None
     while trace is not None:
         code = trace.tb_frame.f_code
@@ -104,16 +104,17 @@ def _place(file: str, line: int, function: str) -> CodeLine:
 
 
 class Fiber:
-    """One thread of users' code, which alternates with the event loop.
+    """Thread that runs a user's code and takes turns with the event loop.
 
     Attributes:
-        name: Name of the program whose code it runs.
-        interrupted: Whether the fiber was asked to end; every wait then raises KeyboardInterrupt.
-        error: Exception of its body, once it has ended; a StuckError where it had to be
-            broken off because it went on after it was asked to end without a signal.
-        ended: Whether the body has ended.
-        owner: Program of the fiber, for `current`.
-        end: Returns the exception that every wait raises once it was asked to end.
+        name: Name of the program whose code the fiber runs.
+        interrupted: Whether the fiber was asked to end; each of its waits then raises
+            KeyboardInterrupt.
+        error: Exception of the code, once it has ended; a StuckError if the code was stopped
+            because it ran on after it was asked to end without a signal.
+        ended: Whether the code has ended.
+        owner: Program that the fiber belongs to, for `current`.
+        end: Function that returns the exception that waits raise after the fiber was asked to end.
     """
 
     def __init__(
@@ -127,16 +128,16 @@ class Fiber:
         give_up: float | None = None,
         clock: Clock | None = None,
     ) -> None:
-        """Prepare a thread for `body`; `drive` starts it.
+        """Create a fiber that runs `body`; `drive` starts it.
 
         Args:
-            name: Name of the program, for messages.
+            name: Name of the program, for log messages.
             body: Function to run.
-            strict: Whether the loop is blocked while the thread runs.
+            strict: Whether the event loop waits while the thread runs.
             on_busy: Called once, on the loop's thread, when the code has not paused for
                 `patience` real seconds (by default `PATIENCE`).
             patience: See `on_busy`.
-            give_up: In strict mode, after how many real seconds the code is stopped (`GIVE_UP`
+            give_up: Real seconds after which busy code is stopped in strict mode (`GIVE_UP`
                 unless told).
             clock: Clock of the world, which knows at once of a signal: the loop, blocked in strict
                 mode, learns of it only afterwards.
@@ -171,7 +172,7 @@ class Fiber:
 
     @classmethod
     def adopt(cls, name: str) -> "Fiber":
-        """Make the calling thread a fiber; `drive` it from a loop in another thread."""
+        """Make the calling thread a fiber; a loop in another thread then calls `drive`."""
         fiber = cls(name, lambda: None, strict=True)
         # No thread to start, and none to raise in: the caller's own code is driven.
         fiber._thread = None
@@ -180,16 +181,16 @@ class Fiber:
         return fiber
 
     def release(self) -> None:
-        """Release an adopted fiber; its thread is an ordinary one from now on."""
+        """End an adopted fiber; the thread is an ordinary thread from now on."""
         _local.fiber = None
         self._post(None)
 
     # The fiber's side.
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Call `request` in the loop's thread, and wait for its result.
+        """Call `request` in the event loop's thread; block until its result arrives, and return it.
 
-        An awaitable result is awaited first. Call it only on the fiber's own thread.
+        If the result is awaitable, the loop awaits it. Call this in the fiber's own thread only.
 
         Raises:
             KeyboardInterrupt: If the fiber was asked to end while it waited.
@@ -234,13 +235,13 @@ class Fiber:
     # The loop's side.
 
     async def drive(self) -> None:
-        """Run the body to its end, and carry out its requests.
+        """Run the fiber's code to its end, executing its requests in the event loop.
 
-        Cancelling this interrupts the fiber: its present wait raises KeyboardInterrupt, as Ctrl-C
-        does in a ROS node, and the fiber is driven until it has ended.
+        Cancelling this coroutine interrupts the fiber: its wait raises KeyboardInterrupt, as Ctrl-C
+        does in a ROS node; requests are still executed until the code has ended.
 
         Raises:
-            StuckError: In strict mode, if the body came to no rest and was given up.
+            StuckError: In strict mode, if the code neither paused nor ended and was stopped.
         """
         if self._thread is not None:
             self._thread.start()
@@ -281,7 +282,7 @@ class Fiber:
         self._leave_alone()
 
     def _leave_alone(self) -> None:
-        """Record that the code ignored its interruption; its thread ends with the process."""
+        """Abandon a fiber whose code ignored the interruption; its thread ends with the process."""
         self.ended = True
         self.error = StuckError(
             f"'{self.name}' still runs after the end of the run: "
@@ -289,7 +290,7 @@ class Fiber:
         )
 
     async def _turn(self, answer: tuple[Any, BaseException | None], *, go: bool) -> None:
-        """Let the thread run until its next request or its end."""
+        """Let the thread run until its next request or the end of its code."""
         if self._strict:
             self._hand_over(answer, go)
             self._wait_for_rest()
@@ -339,7 +340,7 @@ class Fiber:
         )
 
     def _rests_within(self, limit: float) -> bool:
-        """Whether the thread pauses within `limit` real seconds, unless told to end."""
+        """Return whether the thread pauses within `limit` real seconds, or before a signal."""
         while limit > 0.0 and not self._clock.interrupted:
             # In short parts, so that a signal that comes meanwhile is noticed.
             part = min(limit, GRACE)
@@ -349,7 +350,7 @@ class Fiber:
         return self._rest.acquire(blocking=False)
 
     def _end_now(self) -> None:
-        """End code that was busy when a signal came; code that ignores it is abandoned."""
+        """Stop code that was busy when a signal arrived; abandon code that does not stop."""
         if not self.interrupted:
             self.interrupted = True
             self._raise_in_thread(KeyboardInterrupt)
@@ -357,7 +358,7 @@ class Fiber:
             self._leave_alone()
 
     async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Interrupt running code: first by a request, then by raising in it."""
+        """Interrupt a running thread: at its next request, or by an exception in its code."""
         self.interrupted = True
         # A person at Ctrl-C waits and wants it broken off; at the end of --for that is a fault.
         signalled = self._clock.interrupted
@@ -386,7 +387,7 @@ class Fiber:
         self._on_busy(self.place())
 
     def place(self) -> CodeLine | None:
-        """Return the line of users' code at which this fiber is."""
+        """Return the line of the user's code that this fiber is executing."""
         if self._thread is None or self._thread.ident is None:
             return None
         return user_line(sys._current_frames().get(self._thread.ident))
@@ -399,7 +400,7 @@ class Fiber:
 
 
 def current() -> Fiber | None:
-    """Return the fiber of the calling thread; None on the loop's and foreign threads."""
+    """Return the fiber of the calling thread; None in the event loop's and other threads."""
     return getattr(_local, "fiber", None)
 
 
@@ -411,13 +412,13 @@ def _taken_lock() -> threading.Lock:
 
 
 def finish(future: "asyncio.Future[None]", _: object = None) -> None:
-    """Set a future's result unless it is done or cancelled; also as another's callback."""
+    """Set a future's result to None unless it is done; usable as another future's callback."""
     if not future.done():
         future.set_result(None)
 
 
 def discard(awaitable: Any) -> None:
-    """Close an awaitable that will not be awaited."""
+    """Close or cancel an awaitable that will not be awaited."""
     close = getattr(awaitable, "close", None) or getattr(awaitable, "cancel", None)
     if close is not None:
         close()

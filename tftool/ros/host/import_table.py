@@ -1,12 +1,12 @@
-"""Table of ROS 2's modules and names provided here, and where they are implemented.
+"""Table of the ROS 2 modules and names that tftool provides, and where each is implemented.
 
-An entry is "their modules: our module: the names", a name alone or `theirs=ours`; "*" stands for
-every public name that our module defines. Angle brackets hold the tags of an action in XML and YAML
-launch files, or of a substitution, `$(tag …)`. A module of ours with a slash is a package of
-interfaces; one with a dot in front is a module of tftool outside of `tftool.ros`. The classes of
-some modules are found in modules of their own below them as well, as in ROS 2:
-`launch.actions.execute_process`. Packages of interfaces (geometry_msgs and so on) need no entry:
-they follow from their definitions.
+An entry has the form "ROS modules: tftool's module: names". A name is written alone if both sides
+agree, else `rosname=ourname`; "*" stands for every public name of tftool's module. Angle brackets
+contain the tags of an action in XML and YAML launch files, or of a substitution, `$(tag …)`. A
+module with a slash is a package of interfaces; a module with a leading dot is one of tftool outside
+of `tftool.ros`. As in ROS 2, the classes of some modules can also be imported from a module of
+their own, such as `launch.actions.execute_process`. Packages of interfaces (geometry_msgs and so
+on) need no entry: their modules follow from their definitions.
 """
 
 import re
@@ -275,18 +275,18 @@ WHOLE_PACKAGES = (
 
 
 def snake_case(name: str) -> str:
-    """Return the module in which ROS 2 defines a class: "execute_process" for ExecuteProcess."""
+    """Return a class's name in snake case, the name of its module: "execute_process"."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 @dataclass(frozen=True, slots=True)
 class ImportedName:
-    """One name of a ROS 2 module.
+    """Implementation of one name of a ROS 2 module.
 
     Attributes:
-        module: Our module, below `tftool.ros`; or "package/kind" of an interface.
-        name: Name in the implementing module; "*" means all public names.
-        tags: Tags in XML and YAML launch files; those of substitutions begin with "$".
+        module: Module of tftool, below `tftool.ros`; or "package/kind" of an interface.
+        name: Name in that module; "*" for all its public names.
+        tags: Tags in XML and YAML launch files; tags of substitutions begin with "$".
     """
 
     module: str
@@ -299,7 +299,7 @@ _ENTRY = re.compile(r"(?P<shown>\w+|\*)(?:=(?P<real>\w+))?(?:<(?P<tags>[^>]*)>)?
 
 @cache
 def table() -> Mapping[str, Mapping[str, ImportedName]]:
-    """Return every provided module with its names; empty parent modules are included."""
+    """Return every provided ROS 2 module with its names; parents of modules may have none."""
     found: dict[str, dict[str, ImportedName]] = {}
     for entry in re.split(r"\n(?! )", _TABLE.strip()):
         modules, ours, names = (part.split() for part in entry.split(":"))
@@ -321,6 +321,6 @@ def table() -> Mapping[str, Mapping[str, ImportedName]]:
 
 @cache
 def tagged() -> Mapping[str, ImportedName]:
-    """Return the names that XML and YAML launch files know, by tag: "node", or "$var"."""
+    """Return the names that XML and YAML launch files use, by tag: "node", or "$var"."""
     names = (one for names in table().values() for one in names.values())
     return {tag: one for one in names for tag in one.tags}

@@ -1,6 +1,7 @@
-"""Import hooks that provide `rclpy` and related modules.
+"""Import hooks that provide `rclpy` and ROS 2's other Python modules.
 
-Only `tftool run`, `tftool launch` and the pytest fixture install it, never `import tftool`.
+Only `tftool run`, `tftool launch` and the pytest fixture install these hooks, never `import
+tftool`.
 """
 
 import importlib
@@ -31,9 +32,9 @@ _OURS = Path(__file__).resolve().parents[2]
 
 
 def real_ros() -> str:
-    """Return the folder of a sourced ROS 2's rclpy; "" without one.
+    """Return the folder of rclpy in a sourced ROS 2; "" if no ROS 2 is sourced.
 
-    `ROS_DISTRO` alone is no proof: it is also set for programs that run here, and for their child
+    `ROS_DISTRO` alone is no proof: tftool also sets it for users' programs and their child
     processes.
     """
     if not (os.environ.get("ROS_DISTRO") or os.environ.get("AMENT_PREFIX_PATH")):
@@ -50,7 +51,7 @@ _LOADING = threading.RLock()
 
 
 class _StandInModule(ModuleType):
-    """A ROS 2 module made of our names; each is loaded when a program first uses it."""
+    """Module with a ROS 2 name; each of tftool's names in it is loaded at its first use."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name, f"{name}, as far as it runs without ROS.")
@@ -59,7 +60,7 @@ class _StandInModule(ModuleType):
         return sorted({*vars(self), *_entries(self.__name__), *self._modules()} - {"*"})
 
     def _modules(self) -> list[str]:
-        """Return the modules that are attributes before a program has imported them."""
+        """Return the submodules that are attributes of this package without being imported."""
         if self.__name__ not in import_table.WHOLE_PACKAGES:
             return []
         parts = (name.rpartition(".") for name in import_table.table())
@@ -96,7 +97,7 @@ _PARTS: Mapping[str, Sequence[str]] = MappingProxyType(
 
 
 def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
-    """Return the names of a ROS 2 module, or of one of an interface package."""
+    """Return the names in a ROS 2 module, or in a module of an interface package."""
     package, _, below = module.partition(".")
     if package not in INTERFACES.packages():
         return import_table.table()[module]
@@ -118,7 +119,7 @@ def _is_import_from(frame: Any) -> bool:
 
 
 class _StandInLoader(Loader):
-    """Loader that fills a module with our names."""
+    """Loader that creates the modules with ROS 2 names."""
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
         return _StandInModule(spec.name)
@@ -130,7 +131,7 @@ class _StandInLoader(Loader):
 
 
 def load(imported: import_table.ImportedName) -> Any:
-    """Return what an entry of the table names."""
+    """Load the object that an entry of the import table refers to."""
     package, _, kind = imported.module.partition("/")
     if kind:
         name, _, part = imported.name.partition("_")
@@ -140,7 +141,7 @@ def load(imported: import_table.ImportedName) -> Any:
 
 
 def _defined(ours: ModuleType) -> dict[str, Any]:
-    """Return the public names that a module of ours defines itself."""
+    """Return the public names that one of tftool's modules defines itself, with their values."""
     return {
         name: value
         for name, value in vars(ours).items()
@@ -150,14 +151,14 @@ def _defined(ours: ModuleType) -> dict[str, Any]:
 
 
 def _names_in(package: str, below: str) -> list[str]:
-    """Return the interfaces in `package.msg`, or in one's own module, `package.msg._string`."""
+    """Return the interfaces in a module such as `package.msg` or `package.msg._string`."""
     kind, _, own = below.partition(".")
     names = INTERFACES.names(package, kind) if kind else []
     return [one for one in names if not own or own == f"_{import_table.snake_case(one)}"]
 
 
 class _Finder(MetaPathFinder):
-    """Finder of our stand-in modules and, below a workspace's roots, of users' own modules."""
+    """Import hook that finds modules with ROS 2 names, and users' modules in a workspace."""
 
     def __init__(self) -> None:
         self.roots: list[Path] = []
@@ -200,7 +201,7 @@ class _Finder(MetaPathFinder):
     def _tested(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Find a module; files in the tests' folder are loaded with our builtins."""
+        """Find a module of the tests or their subject, to load it with tftool's builtins."""
         for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
             spec = finder.find_spec(fullname, path, target)
             if spec is None:
@@ -221,18 +222,18 @@ def _spec(name: str) -> importlib.machinery.ModuleSpec:
 
 
 class _UserLoader(importlib.machinery.SourceFileLoader):
-    """Loader of a user's module, with builtins whose `import` provides our clock."""
+    """Loader of a user's module, in which `import time` and the like give tftool's versions."""
 
     def exec_module(self, module: ModuleType) -> None:
         module.__dict__["__builtins__"] = builtins_for_users()
         super().exec_module(module)
 
     def set_data(self, path: str, data: Any, *, _mode: int = 0o666) -> None:
-        """Do nothing: no __pycache__ is written to a user's folders."""
+        """Do nothing, so that no __pycache__ is written to a user's folders."""
 
 
 class _TestedLoader(Loader):
-    """Wrapper of another loader, which may rewrite assertions, that adds our builtins."""
+    """Loader that adds tftool's builtins to a module that pytest's or another loader loads."""
 
     def __init__(self, loader: Loader) -> None:
         self._loader = loader
@@ -249,7 +250,7 @@ class _TestedLoader(Loader):
 
 
 class _Arguments(UserList[str]):
-    """`sys.argv` of the program that reads it."""
+    """`sys.argv` that shows each program its own arguments."""
 
     def __init__(self, otherwise: list[str]) -> None:
         super().__init__()
@@ -257,7 +258,7 @@ class _Arguments(UserList[str]):
 
     @property
     def data(self) -> list[str]:
-        """The list itself."""
+        """Arguments of the program that the calling thread belongs to."""
         fiber = fibers.current()
         owner = fiber.owner if fiber is not None else None
         return self._otherwise if owner is None else owner.argv
@@ -283,7 +284,7 @@ class _Arguments(UserList[str]):
     __rmul__ = __mul__
 
     def copy(self) -> Any:
-        """Return a copy of the running program's arguments."""
+        """Return a copy of the calling program's arguments."""
         return self.data.copy()
 
     __copy__ = copy
@@ -294,13 +295,13 @@ _finder: _Finder | None = None
 
 @contextmanager
 def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
-    """Provide ROS 2's modules inside this block.
+    """Provide ROS 2's modules inside this block, if no real ROS 2 is sourced.
 
     Args:
-        force: Also where a real ROS 2 is sourced.
+        force: Whether to provide them even if a real ROS 2 is sourced.
 
     Raises:
-        UsageError: If a real ROS 2 is sourced and `force` is not given.
+        UsageError: If a real ROS 2 is sourced and `force` is false.
     """
     found = real_ros()
     if found and not force:
@@ -314,7 +315,7 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
 
 @contextmanager
 def _distribution() -> Iterator[None]:
-    """Set `ROS_DISTRO` inside this block if it is not set: launch files read it."""
+    """Set `ROS_DISTRO`, which launch files read, inside this block if it is not set."""
     if "ROS_DISTRO" in os.environ:
         yield
         return
@@ -339,7 +340,7 @@ def own_arguments() -> Iterator[None]:
 
 @contextmanager
 def ros_modules() -> Iterator["_Finder"]:
-    """Provide ROS 2's modules inside this block, even if a ROS 2 is sourced."""
+    """Provide ROS 2's modules inside this block, even if a real ROS 2 is sourced."""
     global _finder
     if _finder is not None:
         yield _finder
@@ -371,7 +372,7 @@ def _file_of(module: ModuleType) -> Path:
 
 
 def _is_users(file: Path, roots: Iterable[Path]) -> bool:
-    """Whether a module lies in one of users' folders, and in no environment of Python there."""
+    """Return whether a module's file is below users' folders, not in a virtual environment."""
     if file.is_relative_to(_OURS):
         return False
     below = (file.relative_to(root) for root in roots if file.is_relative_to(root))
@@ -379,24 +380,24 @@ def _is_users(file: Path, roots: Iterable[Path]) -> bool:
 
 
 def look_in(root: Path) -> None:
-    """Search users' modules in a folder, before everything else."""
+    """Search a folder first for users' modules."""
     if _finder is not None and root not in _finder.roots:
         _finder.roots.insert(0, root)
 
 
 def look_behind(roots: Callable[[], Iterable[str]]) -> None:
-    """Search users' modules in some folders, after programs' own."""
+    """Search the folders that a function returns for users' modules, after the programs' own."""
     if _finder is not None:
         _finder.behind.append(roots)
 
 
 def import_fresh(module: str, root: Path) -> ModuleType:
-    """Import a user's module from a folder, and run it again as a new process would.
+    """Import a user's module from a folder and execute it again, as a new process would.
 
-    So two programs of one file share no globals.
+    Two programs made from one file thus share no global variables.
 
     Raises:
-        ImportError: If there is no such module, or it imports one that is missing.
+        ImportError: If the module, or one that it imports, does not exist.
     """
     with IMPORTING:
         look_in(root)

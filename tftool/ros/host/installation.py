@@ -1,4 +1,4 @@
-"""Check, without running anything, whether ROS 2 would find a package's parts after a build."""
+"""Check of a package's files, without running them: would ROS 2 find its parts after a build?"""
 
 import ast
 import re
@@ -26,12 +26,12 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 @dataclass(frozen=True, slots=True)
 class InstalledPart:
-    """One part of a package that must be declared for ROS 2 to find it.
+    """Part of a package that must be declared in its build files for ROS 2 to find it.
 
     Attributes:
-        subject: The part, and where it is declared: "chase/node.py: an entry point in setup.py".
+        subject: The part and its declaration: "chase/node.py: an entry point in setup.py".
         file: File of the part.
-        fault: Why ROS 2 would not find it, and the remedy; "" if it would.
+        fault: Reason why ROS 2 would not find the part, with the remedy; "" if it would.
     """
 
     subject: str
@@ -40,14 +40,14 @@ class InstalledPart:
 
 
 def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[InstalledPart]:
-    """Yield the parts that ROS 2 must find: nodes, launch files and dependencies.
+    """Yield the parts of a package that ROS 2 must find: nodes, launch files, dependencies.
 
     Args:
-        package: The package.
-        siblings: Names of the packages of its workspace.
+        package: Package to check.
+        siblings: Names of all packages in the same workspace.
 
     Raises:
-        InputError: If one of its files cannot be read.
+        InputError: If one of the package's files cannot be read.
     """
     others = set(siblings) - {package.name}
     if (package.path / "setup.py").is_file():
@@ -59,9 +59,9 @@ def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[
 
 
 def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> list[str]:
-    """Return why ROS 2 would not find one node or launch file, or a package that it imports.
+    """Return the reasons why ROS 2 would not find one node or launch file, or its imports.
 
-    A launch file's nodes are those whose file's name it contains.
+    For a launch file, nodes whose names its text contains are checked as well.
     """
     try:
         parts = list(installed_parts(package, siblings))
@@ -75,7 +75,7 @@ def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> 
 
 
 def entry_point_fault(package: Package, name: str) -> str:
-    """Return why a console script cannot start, with the nearest name; "" if it can."""
+    """Return why a console script cannot start, with the nearest name; "" if it can start."""
     module, _, function = package.scripts[name].partition(":")
     path = package.path.joinpath(*module.split("."))
     if not path.with_suffix(".py").is_file() and not (path / "__init__.py").is_file():
@@ -191,7 +191,7 @@ def _module(package: Package, file: Path) -> str:
 
 
 def _tree(file: Path) -> ast.Module:
-    """Parse a file; return None for invalid Python, which reports itself when run."""
+    """Parse a Python file; return an empty module for invalid Python, which fails when run."""
     try:
         return ast.parse(read_text(file), str(file))
     except (InputError, SyntaxError, ValueError, RecursionError, MemoryError):
@@ -199,7 +199,7 @@ def _tree(file: Path) -> ast.Module:
 
 
 def _globals(file: Path) -> set[str]:
-    """Return the functions, classes and imported names of a module."""
+    """Return the names of a module's functions, classes and imports."""
     found: set[str] = set()
     for statement in ast.walk(_tree(file)):
         match statement:

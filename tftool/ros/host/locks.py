@@ -1,7 +1,7 @@
-"""Locks, conditions, semaphores and events between the threads of users' programs.
+"""Locks, conditions, semaphores and events for the threads of users' programs.
 
-They wait in the world's time: on the simulated clock the event loop goes on while a thread waits
-for another, and a timeout means simulated seconds.
+Their timeouts count seconds of tftool's clock. On the simulated clock the event loop goes on while
+one thread waits for another.
 """
 
 import asyncio
@@ -16,13 +16,13 @@ T = TypeVar("T")
 
 
 def running_program() -> Any:
-    """Return the program of the running fiber; None on every other thread."""
+    """Return the program that the calling thread belongs to; None for other threads."""
     fiber = fibers.current()
     return None if fiber is None else fiber.owner
 
 
 class StateMonitor:
-    """State that threads change and wait for.
+    """State that several threads change, and on which threads wait.
 
     The inner mutex is held only briefly, never while a thread waits.
     """
@@ -32,10 +32,10 @@ class StateMonitor:
         self._wakers: list[Callable[[], object]] = []
 
     def change(self, update: Callable[[], T]) -> T:
-        """Change the state, and wake every waiting thread to check it.
+        """Change the state by calling `update`, and wake every waiting thread to check the state.
 
         Returns:
-            The result of `update`, whose exceptions pass through.
+            The result of `update`; its exceptions pass through.
         """
         with self._mutex:
             try:
@@ -48,12 +48,12 @@ class StateMonitor:
         """Block until `take`, which checks and may change the state, returns True.
 
         Args:
-            take: Called with the state held.
-            timeout: Seconds to wait at most: the world's in a program's thread, real ones in
-                any other. None for no limit, 0 to look once.
+            take: Function called while the mutex is held.
+            timeout: Longest wait in seconds: of tftool's clock in a program's thread, real ones in
+                any other. None for no limit, 0 to check once.
 
         Returns:
-            Whether it did so in time.
+            Whether `take` returned True in time.
 
         Raises:
             KeyboardInterrupt: If the program was asked to end while it waited.
@@ -72,12 +72,12 @@ class StateMonitor:
         return bool(owner.ask(lambda: self._wait(owner, take, length)))
 
     def sleep(self, owner: Any, length: Duration, is_over: Callable[[], bool]) -> None:
-        """Block a program's thread for a duration of the world's, unless it is over before."""
+        """Block a program's thread for a duration of tftool's clock, or until `is_over`."""
         if not owner.interrupted:
             owner.ask(lambda: self._wait(owner, is_over, max(0, length)))
 
     def wake(self) -> None:
-        """Let every waiting thread look again."""
+        """Wake every waiting thread to check the state again."""
         self.change(lambda: None)
 
     async def _wait(self, owner: Any, take: Callable[[], bool], length: Duration | None) -> bool:
@@ -103,7 +103,7 @@ class StateMonitor:
                     self._wakers.remove(wake)
 
     def _block(self, take: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait in real time, on a thread that no user's program started."""
+        """Wait in real time, in a thread that belongs to no user's program."""
         changed = threading.Event()
         while True:
             with self._mutex:
@@ -122,10 +122,10 @@ class StateMonitor:
 
 
 def _limit(blocking: bool, timeout: float | None) -> float | None:
-    """Return the timeout given to `acquire` in the form of `StateMonitor.wait`.
+    """Return the timeout for `StateMonitor.wait` that `acquire(blocking, timeout)` means.
 
     Raises:
-        ValueError: As in Python's own locks.
+        ValueError: For the arguments that Python's own locks refuse.
     """
     if timeout is None or timeout == -1:
         return None if blocking else 0.0
@@ -137,14 +137,14 @@ def _limit(blocking: bool, timeout: float | None) -> float | None:
 
 
 class UserLock:
-    """`threading.Lock` in the world's time."""
+    """Replacement of `threading.Lock` whose timeouts count seconds of tftool's clock."""
 
     def __init__(self) -> None:
         self._state = StateMonitor()
         self._held = False
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock; return whether that succeeded in time."""
+        """Acquire the lock; return False if the timeout passes first."""
         return self._state.wait(self._take, _limit(blocking, timeout))
 
     def _take(self) -> bool:
@@ -166,7 +166,7 @@ class UserLock:
         self._state.change(free)
 
     def locked(self) -> bool:
-        """Whether the lock is held."""
+        """Return whether a thread holds the lock."""
         return self._held
 
     _is_owned = locked  # A condition asks so; its own way, a failed acquire, counts as polling.
@@ -182,7 +182,7 @@ class UserLock:
 
 
 class UserRLock(threading._RLock):  # type: ignore[misc]
-    """`threading.RLock` in the world's time."""
+    """Replacement of `threading.RLock` whose timeouts count seconds of tftool's clock."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -190,7 +190,7 @@ class UserRLock(threading._RLock):  # type: ignore[misc]
 
 
 class UserCondition(threading.Condition):
-    """`threading.Condition` in the world's time."""
+    """Replacement of `threading.Condition` whose timeouts count seconds of tftool's clock."""
 
     _waiters: Any
 
@@ -198,10 +198,10 @@ class UserCondition(threading.Condition):
         super().__init__(UserRLock() if lock is None else lock)
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Release the lock, block until notified, and take the lock again.
+        """Release the lock, block until notified, and acquire the lock again.
 
         Returns:
-            Whether it was notified in time.
+            Whether a notification came before the timeout.
 
         Raises:
             RuntimeError: If the lock is not held.
@@ -222,7 +222,7 @@ class UserCondition(threading.Condition):
                 self._waiters.remove(waiter)
 
     def wait_for(self, predicate: Callable[[], T], timeout: float | None = None) -> T:
-        """Block until a predicate is true; return its last value."""
+        """Block until a predicate returns a true value; return the predicate's last value."""
         owner = running_program()
         start = 0 if owner is None else owner.now()
         left, result = timeout, predicate()
@@ -236,7 +236,7 @@ class UserCondition(threading.Condition):
 
 
 class UserSemaphore(threading.Semaphore):
-    """`threading.Semaphore` in the world's time."""
+    """Replacement of `threading.Semaphore` whose timeouts count seconds of tftool's clock."""
 
     _value: int
 
@@ -245,7 +245,7 @@ class UserSemaphore(threading.Semaphore):
         self._cond: Any = UserCondition(UserLock())
 
     def acquire(self, blocking: bool = True, timeout: float | None = None) -> bool:
-        """Take one; return whether that succeeded in time."""
+        """Decrement the counter, waiting until it is above 0; return False at the timeout."""
         limit = _limit(blocking, timeout)
         with self._cond:
             if limit == 0.0 and not self._value:
@@ -258,24 +258,24 @@ class UserSemaphore(threading.Semaphore):
 
 
 class UserBoundedSemaphore(UserSemaphore, threading.BoundedSemaphore):
-    """`threading.BoundedSemaphore` in the world's time."""
+    """Replacement of `threading.BoundedSemaphore` that waits on tftool's clock."""
 
 
 class UserEvent(threading.Event):
-    """`threading.Event` in the world's time."""
+    """Replacement of `threading.Event` whose timeouts count seconds of tftool's clock."""
 
     def __init__(self) -> None:
         super().__init__()
         self._cond: Any = UserCondition(UserLock())
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Block until the event is set; return whether it is."""
+        """Block until the event is set; return False if the timeout passes first."""
         owner = running_program()
         return self.is_set() if owner is not None and owner.interrupted else super().wait(timeout)
 
 
 class UserBarrier(threading.Barrier):
-    """`threading.Barrier` in the world's time."""
+    """Replacement of `threading.Barrier` whose timeouts count seconds of tftool's clock."""
 
     def __init__(
         self, parties: int, action: Callable[[], None] | None = None, timeout: float | None = None

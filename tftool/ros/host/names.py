@@ -1,6 +1,6 @@
-"""Names in ROS 2: expansion, and the `--ros-args` about them.
+"""Names in ROS 2: rules, expansion, remapping, and the options after `--ros-args`.
 
-World topics are full names without the leading slash.
+Topic names in tftool are full names without the leading slash.
 """
 
 import re
@@ -25,7 +25,7 @@ class Fault(NamedTuple):
 
     Attributes:
         reason: Rule that the name breaks.
-        at: Position of the fault.
+        at: Index of the first wrong character.
     """
 
     reason: str
@@ -33,7 +33,7 @@ class Fault(NamedTuple):
 
 
 def named_twice(name: str) -> str:
-    """Return the warning for a node whose name another process's node already has."""
+    """Return the warning for a node with the name of a node in another process."""
     return (
         f"another process of this session has a node named '{name}': both publish and answer. "
         "End one, or give this one a name of its own: --ros-args -r __node:=…"
@@ -42,7 +42,7 @@ def named_twice(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Remap:
-    """A rule `node:old:=new`; without a node it applies to all."""
+    """Remapping rule `node:old:=new`; without a node it applies to all nodes."""
 
     node: str | None
     old: str
@@ -51,15 +51,15 @@ class Remap:
 
 @dataclass(slots=True)
 class RosOptions:
-    """Options after `--ros-args`.
+    """Options after `--ros-args` on a program's command line.
 
     Attributes:
-        name: A new name for the program's nodes (`__node:=`), if any.
+        name: New name for the program's nodes (`__node:=`), if given.
         namespace: Namespace (`__ns:=`), if given.
-        remaps: Rules for topics, services and actions, the first that fits counts.
-        parameters: (node pattern, name, value), later ones win.
-        levels: Log levels by logger; "" is everybody's.
-        logs_to_rosout: Whether log messages of nodes are published on `/rosout`.
+        remaps: Rules for topics, services and actions; the first matching rule applies.
+        parameters: Tuples (node pattern, name, value); later ones override earlier ones.
+        levels: Log levels by logger name; "" stands for all loggers.
+        logs_to_rosout: Whether nodes publish their log messages on `/rosout`.
     """
 
     name: str | None = None
@@ -70,12 +70,12 @@ class RosOptions:
     logs_to_rosout: bool = True
 
     def parameters_for(self, name: str, namespace: str) -> dict[str, Any]:
-        """Return the values given for a node, by parameter."""
+        """Return the values given for a node's parameters, by parameter name."""
         full = join(namespace, name)
         return {key: value for node, key, value in self.parameters if _fits(node, full, name)}
 
     def remapped(self, full: str, name: str, namespace: str) -> str:
-        """Return the new full name for `full` by this node's rules; `full` if none applies."""
+        """Return the full name that a node's rules give to `full`, or `full` itself."""
         for rule in self.remaps:
             if rule.node is not None and rule.node.strip("/") not in (name, join(namespace, name)):
                 continue
@@ -97,7 +97,7 @@ def _fits(pattern: str, full: str, name: str) -> bool:
 
 
 def join(namespace: str, name: str) -> str:
-    """Return a full name without leading slash."""
+    """Join a namespace and a name; return the full name without leading slash."""
     return f"{namespace.strip('/')}/{name}".strip("/")
 
 
@@ -105,7 +105,7 @@ _STRANGE_CHARACTER = "it must not contain characters other than letters, digits,
 
 
 def node_name_fault(name: str) -> Fault | None:
-    """Return why ROS 2 refuses a node's name; None if it accepts it."""
+    """Return the rule of ROS 2 that a node's name breaks; None if the name is valid."""
     strange = _STRANGE.search(name)
     if not name:
         return Fault("it must not be empty", 0)
@@ -117,7 +117,7 @@ def node_name_fault(name: str) -> Fault | None:
 
 
 def namespace_fault(namespace: str) -> Fault | None:
-    """Return why ROS 2 refuses an absolute namespace; None if it accepts it."""
+    """Return the rule of ROS 2 that an absolute namespace breaks; None if it is valid."""
     if not namespace:
         return Fault("it must not be empty", 0)
     if not namespace.startswith("/"):
@@ -129,7 +129,7 @@ def namespace_fault(namespace: str) -> Fault | None:
 
 
 def topic_name_fault(name: str) -> Fault | None:
-    """Return why ROS 2 refuses a relative, absolute or private topic; None if it accepts it."""
+    """Return the rule of ROS 2 that a topic's name, before expansion, breaks; None if valid."""
     strange = _STRANGE_IN_TOPIC.search(name)
     if not name:
         return Fault("it must not be empty", 0)
@@ -156,7 +156,7 @@ def _fault_of_parts(name: str) -> Fault | None:
 
 
 def check_node_name(name: str) -> None:
-    """Refuse an invalid node name.
+    """Raise an error if ROS 2 does not accept a node name.
 
     Raises:
         UsageError: If ROS 2 refuses the name.
@@ -167,7 +167,7 @@ def check_node_name(name: str) -> None:
 
 
 def check_namespace(namespace: str) -> None:
-    """Refuse an invalid namespace.
+    """Raise an error if ROS 2 does not accept a namespace.
 
     Raises:
         UsageError: If ROS 2 refuses the namespace.
@@ -181,7 +181,7 @@ def expand(given: str, name: str, namespace: str) -> str:
     """Return the full name of a topic or service, without leading slash.
 
     Args:
-        given: Relative, absolute (`/x`) or private (`~/x`).
+        given: Relative (`x`), absolute (`/x`) or private (`~/x`) name.
         name: The node's name.
         namespace: The node's namespace.
 
@@ -201,10 +201,10 @@ def expand(given: str, name: str, namespace: str) -> str:
 
 
 def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:
-    """Split a node's arguments into ROS 2's and its own.
+    """Split a command line into the options after `--ros-args` and the program's own arguments.
 
     Raises:
-        UsageError: If ROS 2's part is malformed.
+        UsageError: If the part after `--ros-args` is malformed.
         InputError: If a parameter file cannot be read.
     """
     options = RosOptions()
@@ -275,7 +275,7 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
 
 
 def add_parameter(options: RosOptions, text: str) -> None:
-    """Add `name:=value` or `node:name:=value`."""
+    """Add a parameter, given as `name:=value` or `node:name:=value`, to the options."""
     name, found, value = text.partition(":=")
     if not found or not name:
         raise UsageError(f"'{text}' sets no parameter: write name:=value")
@@ -284,7 +284,7 @@ def add_parameter(options: RosOptions, text: str) -> None:
 
 
 def add_remap(options: RosOptions, text: str) -> None:
-    """Add `old:=new` or `node:old:=new`; `__node:=` and `__ns:=` rename the node itself."""
+    """Add a rule `old:=new` or `node:old:=new`; the rules `__node` and `__ns` rename the node."""
     old, found, new = text.partition(":=")
     if not found or not old or not new:
         raise UsageError(f"'{text}' renames nothing: write old:=new")
@@ -305,7 +305,7 @@ def add_remap(options: RosOptions, text: str) -> None:
 
 
 def yaml_value(text: str) -> Any:
-    """Parse a parameter's value as ROS 2 does: YAML, so `2` is an int and `2.0` a float."""
+    """Parse a parameter's value as YAML, as ROS 2 does: `2` is an int, `2.0` a float."""
     try:
         return strict_yaml_value(text)
     except ValueError:
@@ -313,7 +313,7 @@ def yaml_value(text: str) -> Any:
 
 
 def strict_yaml_value(text: str) -> Any:
-    """Parse strictly: text that is not valid YAML is refused.
+    """Parse a parameter's value as YAML, and raise for text that is not YAML.
 
     Raises:
         ValueError: If the text is not YAML.
@@ -332,7 +332,7 @@ def strict_yaml_value(text: str) -> Any:
 
 @cache
 def _loader() -> Any:
-    """Return a loader with ROS 2's rules for numbers: `12:30` and `2024-01-05` are texts."""
+    """Return a YAML loader with ROS 2's rules for numbers: `12:30` and `2024-01-05` are texts."""
     import yaml
 
     class Loader(yaml.SafeLoader):
@@ -357,14 +357,14 @@ def _loader() -> Any:
 def read_parameters(
     path: Path, substitute: Callable[[str], str] = str
 ) -> list[tuple[str, str, Any]]:
-    """Return the (node, name, value) of a ROS 2 parameter file.
+    """Read a ROS 2 parameter file; return (node, name, value) of each parameter.
 
     Args:
-        path: The file.
-        substitute: Makes the text that is read of the one in the file.
+        path: Path of the file.
+        substitute: Function that rewrites the file's text before it is parsed.
 
     Raises:
-        InputError: If it cannot be read, is not YAML, or is laid out otherwise.
+        InputError: If the file cannot be read, is not YAML, or is not a parameter file.
     """
     import yaml
 
@@ -392,7 +392,7 @@ def read_parameters(
 
 
 def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
-    """Yield each (node, name, value) of YAML nodes, in which keys may be repeated."""
+    """Yield (node, name, value) from YAML nodes, in which a key may occur more than once."""
     import yaml
 
     from tftool.base import yaml_guard
@@ -408,7 +408,7 @@ def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
 
 
 def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:
-    """Yield nested settings as (dotted name, value)."""
+    """Return nested mappings as a list of (dotted name, value)."""
     found: list[tuple[str, Any]] = []
     for key, value in tree.items() if isinstance(tree, Mapping) else ():
         if isinstance(value, Mapping):

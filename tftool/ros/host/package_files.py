@@ -1,4 +1,4 @@
-"""Facts from a package's files, read without running them: package.xml, setup.py and others."""
+"""Facts about a package from package.xml, setup.py and other files, read without running them."""
 
 import ast
 import configparser
@@ -19,17 +19,17 @@ MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
 
 @dataclass(frozen=True, slots=True)
 class Package:
-    """The sources of one package.
+    """Facts about the source folder of one package.
 
     Attributes:
-        name: Name.
-        path: Its folder, also used as its share directory.
-        scripts: Console scripts: name to "module:function".
-        installed: Files that its setup.py installs into its share directory at another place
-            than the one where they lie: that place to the file.
-        modules: Folders of Python packages that its CMakeLists.txt installs
-            (`ament_python_install_package`), from its own.
-        data_files: Files that its setup.py installs; None if only running it would tell.
+        name: Name of the package.
+        path: Source folder, also used as the package's share directory.
+        scripts: Console scripts, from name to "module:function".
+        installed: Files that setup.py installs under another path in the share directory than
+            their source path: from installed path to file.
+        modules: Folders of Python packages that CMakeLists.txt installs
+            (`ament_python_install_package`), relative to the source folder.
+        data_files: Files that setup.py installs; None if only running setup.py would tell.
     """
 
     name: str
@@ -40,7 +40,7 @@ class Package:
     data_files: frozenset[str] | None = None
 
     def script_file(self, name: str) -> Path | None:
-        """Return a node's file of that name, for packages that install scripts directly."""
+        """Return a node's file by name, for packages that install scripts without setup.py."""
         for folder in ("scripts", "nodes", self.name, "."):
             for file in (name, f"{name}.py"):
                 path = self.path / folder / file
@@ -49,11 +49,11 @@ class Package:
         return None
 
     def place_of_script(self, name: str) -> Path:
-        """Return a console script's path, as if the package were installed in its source folder."""
+        """Return the path at which a console script would be, installed below the source folder."""
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
-        """Return the executable whose file that is, or would be; None if there is none."""
+        """Return the name of the executable with a path; None if there is none."""
         if path.name in self.scripts and path == self.place_of_script(path.name):
             return path.name
         is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()
@@ -66,10 +66,10 @@ def _is_python(path: Path) -> bool:
 
 
 def read_package(folder: Path) -> Package | None:
-    """Return the package with sources in a folder; None if there is none.
+    """Read the package in a source folder; return None if the folder is not a package.
 
     Raises:
-        InputError: If one of its files cannot be read.
+        InputError: If one of the package's files cannot be read.
     """
     if not any((folder / mark).is_file() for mark in MARKS) or (folder / "COLCON_IGNORE").exists():
         return None
@@ -97,7 +97,7 @@ def read_package(folder: Path) -> Package | None:
 
 
 def _listed_files(data_files: Any) -> frozenset[str] | None:
-    """Return the files of a setup.py's `data_files`; None if they are not fully known."""
+    """Return the files in a setup.py's `data_files`; None if they are not fully known."""
     if not isinstance(data_files, list):
         return None
     listed: set[str] = set()
@@ -111,7 +111,7 @@ def _listed_files(data_files: Any) -> frozenset[str] | None:
 
 
 def _modules_of_cmake(path: Path) -> list[str]:
-    """Return the folders of Python packages that a CMakeLists.txt installs; none without it."""
+    """Return the folders of Python packages that a CMakeLists.txt installs; [] without the file."""
     if not path.is_file():
         return []
     calls = re.findall(r"ament_python_install_package\(\s*([^)]*)\)", read_text(path))
@@ -124,7 +124,7 @@ def _modules_of_cmake(path: Path) -> list[str]:
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
-    """Return files installed under another path into the share directory."""
+    """Yield (installed path, file) for files that setup.py installs under another path."""
     for entry in data_files if isinstance(data_files, list) else ():
         if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
             continue
@@ -144,10 +144,10 @@ def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Pat
 
 
 def read_text(path: Path) -> str:
-    """Return a file's text.
+    """Return a file's text, decoded as UTF-8.
 
     Raises:
-        InputError: If it cannot be read, or is not UTF-8.
+        InputError: If the file cannot be read, or is not UTF-8.
     """
     try:
         return read_named_text(path)
@@ -156,7 +156,7 @@ def read_text(path: Path) -> str:
 
 
 def _from_setup_py(path: Path) -> tuple[str, dict[str, str], Any]:
-    """Return name, console scripts and data files of a setup.py, without running it."""
+    """Return name, console scripts and data files from a setup.py, without running it."""
     try:
         tree = ast.parse(read_text(path), str(path))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -185,9 +185,9 @@ def _called(function: ast.expr) -> str:
 
 
 class _Literals:
-    """Evaluator of expressions in a setup.py, as far as possible without running it.
+    """Evaluator of simple expressions in a setup.py, without running it.
 
-    Literals, names, joined texts, and the two calls that name files: `glob` and `os.path.join`.
+    It evaluates literals, names, joined texts, and the calls `glob` and `os.path.join`.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -200,7 +200,7 @@ class _Literals:
                 self._names[statement.targets[0].id] = self.value(statement.value)
 
     def value(self, node: ast.expr) -> Any:
-        """Return the value of an expression; None if only running the code could tell."""
+        """Return the value of an expression; None if only running the code would tell."""
         match node:
             case ast.Constant():
                 return node.value
@@ -231,7 +231,7 @@ class _Literals:
         return None
 
     def _files(self, pattern: Any, *, deep: bool) -> list[str]:
-        """Return the files that match a pattern inside the package's own folder."""
+        """Return the files inside the package's folder that match a glob pattern."""
         if not isinstance(pattern, str) or Path(pattern).is_absolute() or ".." in pattern:
             return []
         return sorted(glob.glob(pattern, root_dir=self._folder, recursive=deep))
@@ -264,7 +264,7 @@ def _from_setup_cfg(path: Path) -> tuple[str, dict[str, str]]:
 
 
 def _from_pyproject(path: Path) -> tuple[str, dict[str, str]]:
-    """Return name and [project.scripts]; nothing of a file that is not TOML."""
+    """Return name and console scripts from a pyproject.toml; empty values for invalid TOML."""
     try:
         project = tomllib.loads(read_text(path)).get("project", {})
     except (tomllib.TOMLDecodeError, RecursionError):

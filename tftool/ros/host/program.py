@@ -1,7 +1,7 @@
-"""A user's program, which `ros2 run` would start as a process.
+"""User's program, run inside tftool's process in place of a process that `ros2 run` would start.
 
-It has its arguments, its rclpy context and a fiber on which its `main` runs. For the world it is a
-node; its own nodes join beside it.
+A program has its own arguments, its own rclpy context and a thread (fiber) on which its `main`
+runs. In tftool's world it is a node; the rclpy nodes that it creates are further nodes.
 """
 
 import asyncio
@@ -43,7 +43,7 @@ _living: "set[Program]" = set()
 
 
 class ProgramNode(Node):
-    """A node made by a program: its name, subscriptions and services."""
+    """Node that a user's program creates: its name, subscriptions and services in the world."""
 
     _is_passive: ClassVar[bool] = True
 
@@ -53,24 +53,25 @@ class ProgramNode(Node):
 
 
 class Program(Node):
-    """One executable.
+    """User's program that runs as a node of tftool's world.
 
     Attributes:
-        label: Name it was started under; its node may take it over in the world.
-        argv: Its `sys.argv`.
-        options: Options of `--ros-args`.
-        strict: Whether time stops while the program runs: on the simulated clock.
-        broadcasts: Whether the program sends transforms.
-        listens: Whether the program looks up transforms; timers of one that only sends run before
-            those of the others in the same instant.
-        failure: Its error, unless it ended well.
-        status: Its exit status once it has ended, None before.
-        nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
-        unserved: Destroyed nodes, each with its number of callbacks if none was served.
-        event_loops: Event loops of asyncio that it made, closed at the end.
-        lines_with_angles: Lines of it whose angles were looked at: whether they are degrees.
-        advice: Functions that sum its lookups up at the end: a sentence, or "".
-        on_print: Receives what it prints, with whether that goes to its standard output.
+        label: Name under which the program was started, used in log lines; its rclpy node may
+            have the same name.
+        argv: The program's `sys.argv`.
+        options: Options after `--ros-args`.
+        strict: Whether time stops while the program's code runs: true on the simulated clock.
+        broadcasts: Whether the program publishes transforms.
+        listens: Whether the program looks up transforms. In one instant, timers of programs that
+            only publish run before those of other programs.
+        failure: Exception that ended the program; None if it ended well.
+        status: Exit status once the program has ended; None before.
+        nodes: State (`rclpy.seat.NodeSeat`) of each rclpy node; removed at the end.
+        unserved: Destroyed nodes, with the number of callbacks that no executor ever served.
+        event_loops: Event loops of asyncio that the program created, closed at the end.
+        lines_with_angles: Lines of code whose angles were checked: whether they are degrees.
+        advice: Functions that sum up the program's lookups at the end: a sentence, or "".
+        on_print: Function that receives printed text, and whether it went to standard output.
     """
 
     is_shown: ClassVar[bool] = False
@@ -85,16 +86,16 @@ class Program(Node):
         options: RosOptions | None = None,
         on_exit: Callable[["Program"], object] | None = None,
     ) -> None:
-        """Join the world; `body` is the code to run, None adopts the calling thread.
+        """Add the program to a world; it starts when the world runs.
 
         Args:
             world: World to join.
-            name: The executable's name.
-            body: Its `main`.
-            argv: Its `sys.argv`.
-            options: Options of `--ros-args`.
-            on_exit: Called on the loop's thread once it has ended; without one a program
-                that fails ends the run.
+            name: Name of the executable.
+            body: Function to run as the program's `main`; None if the caller's thread runs it.
+            argv: The program's `sys.argv`.
+            options: Options after `--ros-args`.
+            on_exit: Function called in the event loop's thread when the program has ended; without
+                it, a program that fails ends the run.
         """
         self.world = world  # The fiber is made before it joins.
         self.label = name
@@ -142,16 +143,16 @@ class Program(Node):
 
     @property
     def turn(self) -> Phase:
-        """Return the turn of the program's timers within an instant."""
+        """Turn of the program's timers within an instant of simulated time."""
         return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
 
     # The loop's side.
 
     async def run(self) -> None:
-        """Run the body; what it leaves open is closed.
+        """Run the program's code to its end, then close everything that it left open.
 
         Raises:
-            BaseException: Its error, if it failed and nobody waits for its exit.
+            BaseException: The program's error, if it failed and has no `on_exit`.
         """
         self._loop = asyncio.get_running_loop()
         self._loop_thread = threading.get_ident()
@@ -193,7 +194,7 @@ class Program(Node):
         self.event_loops.clear()
 
     def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
-        """Drive one more thread of this program (in the loop's thread)."""
+        """Start a further thread of this program; called in the event loop's thread."""
         self._own(fiber)
         task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
         self._others.add(task)
@@ -201,7 +202,7 @@ class Program(Node):
         return task
 
     def new_fiber(self, name: str, body: Callable[[], object], **settings: Any) -> Fiber:
-        """Make one more thread for this program, not started yet."""
+        """Create a further thread for this program, which is not started yet."""
         return Fiber(name, body, strict=self.strict, clock=self.world.clock, **settings)
 
     def _fiber_ended(self, task: "asyncio.Task[None]") -> None:
@@ -220,13 +221,13 @@ class Program(Node):
         self.say("WARN", self.name, text)
 
     def say(self, level: Level, speaker: str, text: str) -> None:
-        """Log a line of this program (in the loop's thread)."""
+        """Log a message of this program; called in the event loop's thread."""
         self.world.log.add(level, speaker, text, program=self.label)
 
     # The fibers' side.
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Run something in the loop's thread, from any thread; see `Fiber.ask`."""
+        """Call `request` in the event loop's thread, from any thread; see `Fiber.ask`."""
         __tracebackhide__ = True
         fiber = fibers.current()
         if fiber is not None:
@@ -251,16 +252,16 @@ class Program(Node):
         return value
 
     def now(self) -> Stamp:
-        """Return the world's time."""
+        """Return the current time of tftool's clock in nanoseconds."""
         self._count(1.0 / READINGS)
         return self.clock.now()
 
     def looked_in_vain(self) -> None:
-        """Record a failed query, such as for a missing transform, that did not wait."""
+        """Count a query that failed without waiting, such as for a missing transform."""
         self._count(1.0 / POLLS)
 
     def sleep(self, duration: Duration) -> None:
-        """Block this thread for a duration; when asked to end, return at once."""
+        """Block this thread for a duration; return at once if the program was asked to end."""
         if self.interrupted:
             return
         self.ask(partial(self.clock.sleep, max(0, duration), self.turn, self.rank))
@@ -271,15 +272,15 @@ class Program(Node):
         until: Stamp | None = None,
         phase: Phase | None = None,
     ) -> bool:
-        """Wait for the first of some futures (in the loop), which are not cancelled.
+        """Wait in the event loop until one of some futures is done; none of them is cancelled.
 
         Args:
             waits: Futures to wait for.
-            until: The moment at which to stop waiting; None for none.
-            phase: The turn within that moment; this program's own unless given.
+            until: Time at which to stop waiting; None for no limit.
+            phase: Turn within the instant `until`; by default this program's turn.
 
         Returns:
-            Whether one of them is done.
+            Whether one of the futures is done.
         """
         timers = []
         if until is not None:
@@ -307,7 +308,7 @@ class Program(Node):
             self._note_polling(now)
 
     def _note_polling(self, start: Stamp) -> None:
-        """Report a loop that has polled for long although nothing happens; once."""
+        """Log a warning, once, if a loop has polled for long while nothing happens."""
         now = time.monotonic_ns()  # real, for simulated time hardly moves meanwhile
         if start != self._polled_until:
             self._polls_since = now
@@ -329,7 +330,7 @@ class Program(Node):
 
 
 def exit_status(error: SystemExit) -> int:
-    """Return the exit status that a process would have."""
+    """Return the exit status that a process would have after SystemExit."""
     code = error.code
     if code is None:
         return 0
@@ -345,7 +346,7 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
 
 
 def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
-    """Make `found` determine the running program on threads without a fiber; None ends that."""
+    """Set the function that returns the program of threads without a fiber; None removes it."""
     global _outsiders
     _outsiders = found
 
@@ -354,7 +355,7 @@ _outsiders: "Callable[[], Program | None] | None" = None
 
 
 def running() -> Program | None:
-    """Return the program whose code is running; None outside of one."""
+    """Return the program that the calling thread belongs to; None if there is none."""
     fiber = fibers.current()
     owner: Program | None = None if fiber is None else fiber.owner
     if owner is None and fiber is None and len(_living) == 1:
@@ -366,10 +367,10 @@ def running() -> Program | None:
 
 
 def current() -> Program:
-    """Return the program whose code is running.
+    """Return the program that the calling thread belongs to.
 
     Raises:
-        TftoolError: Outside of one.
+        TftoolError: If the thread belongs to no program.
     """
     owner = running()
     if owner is None:

@@ -73,7 +73,7 @@ def _count(text: str) -> int:
 
 
 def _expression(text: str) -> Callable[[Any], bool]:
-    """Return the function of a message `m` that an expression describes."""
+    """Compile an expression about a message `m`, as given to --filter, to a function."""
     try:
         code = compile(text, "--filter", "eval")
     except SyntaxError as error:
@@ -109,7 +109,7 @@ _VALUES: dict[str, dict[str, Any]] = {
 
 
 class _Parser(argparse.ArgumentParser):
-    """Parser that refuses wrong words with a sentence, as all commands do."""
+    """Argument parser that reports errors as a UsageError with one sentence."""
 
     def error(self, message: str) -> NoReturn:
         usage = self.format_usage().removeprefix("usage: ").strip()
@@ -117,17 +117,17 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """Parse `ros2 WORDS`; `noun` and `verb` give the command.
+    """Parse the words after `ros2`; `noun` and `verb` of the result name the command.
 
     Raises:
-        UsageError: If there is no such command, or its words are wrong.
+        UsageError: If there is no such command, or an argument or option is wrong.
     """
     parser, _ = _parser()
     return parser.parse_args(list(words))
 
 
 def verbs() -> dict[str, list[str]]:
-    """Return the verbs of each command, in the order of the help."""
+    """Return the verbs of each noun of `ros2`, in the order of the help."""
     return _parser()[1]
 
 

@@ -1,4 +1,4 @@
-"""rosidl_runtime_py, which `ros2` uses too: interfaces by name, messages as mappings and texts."""
+"""Functions of rosidl_runtime_py: message classes by name, messages as mappings, YAML, CSV."""
 
 import math
 from collections import OrderedDict
@@ -12,7 +12,7 @@ from tftool.messages.schema import FLOATS
 
 
 def interface(name: str, kind: str) -> Any:
-    """Return the class of an interface, "package/srv/Name" or "package/Name".
+    """Return the class of a message, service or action: "package/srv/Name" or "package/Name".
 
     Raises:
         UsageError: If the interface is unknown, with the nearest name.
@@ -31,7 +31,7 @@ def interface(name: str, kind: str) -> Any:
 
 
 def definition(name: str) -> str:
-    """Return the text of an interface's definition.
+    """Return the text of a message, service or action definition.
 
     Raises:
         UsageError: If the interface is unknown.
@@ -50,10 +50,10 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
 def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:
-    """Return the full names of the interfaces of some kinds, of one package or all.
+    """Return the full names of the interfaces of some kinds, in one package or in all.
 
     Raises:
-        UsageError: If there is no such package; a near name is offered.
+        UsageError: If there is no such package; the text names a similar one.
     """
     if package is not None and package not in INTERFACES.packages():
         hint = did_you_mean(package, INTERFACES.packages())
@@ -67,10 +67,10 @@ def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) 
 
 
 def prototype(name: str) -> Any:
-    """Return a message, request or goal of an interface with every field at its default.
+    """Return a new message, request or goal with every field at its default.
 
     Raises:
-        UsageError: If there is no such interface; a near name is offered.
+        UsageError: If there is no such interface; the text names a similar one.
     """
     parts = name.strip("/").split("/")
     kind = parts[1] if len(parts) == 3 else "msg"
@@ -80,10 +80,10 @@ def prototype(name: str) -> Any:
 
 
 def fill(message: Any, values: Any, where: str = "") -> None:
-    """Set a message's fields from parsed YAML.
+    """Set a message's fields from values parsed from YAML.
 
     Raises:
-        UsageError: If a field is not there, or a value does not fit it; the field is named.
+        UsageError: If a field does not exist, or a value has the wrong type; with the field's name.
     """
     known = [field.name for field in message.fields__]
     if values is None or values == "":
@@ -131,11 +131,11 @@ def _fitting(field: Any, value: Any, path: str) -> Any:
 def plain(
     value: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> Any:
-    """Convert a message for YAML: mappings, lists and single values.
+    """Convert a message to mappings, lists and single values, for output as YAML.
 
     Args:
-        value: The message, or the value of a field.
-        truncate_length: Number of elements of a list, or letters of a text, are shown; None for
+        value: Message, or value of a message's field.
+        truncate_length: Number of elements of a list, or letters of a text, to show; None for
             all.
         no_arr: Whether a list is replaced by its type and length.
         no_str: Whether a text is replaced by its length.
@@ -177,7 +177,7 @@ def _summary(value: Any, kind: str) -> str:
 
 
 def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
-    """Return a value of `plain` as YAML, with its line's end."""
+    """Return a result of `plain` as YAML text that ends with a line end."""
     import yaml  # Not for a command line alone.
 
     if not isinstance(shown, dict | list):
@@ -193,7 +193,7 @@ def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
 
 
 def as_csv(shown: Any) -> str:
-    """Return the single values in a value of `plain`, separated by commas."""
+    """Return the single values in a result of `plain`, separated by commas."""
     return ",".join(str(value) for value in _single_values(shown))
 
 
@@ -206,7 +206,7 @@ def _single_values(value: Any) -> list[Any]:
 
 
 def message_to_ordereddict(msg: Any, **options: Any) -> "OrderedDict[str, Any]":
-    """Return the fields of a message, messages inside it as mappings too.
+    """Convert a message to an ordered mapping; nested messages become mappings too.
 
     Args:
         msg: The message.
@@ -216,18 +216,18 @@ def message_to_ordereddict(msg: Any, **options: Any) -> "OrderedDict[str, Any]":
 
 
 def message_to_yaml(msg: Any, *, flow_style: bool = False, **options: Any) -> str:
-    """Return a message as YAML, its fields in the order of the definition.
+    """Return a message as YAML text, with its fields in the order of the definition.
 
     Args:
         msg: The message.
-        flow_style: Whether on one line.
+        flow_style: Whether to write everything on one line.
         options: As for `plain`.
     """
     return as_yaml(plain(msg, **options), flow_style=flow_style)
 
 
 def message_to_csv(msg: Any, **options: Any) -> str:
-    """Return the values of a message, separated by commas; `options` as for `plain`."""
+    """Return the values in a message, separated by commas; `options` as for `plain`."""
     return as_csv(plain(msg, **options))
 
 
@@ -240,16 +240,16 @@ def set_message_fields(msg: Any, values: Any, **_: Any) -> None:
     """Set fields of a message from a mapping, as `ros2 topic pub` does.
 
     Raises:
-        UsageError: If there is no such field, or a value does not fit; the field is named.
+        UsageError: If a field does not exist, or a value has the wrong type; with the field's name.
     """
     fill(msg, values)
 
 
 def get_message(identifier: str) -> Any:
-    """Return the class of a message by "package/msg/Name".
+    """Return the message class with the full name "package/msg/Name".
 
     Raises:
-        UsageError: If there is none; a near name is offered.
+        UsageError: If there is no such message; the text names a similar one.
     """
     return interface(identifier, "msg")
 

@@ -1,8 +1,8 @@
 """Replacements of four standard modules, and of `print`, in users' files.
 
-In users' files, `import time` gives a module with the world's `sleep` and clocks, `import
-threading` one whose threads take turns and whose locks wait in the world's time, `import queue` the
-standard queues with these locks, and `import asyncio` one whose event loops wait in the world's
+In users' files, `import time` gives a module with `sleep` and clocks of tftool's time, `import
+threading` one whose threads take turns and whose locks wait in tftool's time, `import queue` the
+standard queues with these locks, and `import asyncio` one whose event loops wait in tftool's
 time. All other modules get Python's own four.
 """
 
@@ -31,7 +31,7 @@ _REAL_PRINT = print
 
 
 class _Shim(ModuleType):
-    """A standard module with some names replaced."""
+    """Module that has some names of its own and takes all others from a standard module."""
 
     def __init__(self, real: ModuleType, replaced: dict[str, Any]) -> None:
         super().__init__(real.__name__, real.__doc__)
@@ -66,7 +66,7 @@ def _elapsed_ns() -> int:
 
 
 def _print(*values: object, **options: Any) -> None:
-    """Print as Python does; the launch that has started the program reads it as well."""
+    """Print as Python does, and pass the text to the launch that started the program."""
     _REAL_PRINT(*values, **options)
     owner = running_program()
     if owner is None or owner.on_print is None:
@@ -77,12 +77,12 @@ def _print(*values: object, **options: Any) -> None:
 
 
 class UserThread(threading.Thread):
-    """A thread of a user's program: an additional fiber."""
+    """Replacement of `threading.Thread`: a further fiber of the user's program."""
 
     _fiber: Fiber | None = None
 
     def start(self) -> None:
-        """Start the thread."""
+        """Start the thread, in a program as one of the program's fibers."""
         owner = running_program()
         if owner is None:
             super().start()
@@ -93,7 +93,7 @@ class UserThread(threading.Thread):
         (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def _run_told(self) -> None:
-        """Run the function; an exception ends only this thread, and is printed as in Python."""
+        """Run the thread's function; an exception is logged and ends only this thread."""
         try:
             self.run()
         except Exception as error:
@@ -101,7 +101,7 @@ class UserThread(threading.Thread):
             self._owner.ask(lambda: self._owner.error(sentence))
 
     def join(self, timeout: float | None = None) -> None:
-        """Wait for the end of the thread."""
+        """Block until the thread has ended or the timeout has passed."""
         if self._fiber is None:
             super().join(timeout)
             return
@@ -112,12 +112,12 @@ class UserThread(threading.Thread):
         owner.ask(lambda: owner.first_of(self._task, until=end))
 
     def is_alive(self) -> bool:
-        """Whether the thread runs."""
+        """Return whether the thread was started and has not ended."""
         return super().is_alive() if self._fiber is None else not self._fiber.ended
 
 
 class UserTimer(UserThread, threading.Timer):
-    """A thread that calls a function after a number of the world's seconds."""
+    """Replacement of `threading.Timer` that waits in seconds of tftool's clock."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -166,7 +166,7 @@ def _shims() -> dict[str, ModuleType]:
 
 @cache
 def _queues() -> ModuleType:
-    """Return the standard queues, based on users' threading and time."""
+    """Return a copy of the module `queue` that uses tftool's locks and time."""
     spec = importlib.util.find_spec("queue")
     if spec is None or spec.loader is None:
         return queue
@@ -192,7 +192,7 @@ def _is_imported(name: str, fromlist: Any) -> bool:
 
 @cache
 def builtins_for_users() -> dict[str, Any]:
-    """Builtins whose `import` gives users' files our `time`, `threading`, `asyncio` and `queue`."""
+    """Return builtins whose `import` gives tftool's time, threading, asyncio and queue."""
     shims = _shims()
 
     def import_(
@@ -216,7 +216,7 @@ SLICE: Duration = seconds(0.01)
 
 
 class _WorldSelector(selectors.DefaultSelector):
-    """Selector that waits for input the way `time.sleep` waits in a user's program."""
+    """Selector of an event loop that waits on tftool's clock, as `time.sleep` does."""
 
     def select(self, timeout: float | None = None) -> Any:
         ready = super().select(0)
@@ -230,16 +230,16 @@ class _WorldSelector(selectors.DefaultSelector):
 
 
 class UserEventLoop(asyncio.SelectorEventLoop):
-    """Event loop of a user's program; its seconds are the world's."""
+    """Event loop of a user's program whose seconds are those of tftool's clock."""
 
     def __init__(self) -> None:
-        """Make a loop for the running program; it closes with the program."""
+        """Create a loop for the calling program, which closes the loop at its end."""
         super().__init__(_WorldSelector())
         self._owner = running_program()
         self._owner.event_loops.append(self)
 
     def time(self) -> float:
-        """Return seconds since the world began."""
+        """Return the seconds of tftool's clock since its start."""
         return float(self._owner.now() - self._owner.clock.epoch) / NANOSECONDS
 
 
@@ -248,7 +248,7 @@ _replaced: list[asyncio.AbstractEventLoop] = []
 
 
 def _get_event_loop() -> asyncio.AbstractEventLoop:
-    """Return the thread's loop; create one if there is none, as in a process's main thread."""
+    """Return the thread's event loop, creating one if there is none, as in a main thread."""
     owner = running_program()
     try:
         found = asyncio.get_event_loop()
@@ -267,12 +267,12 @@ def _get_event_loop() -> asyncio.AbstractEventLoop:
 
 
 def _new_event_loop() -> asyncio.AbstractEventLoop:
-    """Return a loop in the world's time for a user's program, Python's own elsewhere."""
+    """Return a new event loop: on tftool's clock in a user's program, else Python's own."""
     return asyncio.new_event_loop() if running_program() is None else UserEventLoop()
 
 
 def _run_coroutine(main: Coroutine[Any, Any, Any], *, debug: bool | None = None) -> Any:
-    """Run a coroutine to its end in a new loop, as `asyncio.run` does."""
+    """Run a coroutine to its end in a new event loop, as `asyncio.run` does."""
     factory: Callable[[], asyncio.AbstractEventLoop] | None = None
     if running_program() is not None:
         factory = UserEventLoop

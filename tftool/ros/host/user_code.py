@@ -1,4 +1,4 @@
-"""Loading of users' code, and its execution as a program."""
+"""Loading of users' Python files, and functions that run them as programs."""
 
 import inspect
 from collections.abc import Callable
@@ -15,13 +15,13 @@ from tftool.ros.host.shims import builtins_for_users
 
 
 def file_body(path: Path) -> Callable[[], None]:
-    """Return the body that runs a node's file as `python3 FILE` would.
+    """Return a function that runs a node's file as `python3 FILE` would.
 
-    A file that defines `main`, does not call it and never comes to rclpy is made for a console
-    script, as the tutorial's listings are: its `main` is called.
+    A file that defines `main` but neither calls it nor `rclpy.init` is meant for a console script,
+    as the tutorials' files are: then `main` is called.
 
     Raises:
-        InputError: If the file cannot be read or is not valid Python; the line is shown.
+        InputError: If the file cannot be read or is not valid Python; the text shows the line.
     """
     code = compile_file(path)
 
@@ -40,15 +40,15 @@ def file_body(path: Path) -> Callable[[], None]:
 
 
 def load_module(path: Path, name: str = "", code: CodeType | None = None) -> ModuleType:
-    """Run a user's file in the program that runs, and return its module.
+    """Execute a user's file in the running program, and return the file's module.
 
     Args:
-        path: The file.
-        name: The module's name; the file's own unless given.
-        code: Its code, if it is compiled already.
+        path: Path of the file.
+        name: Name of the module; by default the file's name without suffix.
+        code: Compiled code of the file, if it is compiled already.
 
     Raises:
-        InputError: If it cannot be read or is not valid Python; the line is shown.
+        InputError: If the file cannot be read or is not valid Python; the text shows the line.
     """
     code = compile_file(path) if code is None else code
     folder = path.resolve().parent
@@ -66,7 +66,7 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
 
 
 def _reads(code: CodeType, name: str) -> bool:
-    """Whether a file's own statements, outside functions, use a global name."""
+    """Return whether a file's own statements, outside functions, read a global name."""
     import dis  # Only for those that have ended without a node.
 
     return any(
@@ -75,10 +75,10 @@ def _reads(code: CodeType, name: str) -> bool:
 
 
 def compile_file(path: Path) -> CodeType:
-    """Compile a file.
+    """Read and compile a user's Python file.
 
     Raises:
-        InputError: If it cannot be read or is not valid Python.
+        InputError: If the file cannot be read or is not valid Python.
     """
     try:
         with open_regular(path) as file:
@@ -98,7 +98,7 @@ def compile_file(path: Path) -> CodeType:
 
 
 def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
-    """Return the body that runs a console script as its installed wrapper would, from `root`."""
+    """Return a function that imports a module from `root` and calls a console script's function."""
 
     def body() -> None:
         try:
@@ -124,13 +124,13 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
 
 
 def _end_with(status: object) -> None:
-    """End with the value that a console script's function returned."""
+    """Raise SystemExit with the value that a console script's function returned, unless None."""
     if status is not None:
         raise SystemExit(status)
 
 
 def _warn_of_unserved(owner: program.Program) -> None:
-    """Warn about a program that ended without ever spinning its nodes."""
+    """Warn about nodes of a program that ended without ever spinning them."""
     waiting = [*owner.unserved, *((node.name, node.unserved()) for node in owner.nodes)]
     for name, count in () if owner.interrupted else waiting:
         if count:
@@ -143,7 +143,7 @@ def _warn_of_unserved(owner: program.Program) -> None:
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:
-    """Wrap a program's body so that everything it leaves behind is destroyed when it ends."""
+    """Wrap a program's function so that everything it leaves open is closed when it ends."""
 
     def run() -> None:
         owner = program.current()

@@ -1,7 +1,7 @@
-"""Conversion between users' messages and the world's values.
+"""Conversion between messages in users' programs and values on tftool's topics.
 
-Messages are copied on their way in and out, and turtlesim's messages of a newer release are
-converted to the older one, which the world uses. Topics of tf carry tuples of samples.
+Messages are copied in both directions. turtlesim's messages of a newer release are converted to
+the older one, which tftool uses. Topics of tf carry tuples of transforms.
 """
 
 from typing import Any
@@ -16,7 +16,7 @@ TF_TOPICS = ("tf", "tf_static")
 
 
 def carried(kind: type[Message], topic: str) -> type[Any]:
-    """Return the class of the world's topic for a user's message class (by full name)."""
+    """Return the class of values that tftool's topic carries for a user's message class."""
     if kind.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
         return TransformMessage
     plain = plain_name(kind.interface__)
@@ -24,30 +24,30 @@ def carried(kind: type[Message], topic: str) -> type[Any]:
 
 
 def pack(message: Any, kind: type[Any]) -> Any:
-    """Convert a message for a topic of `kind`; the message itself is not kept."""
+    """Convert a user's message to a value for a topic that carries class `kind`, as a copy."""
     return _pack_transforms(message) if kind is TransformMessage else recast(message, kind)
 
 
 def unpack(value: Any, kind: type[Message]) -> Any:
-    """Convert the value of a topic, service or action to a new message of a class."""
+    """Convert a value of a topic, service or action to a new message of a class."""
     if isinstance(value, TransformMessage):
         return unpack_transforms(value)
     return kind() if value is None else recast(value, kind)
 
 
 def stamp_of(message: Any) -> Stamp:
-    """Return the nanoseconds of a builtin_interfaces Time or Duration."""
+    """Return a builtin_interfaces Time or Duration message in nanoseconds."""
     return int(message.sec) * NANOSECONDS + int(message.nanosec)
 
 
 def time_message(stamp: Stamp, kind: str = "Time") -> Any:
-    """Return `stamp` nanoseconds as a builtin_interfaces Time (or Duration)."""
+    """Return `stamp` nanoseconds as a builtin_interfaces Time or Duration message."""
     seconds, rest = divmod(stamp, NANOSECONDS)
     return INTERFACES.message(f"builtin_interfaces/{kind}")(sec=seconds, nanosec=rest)
 
 
 def pack_transform(message: Any) -> TransformStamped:
-    """Convert a geometry_msgs TransformStamped to our sample; a leading slash is dropped."""
+    """Convert a TransformStamped message to tftool's class, without leading slashes in names."""
     moved, turned = message.transform.translation, message.transform.rotation
     return TransformStamped(
         stamp_of(message.header.stamp),
@@ -59,7 +59,7 @@ def pack_transform(message: Any) -> TransformStamped:
 
 
 def unpack_transform(sample: TransformStamped) -> Any:
-    """Convert a sample to a geometry_msgs TransformStamped."""
+    """Convert tftool's TransformStamped to a geometry_msgs TransformStamped message."""
     message: Any = INTERFACES.message("geometry_msgs/TransformStamped")()
     message.header.stamp = time_message(sample.stamp)
     message.header.frame_id = sample.frame_id
@@ -75,6 +75,6 @@ def _pack_transforms(message: Any) -> TransformMessage:
 
 
 def unpack_transforms(value: TransformMessage) -> Any:
-    """Convert a value on `tf` to a tf2_msgs TFMessage."""
+    """Convert a value of the topic `tf` to a tf2_msgs TFMessage."""
     kind = INTERFACES.message("tf2_msgs/TFMessage")
     return kind(transforms=[unpack_transform(one) for one in value.transforms])

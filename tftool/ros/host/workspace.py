@@ -1,4 +1,4 @@
-"""Packages found in a workspace's sources; nothing is built or installed."""
+"""Packages found in a ROS workspace's source folders; nothing is built or installed."""
 
 import os
 import shutil
@@ -18,18 +18,18 @@ from tftool.ros.host.package_files import MARKS, Package, read_package, read_tex
 
 
 class ShareFolder:
-    """A folder that shows a package's sources, and some files at other paths as well.
+    """Temporary folder with links to a package's sources, and to some files at other paths as well.
 
     Attributes:
-        path: The folder; it goes when this object does.
+        path: Path of the folder, which is deleted with this object.
     """
 
     def __init__(self, source: Path, installed: Mapping[str, Path]) -> None:
-        """Create the folder and its links.
+        """Create the folder and the links in it.
 
         Args:
-            source: The package's sources, shown as they lie.
-            installed: Places below the folder, and the files that are found there.
+            source: Source folder of the package, linked with its layout.
+            installed: Further files, by their path below the new folder.
         """
         self.path = Path(tempfile.mkdtemp(prefix="tftool-share-")).resolve()
         weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
@@ -42,7 +42,7 @@ class ShareFolder:
                 _link(file, target)
 
     def _show(self, source: Path, below: str, parents: set[str]) -> None:
-        """Link the files of one source folder, except generated folders."""
+        """Link the files of one source folder, except those of __pycache__ and hidden folders."""
         (self.path / below).mkdir(parents=True, exist_ok=True)
         there = source / below
         for one in there.iterdir() if there.is_dir() else ():
@@ -71,14 +71,14 @@ TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", "
 
 
 class Workspace:
-    """Packages below a folder, and those of the workspace that contains it.
+    """Packages below a folder, and those of the workspace that contains the folder.
 
     Attributes:
-        start: The folder.
+        start: The folder, as an absolute path.
     """
 
     def __init__(self, start: Path) -> None:
-        """Search from `start`; unreadable packages are skipped."""
+        """Find packages from the folder `start`; unreadable packages are skipped."""
         self.start = start.resolve()
         self._shares: dict[str, ShareFolder] = {}
         self._marked = [
@@ -93,12 +93,12 @@ class Workspace:
 
     @property
     def packages(self) -> dict[str, Package]:
-        """The packages by name, read when they are first asked for."""
+        """Packages by name, read at the first use."""
         return self._found[0]
 
     @property
     def skipped(self) -> list[str]:
-        """A sentence for each folder that was left out, and why."""
+        """Sentence for each folder that was skipped, with the reason."""
         return list(dict.fromkeys(self._found[1]))
 
     @cached_property
@@ -135,9 +135,10 @@ class Workspace:
         return roots
 
     def module_folders(self) -> list[str]:
-        """Return the folders of the packages' Python modules, as if installed.
+        """Return the folders of the packages' Python modules, as if they were installed.
 
-        A package named like one of Python's own modules, or of ours, is left out: it would hide it.
+        A package named like a module of Python or tftool is left out, because it would hide that
+        module.
         """
         modules = (
             package.path / name
@@ -152,7 +153,7 @@ class Workspace:
         return list(dict.fromkeys(folders))
 
     def folder_without_mark(self, name: str) -> Path | None:
-        """Return a folder of that name with Python files that only lacks a package.xml."""
+        """Return the folder `name` if it has Python files and lacks only a package.xml."""
         for root in self._roots():
             for folder in (Path(one) for one, _ in _folders(root, _DEPTH)):
                 if folder.name == name and any(
@@ -162,11 +163,11 @@ class Workspace:
         return None
 
     def file_named(self, path: Path) -> Path | None:
-        """Return a package's file by its path from another folder of the workspace.
+        """Return a package's file whose path, from one of the workspace's folders, is given.
 
         Returns:
-            `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to the start
-            its path below it; None if no package has such a file.
+            `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to the start if it is
+            below it; None if no package has such a file.
         """
         if path.is_absolute() or ".." in path.parts:
             return None
@@ -179,10 +180,10 @@ class Workspace:
         return None
 
     def package(self, name: str) -> Package:
-        """Return the package of a name.
+        """Return the package with a name.
 
         Raises:
-            UsageError: If there is none, with the nearest name.
+            UsageError: If there is no such package, with the nearest name.
         """
         found = self.packages.get(name)
         if found is None:
@@ -190,9 +191,9 @@ class Workspace:
         return found
 
     def share(self, name: str) -> Path:
-        """Return a package's share directory: its sources, or our own launch files.
+        """Return a package's share directory: its source folder, or one that tftool brings.
 
-        Files that its setup.py installs at another place are there too.
+        Files that setup.py installs under another path are there as well.
 
         Raises:
             UsageError: If there is no such package.
@@ -211,12 +212,12 @@ _current: list[Workspace] = []
 
 
 def use(searched: Workspace) -> None:
-    """Search this workspace from now on."""
+    """Make a workspace the one in which packages are searched from now on."""
     _current[:] = [searched]
 
 
 def current() -> Workspace:
-    """Return the workspace that is searched: the one around this folder unless told."""
+    """Return the workspace in which packages are searched; by default around the current folder."""
     if not _current:
         _current.append(Workspace(Path.cwd()))
     return _current[0]
@@ -241,9 +242,9 @@ def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ())
 
 
 def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
-    """Yield a folder and those below it, each with whether it has the mark of a package.
+    """Yield a folder and all folders below it, each with whether it contains a package's files.
 
-    A home folder has many thousands: what the listing of the parent tells is not asked again.
+    A home folder has many thousands of folders, so each folder is listed only once.
     """
     waiting = [(str(root), depth)]
     while waiting:
@@ -287,15 +288,15 @@ FILES = (".py", ".xml", ".yaml", ".yml")
 
 
 def is_file(word: str) -> bool:
-    """Whether a word of the command line is a file, rather than a package."""
+    """Return whether a word of the command line is a file's path rather than a package's name."""
     return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
 
 
 def file_of(workspace: Workspace, word: str) -> Path:
-    """Return the file that a word names.
+    """Return the path of the file that a word of the command line names.
 
     Raises:
-        InputError: If there is none, with the path of one of that name in a package.
+        InputError: If there is no such file but a package has one; the text gives its path.
     """
     path = Path(word)
     if not path.exists() and (near := workspace.file_named(path)) is not None:

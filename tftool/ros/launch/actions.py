@@ -1,4 +1,4 @@
-"""launch's actions: settings, groups, other launch files, functions, timers, log, events."""
+"""Actions of ROS's launch: settings, groups, included files, functions, timers, log, events."""
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -15,7 +15,7 @@ from tftool.ros.launch.substitutions import describe, is_true, perform
 
 
 class DeclareLaunchArgument(Action):
-    """Declares an argument of the launch file."""
+    """Action that declares an argument of the launch file."""
 
     def __init__(
         self,
@@ -36,10 +36,10 @@ class DeclareLaunchArgument(Action):
             self.description += f"{end} Valid choices are: {self.choices}"
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the default unless a value was given.
+        """Set the argument to its default unless the command line gives a value.
 
         Raises:
-            UsageError: If there is neither, or the value is none of the choices.
+            UsageError: If there is no value and no default, or the value is not an allowed choice.
         """
         configurations = context.launch_configurations
         if self.name not in configurations:
@@ -57,36 +57,36 @@ class DeclareLaunchArgument(Action):
         return None
 
     def shown_default(self) -> str | None:
-        """Return the default as --show-args displays it."""
+        """Return the argument's default as --show-args displays it; None without a default."""
         return None if self.default_value is None else describe(self.default_value)
 
 
 class SetLaunchConfiguration(Action):
-    """Sets an argument."""
+    """Action that sets a launch argument."""
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name, self.value = name, value
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the argument."""
+        """Set the launch argument to its value."""
         context.launch_configurations[perform(context, self.name)] = perform(context, self.value)
 
 
 class UnsetLaunchConfiguration(Action):
-    """Removes an argument."""
+    """Action that removes a launch argument."""
 
     def __init__(self, name: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name = name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Remove the argument."""
+        """Remove the launch argument, if it is set."""
         context.launch_configurations.pop(perform(context, self.name), None)
 
 
 class ResetLaunchConfigurations(Action):
-    """Removes all arguments, or replaces them."""
+    """Action that replaces all launch arguments by the given ones, by default none."""
 
     def __init__(
         self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any
@@ -95,39 +95,39 @@ class ResetLaunchConfigurations(Action):
         self.kept = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Reset the arguments."""
+        """Replace all launch arguments by the given ones."""
         given = {perform(context, key): perform(context, one) for key, one in self.kept.items()}
         context.launch_configurations = given
 
 
 class SetEnvironmentVariable(Action):
-    """Sets an environment variable for later processes."""
+    """Action that sets an environment variable for processes started later."""
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name, self.value = name, value
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the variable."""
+        """Set the environment variable."""
         context.environment[perform(context, self.name)] = perform(context, self.value)
 
 
 class SetLogFolder(Action):
-    """Sets the log folder: used by other programs, since nodes here write no logs."""
+    """Action that sets ROS_LOG_DIR for processes; tftool's own nodes write no log files."""
 
     def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.new_log_dir = new_log_dir
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the folder, inside the present one unless it is absolute."""
+        """Set ROS_LOG_DIR to the folder, which is relative to the present one."""
         before = context.environment.get("ROS_LOG_DIR", "")
         folder = os.path.join(before, perform(context, self.new_log_dir))
         context.environment["ROS_LOG_DIR"] = folder
 
 
 class AppendEnvironmentVariable(Action):
-    """Appends to an environment variable, or prepends."""
+    """Action that appends a value to an environment variable, or prepends it."""
 
     def __init__(
         self,
@@ -142,7 +142,7 @@ class AppendEnvironmentVariable(Action):
         self.prepend, self.separator = prepend, separator
 
     def execute(self, context: LaunchContext) -> Any:
-        """Extend the variable."""
+        """Append the value to the environment variable, or prepend it."""
         name, value = perform(context, self.name), perform(context, self.value)
         before = context.environment.get(name)
         parts = [value] if before is None else [before, value]
@@ -152,33 +152,33 @@ class AppendEnvironmentVariable(Action):
 
 
 class UnsetEnvironmentVariable(Action):
-    """Removes an environment variable."""
+    """Action that removes an environment variable."""
 
     def __init__(self, name: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name = name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Remove the variable."""
+        """Remove the environment variable, if it is set."""
         context.environment.pop(perform(context, self.name), None)
 
 
 class PushEnvironment(Action):
-    """Saves the environment variables for a PopEnvironment."""
+    """Action that saves all environment variables, for a later PopEnvironment."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Save the variables."""
+        """Save all environment variables."""
         context.environments.append(dict(context.environment))
 
 
 class PopEnvironment(Action):
-    """Restores the environment variables of the last PushEnvironment."""
+    """Action that restores the environment variables saved by the last PushEnvironment."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Restore the variables.
+        """Restore the environment variables that were saved last.
 
         Raises:
-            UsageError: If there was none.
+            UsageError: If no PushEnvironment comes before this action.
         """
         if not context.environments:
             raise UsageError("there is no PushEnvironment before this PopEnvironment")
@@ -186,31 +186,31 @@ class PopEnvironment(Action):
 
 
 class ResetEnvironment(Action):
-    """Restores the environment variables of the launch's beginning."""
+    """Action that restores the environment variables that the launch started with."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Restore the variables."""
+        """Restore the environment variables that the launch started with."""
         context.environment = dict(os.environ)
 
 
 class Push(Action):
-    """Opens a scope."""
+    """Action that opens a scope: arguments set from here on end with the scope."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Open a scope."""
+        """Open a scope for launch arguments and environment variables."""
         context.push()
 
 
 class Pop(Action):
-    """Closes a scope."""
+    """Action that closes the scope opened last."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Close the scope."""
+        """Close the scope opened last, and restore the arguments from before it."""
         context.pop()
 
 
 class OpaqueFunction(Action):
-    """Calls a function of the launch file."""
+    """Action that calls a Python function of the launch file."""
 
     def __init__(
         self,
@@ -224,12 +224,12 @@ class OpaqueFunction(Action):
         self._call: Callable[..., Any] = lambda context: function(context, *args, **(kwargs or {}))
 
     def execute(self, context: LaunchContext) -> Any:
-        """Call the function; return its result as the next actions."""
+        """Call the function with the launch context; return the actions that it returns."""
         return self._call(context)
 
 
 class GroupAction(Action):
-    """Actions in a scope of their own."""
+    """Group of actions with its own scope for launch arguments."""
 
     def __init__(
         self,
@@ -247,7 +247,7 @@ class GroupAction(Action):
         self.launch_configurations = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return all actions."""
+        """Return the actions of the group, between actions that open and close the scope."""
         # Asked for outside, where they are passed from.
         inside: list[Any] = [
             SetLaunchConfiguration(perform(context, name), perform(context, value))
@@ -259,12 +259,12 @@ class GroupAction(Action):
         return [*begin, *inside, *self.actions, Pop()]
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Return the actions inside."""
+        """Return the actions of the group."""
         return self.actions
 
 
 class IncludeLaunchDescription(Action):
-    """Includes another launch file."""
+    """Action that includes another launch file."""
 
     def __init__(
         self, launch_description_source: Any, *, launch_arguments: Any = None, **kwargs: Any
@@ -282,7 +282,7 @@ class IncludeLaunchDescription(Action):
         self.launch_arguments = list(launch_arguments or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the arguments, then return the actions of the included description."""
+        """Return actions that set the file's arguments, followed by the file's actions."""
         description, path = self.source.load(context)
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         if path is None:
@@ -291,27 +291,27 @@ class IncludeLaunchDescription(Action):
 
 
 class _EnterFile(Action):
-    """Enters an included launch file."""
+    """Action that makes an included launch file the current file."""
 
     def __init__(self, path: Path) -> None:
         super().__init__()
         self.path = path
 
     def execute(self, context: LaunchContext) -> Any:
-        """Change the current file."""
+        """Make the included launch file the current file."""
         context.enter_file(self.path)
 
 
 class _LeaveFile(Action):
-    """Returns to the including launch file."""
+    """Action that makes the including launch file the current file again."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Change back the current file."""
+        """Make the including launch file the current file again."""
         context.files = context.files[:-1]
 
 
 class TimerAction(Action):
-    """Actions after a delay."""
+    """Action that executes other actions after a delay."""
 
     takes_time: ClassVar[bool] = True
 
@@ -322,7 +322,7 @@ class TimerAction(Action):
         self.period, self.actions = period, list(actions)
 
     def execute(self, context: LaunchContext) -> Any:
-        """Schedule the actions.
+        """Schedule the actions, to be executed after the delay.
 
         Raises:
             UsageError: If the period is not a number of seconds.
@@ -331,12 +331,12 @@ class TimerAction(Action):
         context.launch.later(self, period, self.actions)
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Return the actions inside."""
+        """Return the actions that are executed after the delay."""
         return self.actions
 
 
 class LogInfo(Action):
-    """Logs a message."""
+    """Action that logs a message."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -348,18 +348,18 @@ class LogInfo(Action):
 
 
 class RegisterEventHandler(Action):
-    """Registers an event handler."""
+    """Action that registers an event handler."""
 
     def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.event_handler = event_handler
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """Return what the handler does, as far as it is known before."""
+        """Return the handler's actions, as far as they are known before an event."""
         return [(type(self.event_handler).__name__, getattr(self.event_handler, "entities", []))]
 
     def execute(self, context: LaunchContext) -> Any:
-        """Register the handler."""
+        """Register the event handler with the running launch."""
         context.launch.handlers.append(self.event_handler)
         handler = self.event_handler
         if isinstance(handler, OnExecutionComplete) and getattr(handler.target, "is_begun", False):
@@ -375,30 +375,30 @@ def _kind(value: Any) -> str:
 
 
 class UnregisterEventHandler(Action):
-    """Removes an event handler."""
+    """Action that removes an event handler."""
 
     def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.event_handler = event_handler
 
     def execute(self, context: LaunchContext) -> Any:
-        """Remove the handler."""
+        """Remove the event handler from the running launch, if it is registered."""
         if self.event_handler in context.launch.handlers:
             context.launch.handlers.remove(self.event_handler)
 
 
 class EmitEvent(Action):
-    """Emits an event."""
+    """Action that passes an event to the event handlers."""
 
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.event = event
 
     def execute(self, context: LaunchContext) -> Any:
-        """Emit the event.
+        """Pass the event to the event handlers.
 
         Raises:
-            UsageError: If the value is no event.
+            UsageError: If the value is not an event.
         """
         if not isinstance(self.event, Event):
             action = " of launch.actions" if isinstance(self.event, Action) else ""
@@ -407,12 +407,12 @@ class EmitEvent(Action):
 
 
 class Shutdown(Action):
-    """Ends the launch."""
+    """Action that ends the launch."""
 
     def __init__(self, *, reason: Any = "reason not given", **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.reason = reason
 
     def execute(self, context: LaunchContext) -> Any:
-        """End the launch."""
+        """Emit the event that ends the launch."""
         context.launch.emit(ShutdownEvent(reason=perform(context, self.reason)))

@@ -1,4 +1,4 @@
-"""Launch files and their arguments: what words name, declarations, checks, and their display."""
+"""Launch files on the command line: search by name, their arguments, and the list of those."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,7 +16,7 @@ from tftool.ros.launch.substitutions import perform
 
 
 def declared(description: LaunchDescription, context: LaunchContext) -> list[DeclareLaunchArgument]:
-    """Return the arguments a description declares, with those of included files."""
+    """Return the arguments that a launch description and its included files declare."""
     found: dict[str, DeclareLaunchArgument] = {}
 
     def look(entities: Iterable[Any]) -> None:
@@ -54,12 +54,12 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
 def refuse_unknown(
     path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
 ) -> None:
-    """Refuse arguments that a launch file neither declares nor mentions.
+    """Raise an error for given arguments that a launch file neither declares nor mentions.
 
-    Undeclared arguments may be used by a LaunchConfiguration with a default, or by a function.
+    An argument that the file's text mentions may be read by a LaunchConfiguration or a function.
 
     Raises:
-        UsageError: If there is one, with the nearest declared name.
+        UsageError: If there is such an argument; the text names the nearest declared one.
     """
     names = [one.name for one in known]
     for name in given:
@@ -79,7 +79,7 @@ def _mentions(path: Path, name: str) -> bool:
 
 
 def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
-    """Return the output of --show-args, laid out as `ros2 launch` does."""
+    """Return the output of `ros2 launch --show-args` for some arguments."""
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     if not arguments:
         lines += ["", "  No arguments."]
@@ -96,11 +96,11 @@ def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
 
 
 def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
-    """Return the launch file named by the first word or two; and the remaining words.
+    """Return the launch file that the first one or two words name, and the remaining words.
 
     Raises:
-        UsageError: If there is none, with those of the package.
-        InputError: If a file is named that is not there, but in a package.
+        UsageError: If there is no such launch file; the text lists the package's launch files.
+        InputError: If a path does not exist but a package has such a file.
     """
     first, *rest = words
     if is_file(first):
@@ -122,10 +122,10 @@ def _listed(folder: Path) -> str:
 
 
 def arguments_of(words: Sequence[str]) -> dict[str, str]:
-    """Return the `name:=value` words.
+    """Return the words of the form `name:=value` as a mapping from name to value.
 
     Raises:
-        UsageError: If one is something else.
+        UsageError: If a word has another form.
     """
     given = {}
     for word in words:
@@ -137,7 +137,7 @@ def arguments_of(words: Sequence[str]) -> dict[str, str]:
 
 
 def show_arguments(path: Path, workspace: Workspace) -> str:
-    """Print the arguments of a launch file.
+    """Return the list of a launch file's arguments, as `ros2 launch --show-args` prints it.
 
     Raises:
         InputError: If the file cannot be read.

@@ -1,4 +1,4 @@
-"""System commands, run beside the nodes."""
+"""System commands of launch files, run as processes beside the nodes."""
 
 import asyncio
 import contextlib
@@ -16,21 +16,21 @@ from typing import Final
 from tftool.base.errors import UsageError
 
 LONGEST_LINE: Final = 1 << 20
-"""Bytes of a command's output after which a line is shown though it has not ended."""
+"""Bytes of an output line that has not ended, after which its beginning counts as a line."""
 
 LONGEST_RUN: Final = 60.0
-"""Seconds of real time that a command may keep simulated time, or a launch file, waiting."""
+"""Real seconds for which simulated time, or a launch file, waits for a command to end."""
 
 
 @dataclass(frozen=True, slots=True)
 class SystemCommand:
-    """A system command.
+    """Command to run as a process.
 
     Attributes:
         words: The command and its arguments.
-        environment: Its environment variables, all of them.
+        environment: All environment variables of the process.
         cwd: Working directory; None for the current one.
-        emulate_tty: Whether the command writes to a terminal, in place of a pipe.
+        emulate_tty: Whether the command's output is a terminal instead of a pipe.
     """
 
     words: Sequence[str]
@@ -40,21 +40,21 @@ class SystemCommand:
 
 
 Streams = Sequence[tuple[asyncio.StreamReader, bool]]
-"""Readers of a command's output, each with whether it is its standard output."""
+"""Streams of a command's output, each with whether it is the standard output."""
 
 
 def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> tuple[int, str]:
-    """Run a command to its end, or kill it after a timeout.
+    """Run a command to its end, or kill it after `LONGEST_RUN` seconds.
 
     Args:
-        command: Command and arguments.
-        say: Receives its output lines, each with whether it came from its standard output.
+        command: Command to run.
+        say: Function called with each output line, and whether it is from standard output.
 
     Returns:
-        Its exit status, and why it was killed ("" if it was not).
+        Exit status, and the reason if the command was killed ("" if not).
 
     Raises:
-        UsageError: If the command cannot be run.
+        UsageError: If the command cannot be started.
     """
     reason, errors = "", b""
     try:
@@ -85,11 +85,11 @@ def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> t
 
 
 def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
-    """Run a command with a terminal as its output; return its output and exit status.
+    """Run a command with a terminal for its output; return the output and the exit status.
 
     Raises:
-        subprocess.TimeoutExpired: If that takes longer than `LONGEST_RUN`; it is killed.
-        OSError: If the command cannot be run.
+        subprocess.TimeoutExpired: If the command was killed after `LONGEST_RUN` seconds.
+        OSError: If the command cannot be started.
     """
     ours, theirs = os.openpty()
     chunks: list[bytes] = []
@@ -127,7 +127,7 @@ def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
 
 
 async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
-    """Start a command in its own process group; return it and its output.
+    """Start a command in its own process group; return the process and its output streams.
 
     Raises:
         UsageError: If the command cannot be run.
@@ -176,9 +176,9 @@ async def _chunk_of(stream: asyncio.StreamReader) -> bytes:
 
 
 async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
-    """Yield the output of a command, line by line.
+    """Yield the lines of a command's output stream, of any length up to 1 MiB.
 
-    asyncio's own reader raises where a line is longer than 64 KiB.
+    asyncio's own reader raises for a line longer than 64 KiB.
     """
     rest = b""
     while chunk := await _chunk_of(stream):
@@ -193,11 +193,11 @@ async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
 
 
 PATIENCE = 5.0
-"""Real seconds a process has to follow one signal before the next is sent; ROS 2's own."""
+"""Real seconds between two signals to a process that does not end; the same as in ROS 2."""
 
 
 def interrupt(process: asyncio.subprocess.Process) -> None:
-    """End a process and its children: SIGINT, after a while SIGTERM, then SIGKILL."""
+    """End a process and its children by SIGINT; if they go on, by SIGTERM, then SIGKILL."""
     if sys.platform == "win32":
         process.terminate()
         return

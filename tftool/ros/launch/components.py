@@ -1,8 +1,8 @@
-"""launch_ros's components: C++ nodes loaded into a container's process.
+"""Components of launch_ros: C++ nodes that are loaded into a container's process.
 
-Components do not run here. A container that answers in the session is asked to load them, and one
-that the launch itself starts is waited for. Components that can be neither started nor loaded are
-left out, with a notice.
+tftool cannot run components itself. If the container runs elsewhere in the session, the launch
+requests it to load them; if this launch starts the container, the launch waits for it. Other
+components are left out, with a notice in the log.
 """
 
 from collections.abc import Iterable
@@ -28,7 +28,7 @@ from tftool.ros.rclpy.node_parameters import Parameter
 
 
 class ComposableNode:
-    """A node to load into a container."""
+    """Description of a component: a node to load into a container's process."""
 
     def __init__(
         self,
@@ -50,14 +50,14 @@ class ComposableNode:
         self._condition = condition
 
     def condition(self) -> Any:
-        """Condition for loading the component; None for always."""
+        """Return the condition for loading the component; None to load it always."""
         return self._condition
 
 
 def get_composable_node_load_request(
     composable_node_description: ComposableNode, context: LaunchContext
 ) -> Any:
-    """Return the request that loads a node; None if its condition is false."""
+    """Return the request that loads a component; None if its condition is false."""
     node = composable_node_description
     condition = node.condition()
     if condition is not None and not condition.evaluate(context):
@@ -85,7 +85,7 @@ def get_composable_node_load_request(
 
 
 class LoadComposableNodes(Action):
-    """Loads nodes into a running container."""
+    """Action that loads components into a running container."""
 
     def __init__(
         self, *, composable_node_descriptions: Iterable[Any], target_container: Any, **kwargs: Any
@@ -95,7 +95,7 @@ class LoadComposableNodes(Action):
         self.target_container = target_container
 
     def execute(self, context: LaunchContext) -> Any:
-        """Ask the container for each node, one after the other."""
+        """Request the container to load each component, one after the other."""
         made = (
             get_composable_node_load_request(one, context)
             for one in self.composable_node_descriptions
@@ -129,7 +129,7 @@ class LoadComposableNodes(Action):
 
 
 class ComposableNodeContainer(Node):
-    """A program that loads components."""
+    """Action that starts a container, a program that loads components."""
 
     def __init__(
         self,
@@ -143,7 +143,7 @@ class ComposableNodeContainer(Node):
         self.composable_node_descriptions = list(composable_node_descriptions or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the container if it is a Python program, and load its components."""
+        """Start the container, if it is a Python program, and load its components."""
         self._perform_substitutions(context)
         reason = self._missing(context)
         if reason:
@@ -158,7 +158,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Return why the container is not a Python program; "" if it is."""
+        """Return why the container cannot be started here; "" if it is a Python program."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

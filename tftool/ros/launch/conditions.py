@@ -1,4 +1,4 @@
-"""launch's conditions."""
+"""Conditions of ROS's launch, which decide whether an action is executed."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,17 +9,17 @@ from tftool.ros.launch.substitutions import describe, is_true, perform
 
 
 class InvalidConditionExpressionError(UsageError):
-    """Error for a text that is neither true nor false."""
+    """Error for a condition's text that means neither true nor false."""
 
 
 class Condition:
-    """Condition for an action; without a predicate it is false."""
+    """Condition of an action, computed by a predicate; without a predicate it is false."""
 
     def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether the condition is true."""
+        """Return whether the condition is true in a launch context."""
         return self._predicate is not None and self._predicate(context)
 
     def describe(self) -> str:
@@ -28,10 +28,10 @@ class Condition:
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bool:
-    """Return whether a text means true.
+    """Return whether the text of an expression means true.
 
     Raises:
-        InvalidConditionExpressionError: If it is neither true nor false.
+        InvalidConditionExpressionError: If the text means neither true nor false.
     """
     text = perform(context, expression)
     try:
@@ -52,22 +52,22 @@ class _TextCondition(Condition):
         self._expression = predicate_expression
 
     def describe(self) -> str:
-        """Return the condition as text: IfCondition('expression')."""
+        """Return the condition as text, such as "IfCondition('expression')"."""
         return f"{type(self).__name__}({describe(self._expression)})"
 
 
 class IfCondition(_TextCondition):
-    """Condition that a text is true."""
+    """Condition that is true if a text means true."""
 
 
 class UnlessCondition(_TextCondition):
-    """Condition that a text is false."""
+    """Condition that is true if a text means false."""
 
     wanted = False
 
 
 class LaunchConfigurationEquals(Condition):
-    """Condition that an argument has a value."""
+    """Condition that is true if a launch argument has a given value."""
 
     def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
         name = launch_configuration_name
@@ -82,7 +82,7 @@ class LaunchConfigurationEquals(Condition):
 
 
 class LaunchConfigurationNotEquals(Condition):
-    """Condition that an argument has another value."""
+    """Condition that is true unless a launch argument has a given value."""
 
     def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
         same = LaunchConfigurationEquals(launch_configuration_name, expected_value)

@@ -1,4 +1,4 @@
-"""State of a running launch."""
+"""State of a running launch, which actions and substitutions read and change."""
 
 import os
 from collections import Counter
@@ -12,23 +12,23 @@ from tftool.base.errors import UsageError
 from tftool.ros.host.workspace import Workspace, current
 
 DEEPEST = 50
-"""How many launch files may include each other in a row."""
+"""Largest allowed depth of launch files that include each other."""
 
 
 class LaunchContext:
-    """Arguments, environment, the current scope, and the launch itself.
+    """State of a running launch: arguments, environment variables, scopes and the current file.
 
     Attributes:
-        launch_configurations: Arguments and their values; and settings for the nodes of the
-            scope, as `scope` keeps it.
-        environment: Environment variables, a copy.
-        environments: Environments saved by PushEnvironment.
-        files: The launch file one is in, last, after those that include it.
-        node_names: Number of nodes of each full name were started.
-        load: Reads a launch file, for those that include one; None outside of a launch.
-        launch: Launch that executes the description.
+        launch_configurations: Values of the launch arguments, by name; also the settings for
+            the scope's nodes, which `scope.py` stores here.
+        environment: Environment variables for processes, a copy of those of tftool.
+        environments: Environments saved by PushEnvironment, the newest last.
+        files: Launch files that include each other; the current one is last.
+        node_names: Number of nodes that were started, by full name.
+        load: Function that reads an included launch file; None outside of a launch.
+        launch: Launch that executes the actions; None outside of a launch.
         argv: Arguments of the launch's command line.
-        noninteractive: Whether questions are left out, as in ROS 2: here none is ever asked.
+        noninteractive: Kept as in ROS 2; tftool never asks a question.
     """
 
     def __init__(
@@ -57,26 +57,26 @@ class LaunchContext:
 
     @property
     def workspace(self) -> Workspace:
-        """Return the folder where packages are searched: the command's unless another was given."""
+        """Workspace in which packages are searched: the given one, else the command's."""
         if self._workspace is None:
             self._workspace = current()
         return self._workspace
 
     @property
     def locals(self) -> SimpleNamespace:
-        """Local values: the event being handled, and added ones."""
+        """Local values by attribute: `event` in an event handler, and added ones."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
-        """Add local values."""
+        """Add local values, by name."""
         self._locals.update(extensions)
 
     def push_locals(self) -> None:
-        """Begin to handle an event: what is added from here on, `pop_locals` forgets."""
+        """Save the local values; `pop_locals` restores them."""
         self._outer_locals.append(dict(self._locals))
 
     def pop_locals(self) -> None:
-        """Forget the local values added since `push_locals`."""
+        """Restore the local values that `push_locals` saved last."""
         self._locals = self._outer_locals.pop()
 
     def get_locals_as_dict(self) -> dict[str, Any]:
@@ -84,36 +84,36 @@ class LaunchContext:
         return dict(self._locals)
 
     def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
-        """Register an event handler.
+        """Register an event handler with the running launch.
 
         Raises:
-            UsageError: If nothing is launched.
+            UsageError: If no launch is running.
         """
         self._launched().handlers.append(event_handler)
 
     def unregister_event_handler(self, event_handler: Any) -> None:
-        """Remove an event handler.
+        """Remove an event handler from the running launch.
 
         Raises:
-            UsageError: If nothing is launched.
-            ValueError: If the handler was not registered.
+            UsageError: If no launch is running.
+            ValueError:  If the handler was not registered.
         """
         self._launched().handlers.remove(event_handler)
 
     def would_handle_event(self, event: Any) -> bool:
-        """Whether a handler matches an event."""
+        """Return whether a registered handler matches an event."""
         return bool(self._launched().is_awaited(event))
 
     def emit_event_sync(self, event: Any) -> None:
-        """Pass an event to the handlers.
+        """Pass an event to the registered handlers.
 
         Raises:
-            UsageError: If nothing is launched.
+            UsageError: If no launch is running.
         """
         self._launched().emit(event)
 
     async def emit_event(self, event: Any) -> None:
-        """Pass an event to the handlers."""
+        """Pass an event to the registered handlers; await this as in ROS 2."""
         self.emit_event_sync(event)
 
     def _launched(self) -> Any:
@@ -122,25 +122,25 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """Return a number for a name, the same every time."""
+        """Return a number for a name, always the same for one name."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:
-        """Return the text of a substitution, for functions of a launch file."""
+        """Return the text of a substitution; called by functions of a launch file."""
         return str(substitution.perform(self))
 
     def enter_file(self, path: Path) -> None:
-        """Set the current launch file.
+        """Make a launch file the current one.
 
         Raises:
-            UsageError: If files include each other too deeply.
+            UsageError: If too many launch files include each other.
         """
         if len(self.files) >= DEEPEST:
             raise UsageError(f"'{path}' is included {DEEPEST} deep: does it include itself?")
         self.files = (*self.files, path.absolute())
 
     def kept(self) -> tuple[Any, ...]:
-        """Return the current scope, for `back_to`."""
+        """Return a copy of the current scope, for `back_to`."""
         return (
             dict(self.launch_configurations),
             dict(self.environment),
@@ -149,16 +149,16 @@ class LaunchContext:
         )
 
     def push(self) -> None:
-        """Open a scope."""
+        """Open a scope: save arguments, environment variables and the current file."""
         self._kept.append(self.kept())
 
     def pop(self) -> None:
-        """Close the scope, and restore everything."""
+        """Close the scope opened last, and restore what was saved."""
         self._restore(self._kept.pop())
 
     @contextmanager
     def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
-        """Use another scope inside this block."""
+        """Use a scope returned by `kept` inside this block."""
         now = self.kept()
         self._restore(kept)
         try:

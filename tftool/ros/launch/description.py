@@ -1,4 +1,4 @@
-"""launch's descriptions: lists of actions, their sources, and the base class of actions."""
+"""Launch descriptions (lists of actions), their sources, and the base class of actions."""
 
 import sys
 from collections.abc import Iterable, Sequence
@@ -14,35 +14,35 @@ from tftool.ros.launch.substitutions import perform
 
 
 class LaunchDescriptionEntity:
-    """Base of actions and descriptions."""
+    """Base of actions and launch descriptions."""
 
     def visit(self, context: LaunchContext) -> Any:
-        """Execute the entity; return the next actions."""
+        """Execute this action or description; return the actions to execute next."""
         return None
 
     def describe(self) -> str:
-        """Return the entity as text."""
+        """Return this action or description as text."""
         raise NotImplementedError
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Return the entities inside, to search for arguments."""
+        """Return the actions inside this one, to search for declared arguments."""
         return []
 
     def describe_conditional_sub_entities(self) -> Sequence[tuple[str, Sequence[Any]]]:
-        """Return the conditional entities inside, with their conditions."""
+        """Return (condition, actions) for the actions that depend on a condition."""
         return []
 
     def get_asyncio_future(self) -> Any:
-        """Return the future of its end; None if it ends at once."""
+        """Return a future that is done when the action ends; None if it ends at once."""
         return None
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """List of actions of a launch.
+    """List of the actions of a launch.
 
     Attributes:
-        entities: Actions.
-        deprecated_reason: Why it should be used no more, None where it may be.
+        entities: The actions.
+        deprecated_reason: Reason why the description is deprecated; None if it is not.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether the description is deprecated."""
+        """Whether a reason for deprecation is set."""
         return self.deprecated_reason is not None
 
     def describe(self) -> str:
@@ -68,7 +68,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self.entities
 
     def add_action(self, action: Any) -> None:
-        """Append an action."""
+        """Append an action to the description."""
         self.entities.append(action)
 
     add_entity = add_action
@@ -79,14 +79,14 @@ class LaunchDescription(LaunchDescriptionEntity):
 
 
 class LaunchDescriptionSource:
-    """Source of a description."""
+    """Source of a launch description: a description, or a file's path."""
 
     def __init__(self, launch_description: Any = None, location: Any = "") -> None:
         self.description = launch_description
         self.location = location
 
     def load(self, context: LaunchContext) -> tuple[LaunchDescription, Path | None]:
-        """Return the description, and its file."""
+        """Return the description, and the path of its file (None without a file)."""
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))
@@ -96,7 +96,7 @@ class LaunchDescriptionSource:
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
-    """A Python launch file."""
+    """Source of a launch description: the path of a Python launch file."""
 
     def __init__(self, launch_file_path: Any) -> None:
         super().__init__(None, launch_file_path)
@@ -107,16 +107,17 @@ AnyLaunchDescriptionSource = FrontendLaunchDescriptionSource = PythonLaunchDescr
 
 
 class Action(LaunchDescriptionEntity):
-    """One step of a launch: `execute` returns further actions, or None.
+    """Step of a launch: `execute` does the work and returns further actions, or None.
 
-    Long work is passed to the launch (`context.launch`).
+    Work that takes long is passed to the launch (`context.launch`).
 
     Attributes:
-        condition: Condition for executing the action; None for always.
-        where: "file:line" where the launch file says it.
-        takes_time: Whether the action ends some time after `execute`; the launch reports the end.
+        condition: Condition for executing the action; None to execute it always.
+        where: "file:line" of the action in the launch file.
+        takes_time: Whether the action may end after `execute` returns; the launch then reports
+            the end.
         is_begun: Whether the action was executed.
-        is_awaited: Whether a handler for the action's end existed when it began.
+        is_awaited: Whether a handler for the action's end existed when the action began.
     """
 
     takes_time: ClassVar[bool] = False
@@ -133,11 +134,11 @@ class Action(LaunchDescriptionEntity):
             raise TypeError(f"{type(self).__name__} takes no argument {named} here{hint}")
 
     def visit(self, context: LaunchContext) -> Any:
-        """Execute the action if its condition is true; return the next actions."""
+        """Execute the action if its condition is true; return the actions to execute next."""
         if self.condition is not None and not self.condition.evaluate(context):
             return None
         following = self.execute(context)
-        # As in ROS 2: who begins to wait for it later is not told.
+        # As in ROS 2, a handler registered later is not notified of the end.
         self.is_begun = True
         if context.launch is None:
             return following
@@ -148,14 +149,14 @@ class Action(LaunchDescriptionEntity):
 
     @classmethod
     def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
-        """Parse an XML or YAML element of a user's own action class.
+        """Return class and arguments of the action from its element in an XML or YAML file.
 
-        The launch reads the condition of every class.
+        Subclasses of users extend this; the condition (`if`, `unless`) is read elsewhere.
         """
         return cls, {}
 
     def execute(self, context: LaunchContext) -> Any:
-        """Execute the action."""
+        """Execute the action; return the actions to execute next, or None."""
         return None
 
     def describe(self) -> str:

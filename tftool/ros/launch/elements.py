@@ -1,4 +1,4 @@
-"""Parser of XML and YAML launch files into the same elements."""
+"""Parser of XML and YAML launch files, which turns both into the same elements."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,20 +14,20 @@ from tftool.base.named_files import read_named
 from tftool.base.near_names import did_you_mean
 
 DEEPEST = 100
-"""How many levels of elements, or of `$(…)`, may lie in each other."""
+"""Largest allowed depth of nested elements, or of nested `$(…)`."""
 
 
 @dataclass(slots=True)
 class Element:
-    """One element: a tag of XML, a key of YAML.
+    """Element of a launch file: a tag of XML, or a key of YAML.
 
     Attributes:
-        tag: Tag.
-        values: Attributes.
+        tag: Tag or key.
+        values: Attributes and their values.
         children: Child elements.
-        where: "file:line".
-        asked: Attributes that were asked for: those it may have.
-        known: Tags of children that were asked for.
+        where: Position in the file, "file:line".
+        asked: Names of the attributes that were read, the only ones allowed.
+        known: Tags of the child elements that were read, the only ones allowed.
     """
 
     tag: str
@@ -38,12 +38,12 @@ class Element:
     known: set[str] = field(default_factory=set)
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Return an attribute, or a default."""
+        """Return an attribute's value, or a default."""
         self.asked.add(name)
         return self.values.get(name, default)
 
     def need(self, *names: str) -> Any:
-        """Return a required attribute, under one of its names.
+        """Return the value of a required attribute, which may have one of several names.
 
         Raises:
             InputError: If the attribute is missing.
@@ -56,20 +56,20 @@ class Element:
         raise InputError(f"{self.where}: '{self.tag}' needs '{names[0]}'")
 
     def inside(self, *tags: str) -> list["Element"]:
-        """Return the children with one of some tags."""
+        """Return the child elements with one of some tags."""
         self.known.update(tags)
         return [child for child in self.children if child.tag in tags]
 
     def all_inside(self) -> list["Element"]:
-        """Return all children."""
+        """Return all child elements."""
         self.known.update(child.tag for child in self.children)
         return self.children
 
     def finish(self) -> None:
-        """Refuse unread attributes and children.
+        """Raise an error if an attribute or child element was not read.
 
         Raises:
-            InputError: If there is one, with the nearest known word.
+            InputError: If there is one; the text names the nearest known word.
         """
         for name in self.values:
             if name not in self.asked:
@@ -80,11 +80,11 @@ class Element:
                 raise child.refusal(what, child.tag, self.known)
 
     def too_deep(self) -> InputError:
-        """Return the refusal of too many levels."""
+        """Return the error for a file with too many levels of nesting."""
         return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
 
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
-        """Return an error here, with the nearest known word."""
+        """Return an error at this element's position, with the nearest known word."""
         hint = did_you_mean(word, known)
         return InputError(f"{self.where}: {what}{hint}")
 
@@ -93,10 +93,10 @@ class Element:
 
 
 def read(path: Path) -> list[Element]:
-    """Read the elements of an XML or YAML file, by its suffix.
+    """Read the elements of an XML or YAML launch file; the suffix decides which.
 
     Raises:
-        InputError: If it cannot be read or has another structure, with the line.
+        InputError: If the file cannot be read or is not a launch file; the text gives the line.
     """
     try:
         data = read_named(path)
@@ -106,10 +106,10 @@ def read(path: Path) -> list[Element]:
 
 
 def read_xml(data: bytes, path: Path) -> list[Element]:
-    """Read the elements of an XML text.
+    """Return the elements of an XML launch file's bytes.
 
     Raises:
-        InputError: If it is not a launch file, with the line.
+        InputError: If the bytes are not a launch file; the text gives the line.
     """
     parser = expat.ParserCreate()
     stack: list[Element] = [Element("", str(path))]
@@ -142,10 +142,10 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
 
 
 def read_yaml(data: bytes, path: Path) -> list[Element]:
-    """Read the elements of a YAML text.
+    """Return the elements of a YAML launch file's bytes.
 
     Raises:
-        InputError: If it is not YAML or has another structure, with the line.
+        InputError: If the bytes are not a YAML launch file; the text gives the line.
     """
     try:
         root = yaml_guard.compose(data.decode("utf-8"))
@@ -165,13 +165,13 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
 
 
 class _Yaml:
-    """Converter of YAML nodes to elements."""
+    """Converter from YAML nodes to elements of a launch file."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
     def children(self, node: Any, parent: Element, depth: int) -> None:
-        """Convert a list of one-key mappings."""
+        """Convert a list of mappings with one key each to child elements of `parent`."""
         if not isinstance(node, yaml.SequenceNode):
             where = self.where(node)
             raise InputError(f"{where}: '{parent.tag}' is a list of actions, each begun with '- '")
@@ -183,7 +183,7 @@ class _Yaml:
             parent.children.append(self.element(self.word(key), value, depth))
 
     def element(self, tag: str, node: Any, depth: int) -> Element:
-        """Convert a mapping of attributes, or a list of actions, to an element."""
+        """Convert a mapping of attributes, or a list of actions, to one element."""
         element = Element(tag, self.where(node))
         # An alias may stand inside what it stands for.
         if depth > DEEPEST:
@@ -207,20 +207,20 @@ class _Yaml:
         return element
 
     def word(self, node: Any) -> str:
-        """Convert a key.
+        """Return the text of a mapping's key.
 
         Raises:
-            InputError: If the value is not a single word.
+            InputError: If the key is not a single word.
         """
         if not isinstance(node, yaml.ScalarNode):
             raise InputError(f"{self.where(node)}: a key is one word, not a list or a mapping")
         return str(node.value)
 
     def value(self, node: Any) -> Any:
-        """Convert an attribute's value.
+        """Return the Python value of an attribute.
 
         Raises:
-            InputError: If the value has another type than YAML's own.
+            InputError: If the value has a type that is not YAML's own.
         """
         try:
             return yaml_guard.construct(node)
@@ -229,5 +229,5 @@ class _Yaml:
             raise InputError(f"{self.where(node)}: {reason}") from None
 
     def where(self, node: Any) -> str:
-        """Return a node's position: "file:line"."""
+        """Return a YAML node's position, "file:line"."""
         return f"{self.path}:{node.start_mark.line + 1}"

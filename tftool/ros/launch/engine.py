@@ -1,4 +1,4 @@
-"""Execution of a launch description: all its nodes in one process, on one loop."""
+"""Execution of a launch description, with all its nodes in one process and one event loop."""
 
 import asyncio
 import os
@@ -39,23 +39,23 @@ from tftool.world.node import Node
 from tftool.world.world import World
 
 Say = Callable[[str, str, str], object]
-"""Is told level, who speaks ("launch", "listener-4") and a line."""
+"""Function called with the level, the speaker ("launch", "listener-4") and the text of a line."""
 
 
 SOONEST = 0.1
-"""Seconds before a program is started again at least: one that ends at once must let time pass."""
+"""Shortest delay in seconds before a program is started again, so that simulated time advances."""
 
 
 _ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGABRT)
 
 
 class Launch(Node):
-    """A launch as by `ros2 launch`: starts a description's actions, and watches them.
+    """Node that executes a launch description, starts its programs and watches them.
 
     Attributes:
-        failed: Labels of programs that ended with another exit status than 0.
-        ended: Set once everything it started has ended.
-        handlers: The event handlers that are registered.
+        failed: Labels of the programs whose exit status was not 0.
+        ended: Event that is set when everything the launch started has ended.
+        handlers: Registered event handlers.
         labels: Label of each node in log lines, by the node's name.
     """
 
@@ -74,24 +74,24 @@ class Launch(Node):
         contained: bool = False,
         keep_alive: bool = False,
     ) -> None:
-        """Read a launch file, or use a description.
+        """Read the launch file, if one is given; `run` executes it.
 
         Args:
-            world: World to launch in.
-            what: The launch file, or its description.
-            workspace: Workspace of packages; the current folder if None.
-            arguments: Values for the arguments it declares.
-            say: Takes the launch's lines.
-            context: State of the launch; a new one when None.
-            name: Own name in the world.
-            contained: Whether a fault of the description ends the launch alone: not the world.
-                On simulated time its system commands then run beside the nodes, and time
-                passes as really while they do.
-            keep_alive: Whether the launch goes on when none of its processes runs any more.
+            world: World in which the nodes run.
+            what: Path of a launch file, or a launch description.
+            workspace: Workspace in which packages are searched; None for the current folder's.
+            arguments: Values of the arguments that the launch file declares.
+            say: Function called with the lines that the launch logs.
+            context: State of the launch; None for a new one.
+            name: Name of the launch's own node.
+            contained: Whether an error in the description ends only the launch, not the world.
+                On simulated time, system commands then run beside the nodes, and time advances in
+                step with real time while they run.
+            keep_alive: Whether the launch goes on after its last process has ended.
 
         Raises:
             InputError: If the file cannot be read.
-            UsageError: If an argument is passed that it does not declare.
+            UsageError: If an argument is given that the file does not declare.
         """
         self.context = context or LaunchContext(workspace)
         self.context.load, self.context.launch = load_file, self
@@ -123,10 +123,10 @@ class Launch(Node):
         world.log.listen(self._logged, name)
 
     async def run(self) -> None:
-        """Launch, and wait until everything has ended or a Shutdown is emitted.
+        """Execute the description; wait until all programs have ended or a Shutdown is emitted.
 
         Raises:
-            UsageError: If something cannot be started as described.
+            UsageError: If an action of the description cannot be executed.
         """
         self._over = asyncio.get_running_loop().create_future()
         try:
@@ -151,11 +151,11 @@ class Launch(Node):
     # What actions ask for
 
     def do(self, entities: Any) -> None:
-        """Execute entities and the actions they return, one after the other.
+        """Execute actions, and the actions that they return, one after the other.
 
         Raises:
-            UsageError: If one cannot be carried out, with its line in the launch file.
-            InputError: If the launch file's own code raises.
+            UsageError: If an action cannot be executed; the text gives its line in the launch file.
+            InputError: If Python code in the launch file raises an exception.
         """
         with self._events.held():
             for entity in entities if isinstance(entities, Iterable) else [entities]:
@@ -178,7 +178,7 @@ class Launch(Node):
             raise InputError(f"{where}: {error_sentence(error)}") from error
 
     def emit(self, event: Event) -> None:
-        """Pass an event to the handlers after the current action."""
+        """Pass an event to the handlers when the current action is finished."""
         self._events.add(event)
 
     def _tell(self, event: Event) -> None:
@@ -201,7 +201,7 @@ class Launch(Node):
             self._end()
 
     def _signal(self, label: str, number: int) -> None:
-        """Send a signal to a process; a program of the world only ends, by those that end one."""
+        """Send a signal to a process; a program without a process can only be ended."""
         pid = (self._actions[label].process_details or {}).get("pid")
         if pid is not None and number != signal.SIGINT:
             os.kill(pid, number)
@@ -216,7 +216,7 @@ class Launch(Node):
         self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
 
     def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
-        """Handle a line written by a process."""
+        """Handle a line of output of a process or program."""
         action: Any = self._actions.get(label)
         if getattr(action, "cached_output", False):
             action.output_lines.append((to_stdout, f"{line}\n"))
@@ -239,58 +239,58 @@ class Launch(Node):
         self._wrote(label, line, to_stdout=is_stdout)
 
     def _printed(self, label: str, text: str, is_stdout: bool) -> None:
-        """Handle what a program has printed (in its own thread)."""
+        """Handle text that a program has printed; called in the program's thread."""
         for line in text.splitlines():
             program.current().ask(partial(self._wrote, label, line, to_stdout=is_stdout))
 
     def _of(self, label: str) -> dict[str, Any]:
-        """Return the action and the details of a process, for its events."""
+        """Return the arguments of a process's events: its action and details."""
         action = self._actions.get(label)
         details = getattr(action, "process_details", None) or {"name": label}
         return {"action": action, **details}
 
     def _note_start(self, action: Any, label: str, words: Sequence[str], **details: Any) -> None:
-        """Report that a process has started."""
+        """Log that a process has started, and emit its event."""
         action.process_details = {"name": label, "cmd": list(words), **details}
         shown = f": {shlex.join(words)}" if details else ""  # a node's are its package's business
         self._say("INFO", label, f"process started{shown}")
         self.emit(ProcessStarted(**self._of(label)))
 
     def is_awaited(self, event: Event) -> bool:
-        """Whether a handler matches an event."""
+        """Return whether a registered handler matches an event."""
         return any(handler.matches(event) for handler in self.handlers)
 
     def complete(self, action: Any) -> None:
-        """Report that an action is complete."""
+        """Emit the event that an action is complete, if a handler waits for it."""
         if action.is_awaited:
             self.emit(ExecutionComplete(action=action))
 
     def interrupt(self) -> None:
-        """Begin the shutdown of the launch, as on the first Ctrl-C."""
+        """Begin to shut the launch down, as the first Ctrl-C does."""
         self._closing = True
         self._say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
         event = Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True)
         self._guarded(lambda: self.emit(event))
 
     def shut_down(self, reason: str) -> None:
-        """End everything that the launch started, then the launch."""
+        """End all programs that the launch started, then the launch itself."""
         self._guarded(lambda: self.emit(Shutdown(reason=reason)))
 
     def info(self, text: str) -> None:
-        """Log information."""
+        """Log a message of the launch with level INFO."""
         self._say("INFO", "launch", text)
 
     def warn(self, text: str) -> None:
-        """Log a warning."""
+        """Log a message of the launch with level WARNING."""
         self._say("WARNING", "launch", text)
 
     def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
-        """Tell `then` whether a service exists, in the present scope.
+        """Call `then` with whether a service exists, later, in the present scope.
 
         Args:
-            service: The service's name.
-            node_name: The full name of the node that serves it. While one that this launch has
-                started runs under it, the service is waited for.
+            service: Name of the service.
+            node_name: Full name of the node that serves it. While this launch runs a program with
+                that name, the call waits for the service.
             then: Function to call.
         """
 
@@ -325,9 +325,9 @@ class Launch(Node):
         """Send requests to a service one after the other.
 
         Args:
-            service: The service's name.
-            requests: Services to call.
-            done: Is given each request with its answer, or with the error why there is none.
+            service: Name of the service.
+            requests: Request messages.
+            done: Function called with each request, and its response or the error of the call.
         """
 
         async def work() -> None:
@@ -341,7 +341,7 @@ class Launch(Node):
         self._start_task(work(), self._watches)
 
     def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
-        """Execute actions after `period` seconds, in the present scope, on behalf of `action`."""
+        """Execute actions of `action` after `period` seconds, in the present scope."""
         kept = self.context.kept()
 
         async def wait() -> None:
@@ -353,12 +353,12 @@ class Launch(Node):
         self._start_task(wait(), self._timers)
 
     def start_node(self, action: Any, executable: Executable, respawn: float | None) -> None:
-        """Start a package's executable.
+        """Start a program of a package, or a file, as a node of the world.
 
         Args:
-            action: Action that started it, for events.
-            executable: Executable or command to start.
-            respawn: After how many seconds it is started again once it has ended; None for never.
+            action: Action that starts the program, for events.
+            executable: Program to start, with its arguments.
+            respawn: Seconds after its end when the program is started again; None for never.
         """
         label = self._label(executable.label)
         self._actions[label] = action
@@ -394,12 +394,12 @@ class Launch(Node):
     def start_process(
         self, action: Any, name: str, command: SystemCommand, respawn: float | None
     ) -> None:
-        """Start a system command; in simulated time it takes no time.
+        """Start a system command; on simulated time, the command takes no time.
 
         Args:
-            action: Action that started it, for events.
-            name: Name in the log, before the number.
-            command: Executable or command to start.
+            action: Action that starts the command, for events.
+            name: Name of the command in log lines, before the number.
+            command: Command to start.
             respawn: As for `start_node`.
         """
         label = self._label(name)
@@ -418,15 +418,15 @@ class Launch(Node):
         self._start(label, start, respawn)
 
     def start_ros2(self, action: Any, words: Sequence[str], respawn: float | None) -> None:
-        """Run `ros2 WORDS` as a program of the world.
+        """Run a command `ros2 WORDS` as a program of the world.
 
         Args:
-            action: Action that started it, for events.
+            action: Action that runs the command, for events.
             words: Words after `ros2`.
             respawn: As for `start_node`.
 
         Raises:
-            UsageError: If the words are no command of ROS 2's that is known here.
+            UsageError: If tftool does not know this command of ROS 2.
         """
         show: list[Callable[[str], object]] = []
         body = ros2.body(words, self.context.workspace, lambda line: show[0](line))
@@ -440,11 +440,11 @@ class Launch(Node):
         body: Callable[[], None],
         respawn: float | None = None,
     ) -> str:
-        """Run a function as a program of the world; return its label.
+        """Run a Python function as a program of the world; return the program's label.
 
         Args:
             action: Action that starts the program, for events.
-            argv: Command line; the first word is the name in the log.
+            argv: Command line of the program; the first word gives its name in log lines.
             body: The function.
             respawn: As for `start_node`.
         """
@@ -547,7 +547,7 @@ class Launch(Node):
         return True
 
     def _guarded(self, work: Callable[[], object]) -> None:
-        """Run something later; an error in it ends the launch."""
+        """Run a function; an exception in it is logged and ends the launch."""
         try:
             work()
         except Exception as error:
@@ -580,7 +580,7 @@ class Launch(Node):
         return f"{name}-{self._count}"
 
     def label_of(self, record: LogRecord) -> str:
-        """Return the label of a process in the log."""
+        """Return the label, for log lines, of the program that a log record comes from."""
         if record.program:
             return record.program
         for node in self.world.nodes:

@@ -1,4 +1,4 @@
-"""launch's events, their handlers, and the queue in which they are handled."""
+"""Events of ROS's launch, their handlers, and the queue in which they are processed."""
 
 import signal
 from collections import deque
@@ -10,13 +10,13 @@ from tftool.base.errors import UsageError
 
 
 class Event:
-    """Something that happened."""
+    """Base of the events that handlers of a launch react to."""
 
     name = "launch.Event"
 
 
 class Shutdown(Event):
-    """Event of the end of the launch."""
+    """Event that the launch is ending."""
 
     name = "launch.events.Shutdown"
 
@@ -26,15 +26,15 @@ class Shutdown(Event):
 
 
 class RunningProcessEvent(Event):
-    """Event about a process.
+    """Base of events about a process.
 
     Attributes:
-        action: Action that started it.
-        process_name: Name in the log.
-        cmd: Command line; empty for a program of the session.
-        cwd: Folder, None for that of the launch.
-        env: Environment, None for that of the launch.
-        pid: Process number, 0 for a program without a process.
+        action: Action that started the process.
+        process_name: Name of the process in log lines.
+        cmd: Command line; empty for a program that runs inside tftool.
+        cwd: Working directory; None for that of the launch.
+        env: Environment variables; None for those of the launch.
+        pid: Process id; 0 for a program without a process of its own.
     """
 
     def __init__(
@@ -56,16 +56,16 @@ class RunningProcessEvent(Event):
 
 
 class ProcessStarted(RunningProcessEvent):
-    """Event of a process's start."""
+    """Event that a process has started."""
 
     name = "launch.events.process.ProcessStarted"
 
 
 class ProcessExited(RunningProcessEvent):
-    """Event of a process's end.
+    """Event that a process has ended.
 
     Attributes:
-        returncode: Exit status.
+        returncode: Exit status of the process.
     """
 
     name = "launch.events.process.ProcessExited"
@@ -76,13 +76,13 @@ class ProcessExited(RunningProcessEvent):
 
 
 class ProcessIO(RunningProcessEvent):
-    """Event of a line written by a process.
+    """Event that a process has written a line.
 
     Attributes:
         text: The line, as bytes.
-        from_stdin: Whether it went to its standard input.
-        from_stdout: Whether the text came from the standard output.
-        from_stderr: Whether the text came from the standard error.
+        from_stdin: Whether the line went to the process's standard input.
+        from_stdout: Whether the line came from the process's standard output.
+        from_stderr: Whether the line came from the process's standard error.
     """
 
     name = "launch.events.process.ProcessIO"
@@ -94,7 +94,7 @@ class ProcessIO(RunningProcessEvent):
 
 
 class ShutdownProcess(Event):
-    """Event that asks processes to end."""
+    """Event that requests some processes to end."""
 
     name = "launch.events.process.ShutdownProcess"
 
@@ -103,10 +103,10 @@ class ShutdownProcess(Event):
 
 
 class SignalProcess(ShutdownProcess):
-    """Event that sends a signal to processes.
+    """Event that requests a signal for some processes.
 
     Attributes:
-        signal: Number.
+        signal: The signal.
     """
 
     name = "launch.events.process.SignalProcess"
@@ -118,17 +118,17 @@ class SignalProcess(ShutdownProcess):
 
     @property
     def signal_name(self) -> str:
-        """Return the signal's name."""
+        """Name of the signal, such as "SIGINT"."""
         return self.signal.name
 
 
 def matches_action(target_action: Any) -> Callable[[Any], bool]:
-    """Return a matcher for one action."""
+    """Return a function that is true for one action only."""
     return lambda action: action is target_action
 
 
 class ExecutionComplete(Event):
-    """Event of an action's completion."""
+    """Event that an action is complete."""
 
     name = "launch.events.ExecutionComplete"
 
@@ -143,16 +143,16 @@ def _entities(given: Any, event: Event, context: Any) -> Any:
 
 
 def _listed(given: Any) -> list[Any]:
-    """Return the entities in what a handler was given; none of a function's."""
+    """Return the actions given to an event handler; [] if a function will return them."""
     found = [given] if hasattr(given, "visit") else given
     return [] if found is None or callable(found) else list(found)
 
 
 class EventHandler:
-    """Does something when a matching event occurs.
+    """Handler that executes actions when a matching event occurs.
 
     Attributes:
-        entities: Entities to execute then, as far as known before.
+        entities: Actions to execute, as far as known before the event.
     """
 
     def __init__(
@@ -168,11 +168,11 @@ class EventHandler:
         self.handle_once = handle_once
 
     def matches(self, event: Event) -> bool:
-        """Whether the handler reacts to this event."""
+        """Return whether the handler reacts to an event."""
         return self._matcher(event)
 
     def handle(self, event: Event, context: Any) -> Any:
-        """Return the next actions, which know the event; a handler for once is removed."""
+        """Return the actions for an event; a handler with `handle_once` is removed."""
         context.extend_locals({"event": event})
         if self.handle_once:
             context.unregister_event_handler(self)
@@ -188,20 +188,21 @@ def _targets(action: Any, target: Any) -> bool:
 
 
 class TargetHandler(EventHandler):
-    """Handler of events of one kind about an action.
+    """Base of handlers that react to one class of events, about one action or all.
 
     Attributes:
-        event: The kind.
-        target: The action, a function that says whether one is meant, or None for any.
+        event: Class of the events.
+        target: Action that the event must be about, a function that accepts an action, or None
+            for every action.
     """
 
     event: type[Any]
 
     def __init__(self, target: Any, entities: Any, **kwargs: Any) -> None:
-        """Handle the events of a target.
+        """Create a handler for the events about a target.
 
         Raises:
-            TypeError: If that is neither an action nor a function that selects actions.
+            TypeError: If the target is neither an action nor a function that accepts actions.
         """
         if not (target is None or callable(target) or hasattr(target, "visit")):
             raise TypeError(
@@ -216,7 +217,7 @@ class TargetHandler(EventHandler):
 
 
 class OnProcessExit(TargetHandler):
-    """Handler of the end of a process."""
+    """Handler of the event that a process has ended."""
 
     event = ProcessExited
 
@@ -225,7 +226,7 @@ class OnProcessExit(TargetHandler):
 
 
 class OnProcessStart(TargetHandler):
-    """Handler of the start of a process."""
+    """Handler of the event that a process has started."""
 
     event = ProcessStarted
 
@@ -234,7 +235,7 @@ class OnProcessStart(TargetHandler):
 
 
 class OnProcessIO(TargetHandler):
-    """Handler of a line written by a process."""
+    """Handler of the event that a process has written a line."""
 
     event = ProcessIO
 
@@ -258,7 +259,7 @@ class OnProcessIO(TargetHandler):
 
 
 class OnExecutionComplete(TargetHandler):
-    """Handler of an action's end: what it started has ended, and is not started again."""
+    """Handler of an action's completion: its process has ended and is not started again."""
 
     event = ExecutionComplete
 
@@ -267,39 +268,39 @@ class OnExecutionComplete(TargetHandler):
 
 
 class OnShutdown(EventHandler):
-    """Handler of the end of the launch."""
+    """Handler of the event that the launch is ending."""
 
     def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
         super().__init__(matcher=lambda e: isinstance(e, Shutdown), entities=on_shutdown, **kwargs)
 
 
 MOST_EVENTS = 1000
-"""How many events may follow from one another at once."""
+"""Number of events that may cause one another before the launch is refused."""
 
 
 class EventQueue:
-    """Queue that delays events while an action is executed.
+    """Queue that holds events back while an action is executed.
 
-    A handler may stand further down in the file than the action whose event it handles.
+    So a handler may come later in the launch file than the action whose events it handles.
     """
 
     def __init__(self, tell: Callable[[Event], object]) -> None:
-        """Make a queue; `tell` passes an event to the matching handlers."""
+        """Create a queue; `tell` passes an event to the matching handlers."""
         self._tell = tell
         self._waiting: deque[Event] = deque()
         self._is_held = False
 
     def add(self, event: Event) -> None:
-        """Queue an event; without a running action it is handled at once."""
+        """Add an event, which is handled at once unless an action is being executed."""
         with self.held():
             self._waiting.append(event)
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Delay events from inside this block until after it.
+        """Hold events back inside this block, and handle them after it.
 
         Raises:
-            UsageError: If the events cause each other without end.
+            UsageError: If the events cause further events without end.
         """
         if self._is_held:
             yield

@@ -1,4 +1,4 @@
-"""launch.frontend: users' own elements and `$(…)` in XML and YAML launch files."""
+"""Registration of users' own elements and `$(…)` for XML and YAML launch files."""
 
 import typing
 from collections.abc import Callable
@@ -12,18 +12,18 @@ from tftool.ros.launch.substitutions import TextSubstitution, is_true
 T = TypeVar("T")
 
 ParseMethod = Callable[["Entity", Any], tuple[Any, dict[str, Any]]]
-"""Returns a callable, and its keywords."""
+"""Parse function of an element; returns a callable and its keyword arguments."""
 
 ACTIONS: dict[str, ParseMethod] = {}
-"""What reads each element of people's own, by its tag."""
+"""Parse functions of users' own elements, by tag."""
 
 
 class Entity:
-    """One element of a launch file.
+    """Element of a launch file, as users' own parse functions see it.
 
     Attributes:
-        type_name: Tag.
-        parent: Enclosing entity, None at the top.
+        type_name: Tag of the element.
+        parent: Enclosing element; None at the top.
     """
 
     def __init__(self, element: Element, parent: "Entity | None" = None) -> None:
@@ -33,7 +33,7 @@ class Entity:
 
     @property
     def children(self) -> list["Entity"]:
-        """Return the child elements."""
+        """Child elements."""
         return [Entity(one, self) for one in self.element.all_inside()]
 
     def get_attr(
@@ -44,7 +44,7 @@ class Entity:
         optional: bool = False,
         can_be_str: bool = True,
     ) -> Any:
-        """Return an attribute; with `List[Entity]`, the child elements of that name.
+        """Return an attribute's value; with `List[Entity]`, the child elements of that name.
 
         Raises:
             AttributeError: If the attribute is missing.
@@ -74,10 +74,10 @@ class Entity:
         return AttributeError(f"{self.element.where}: '{self.type_name}' needs '{name}'")
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse unread attributes and child elements.
+        """Raise an error if an attribute or child element was not read.
 
         Raises:
-            InputError: If there is one.
+            InputError: If an attribute or child element was not read.
         """
         self.element.finish()
 
@@ -93,19 +93,19 @@ def _read(value: Any, data_type: Any) -> Any:
 
 
 def parse_substitution(value: Any) -> list[Any]:
-    """Parse a text with `$(…)` parts into substitutions."""
+    """Parse a text that may contain `$(…)` into a list of substitutions."""
     return parsing.parsed(value, "a text") or [TextSubstitution(text="")]
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """Parse a text into substitutions if it has any; each text of a list."""
+    """Parse a text into substitutions if it contains `$(`; of a list, parse each text."""
     if isinstance(value, list):
         return [parse_if_substitutions(one) for one in value]
     return parse_substitution(value) if isinstance(value, str) and "$(" in value else value
 
 
 def expose_action(name: str) -> Callable[[T], T]:
-    """Decorate a class with a method `parse`, or a function like it, as an element's reader."""
+    """Register the decorated class or function as the parser of an element `name`."""
 
     def expose(exposed: T) -> T:
         ACTIONS[name.replace("-", "_")] = _parser_of(exposed)
@@ -115,7 +115,7 @@ def expose_action(name: str) -> Callable[[T], T]:
 
 
 def expose_substitution(name: str) -> Callable[[T], T]:
-    """Decorate a class with a method `parse`, or a function, as reader of `$(name …)`."""
+    """Register the decorated class or function as the parser of `$(name …)`."""
 
     def expose(exposed: T) -> T:
         read = _parser_of(exposed)

@@ -1,4 +1,4 @@
-"""Loading of launch files: Python, XML or YAML to a description."""
+"""Loading of a launch file in Python, XML or YAML as a launch description."""
 
 import inspect
 import os
@@ -33,14 +33,14 @@ from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
 
 class Parser:
-    """Reads the content of an element."""
+    """Parser with launch's public methods, which users' own elements call."""
 
     @classmethod
     def load(cls, file: Any) -> tuple[exposing.Entity, "Parser"]:
-        """Load an XML or YAML launch file: return its root and its parser.
+        """Read an XML or YAML launch file; return its root element and a parser.
 
         Raises:
-            InputError: If it cannot be read or has another structure, with the line.
+            InputError: If the file cannot be read or is not a launch file; the text gives the line.
         """
         if isinstance(file, str | os.PathLike):
             path, children = Path(file), read(Path(file))
@@ -52,32 +52,32 @@ class Parser:
         return exposing.Entity(Element("launch", str(path), children=children)), cls()
 
     def parse_description(self, entity: exposing.Entity) -> LaunchDescription:
-        """Parse a launch file, given its root."""
+        """Return the launch description of a launch file's root element."""
         return LaunchDescription(actions_of(entity.element.all_inside()))
 
     def parse_substitution(self, value: Any) -> list[Any]:
-        """Parse a text with `$(…)` parts into substitutions."""
+        """Parse a text that may contain `$(…)` into a list of substitutions."""
         return exposing.parse_substitution(value)
 
     def parse_if_substitutions(self, value: Any) -> Any:
-        """Parse a text into substitutions if it has any."""
+        """Parse a text into substitutions if it contains `$(`; else return it unchanged."""
         return exposing.parse_if_substitutions(value)
 
     def parse_action(self, entity: exposing.Entity) -> Any:
-        """Return the action of an element."""
+        """Return the action that an element describes."""
         (action,) = actions_of([entity.element])
         return action
 
     def escape_characters(self, value: str) -> str:
-        """Escape a text so that nothing in it is a substitution."""
+        """Escape a text so that no part of it is read as a substitution."""
         return value.replace("\\", "\\\\").replace("$", "\\$")
 
 
 def actions_of(elements: Iterable[Element]) -> list[Any]:
-    """Return the actions of elements.
+    """Return the actions that elements of a launch file describe.
 
     Raises:
-        InputError: If one has an unknown word, with its line and the nearest known word.
+        InputError: If a tag or attribute is unknown; the text gives the line and the nearest one.
     """
     return [_action(element) for element in elements]
 
@@ -110,7 +110,7 @@ def _condition(element: Element) -> Any:
 
 
 def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
-    """Return the action that a user's code registered for an element."""
+    """Return the action that a user's own parse function makes of an element."""
     try:
         kind, settings = read(exposing.Entity(element), Parser())
         return kind(**settings)
@@ -128,11 +128,11 @@ def _optional(element: Element, name: str, default: Any = None) -> Any:
 
 
 YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
-"""Further words for true and false where ROS reads an attribute as YAML."""
+"""Further words for true and false in attributes that ROS reads as YAML."""
 
 
 def _flag(element: Element, name: str, default: str) -> bool:
-    """Return an attribute needed while reading the file, which cannot be a substitution."""
+    """Return an attribute's truth value, needed at once: a substitution is not allowed."""
     text = str(element.get(name, default))
     if (word := text.strip().lower()) in YAML_FLAGS:
         return YAML_FLAGS[word]
@@ -144,7 +144,7 @@ def _flag(element: Element, name: str, default: str) -> bool:
 
 
 def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
-    """Parse the children of one kind, and refuse unread parts."""
+    """Parse the child elements with some tags, and raise an error for unread parts of them."""
     found = []
     for child in element.inside(*tags):
         found.append(read(child))
@@ -167,7 +167,7 @@ def _arg(element: Element) -> Any:
 
 
 def _startable(element: Element) -> dict[str, Any]:
-    """Parse the attributes that nodes and commands share."""
+    """Return the arguments that elements of nodes and of commands have in common."""
     for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout"):
         element.get(name)
     on_exit = element.get("on_exit")
@@ -238,7 +238,7 @@ def _load_composable_node(element: Element) -> Any:
 
 
 def _words(text: Any, element: Element) -> list[Any]:
-    """Split a command line as a shell does; substitutions stay whole."""
+    """Split a command line into words as a shell does; a substitution is never split."""
     if text is None:
         return []
     words: list[Any] = [[]]
@@ -371,11 +371,11 @@ _READERS: dict[str, Callable[[Element], Any]] = {
     "ros_timer": _timer,
     "log": lambda e: actions.LogInfo(msg=_text(e, "message")),
 }
-"""Readers of the elements that are more than the arguments of their class."""
+"""Parse functions of elements whose attributes are not just the arguments of an action."""
 
 
 def _plain(kind: Any, element: Element) -> Any:
-    """Return an action whose arguments are the attributes of its element."""
+    """Return an action whose arguments are the attributes of the element."""
     given: dict[str, Any] = {}
     for one in inspect.signature(kind).parameters.values():
         if one.kind is not one.VAR_KEYWORD and one.name != "condition":
@@ -386,15 +386,15 @@ def _plain(kind: Any, element: Element) -> Any:
 
 
 MAKES = "generate_launch_description"
-"""The function that a launch file in Python defines."""
+"""Name of the function that a launch file in Python defines."""
 
 
 def load_file(path: Path) -> LaunchDescription:
-    """Return the description in a launch file.
+    """Return the launch description in a launch file.
 
     Raises:
-        InputError: If the file cannot be read, is no launch file, or raises; the user's line is
-            shown.
+        InputError: If the file cannot be read, is no launch file, or its code raises; the text
+            shows the line.
     """
     if path.suffix in (".xml", ".yaml", ".yml"):
         return LaunchDescription(actions_of(read(path)))

@@ -1,4 +1,4 @@
-"""launch_ros's lifecycle nodes: their events and event handlers."""
+"""Lifecycle nodes in launch files (launch_ros): actions, events and event handlers."""
 
 import itertools
 from collections.abc import Callable, Iterable
@@ -26,11 +26,11 @@ _TRANSITIONS = {
     "active_shutdown": 7,
     "destroy": 8,
 }
-"""The transitions' numbers by their labels, as lifecycle_msgs has them."""
+"""Numbers of the lifecycle transitions in lifecycle_msgs, by label."""
 
 
 class ChangeState(Event):
-    """Event that asks a lifecycle node to change its state."""
+    """Event that requests lifecycle nodes to change their state."""
 
     name = "launch_ros.events.lifecycle.ChangeState"
 
@@ -42,7 +42,7 @@ class ChangeState(Event):
 
 
 class StateTransition(Event):
-    """Event of a lifecycle node's change of state."""
+    """Event that a lifecycle node has changed its state."""
 
     name = "launch_ros.events.lifecycle.StateTransition"
 
@@ -62,7 +62,7 @@ class StateTransition(Event):
 
 
 class OnStateTransition(EventHandler):
-    """Handler for a change of state of a lifecycle node."""
+    """Handler of the event that a lifecycle node has changed its state."""
 
     def __init__(
         self,
@@ -87,7 +87,7 @@ class OnStateTransition(EventHandler):
 
 
 class LifecycleNode(Node):
-    """A node that must be configured and activated before it works."""
+    """Action that starts a lifecycle node, which must be configured and activated to work."""
 
     def __init__(
         self, *, name: Any, namespace: Any, autostart: bool = False, **kwargs: Any
@@ -96,7 +96,7 @@ class LifecycleNode(Node):
         self.autostart = autostart
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the node, and subscribe to its transitions."""
+        """Start the node, and emit an event for each change of its state."""
         self._perform_substitutions(context)
         context.launch.handlers.append(
             EventHandler(matcher=self._is_meant, entities=lambda event, _: [self._change(event)])
@@ -122,20 +122,20 @@ class LifecycleNode(Node):
 
 
 def change_state(node: str, transition: int) -> ExecuteProcess:
-    """Return a request for a transition, as `ros2 lifecycle set` makes it."""
+    """Return a process that requests a transition, as `ros2 service call` does."""
     request = f"{{transition: {{id: {transition}}}}}"
     words = ["service", "call", f"{node}/change_state", "lifecycle_msgs/srv/ChangeState", request]
     return ExecuteProcess(cmd=["ros2", *words])
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
-    """Return a matcher for the node of a name."""
+    """Return a function that is true for the action of the node with a name."""
     full = make_namespace_absolute(node_name)
     return lambda action: getattr(action, "node_name", None) == full
 
 
 class LifecycleTransition(Action):
-    """Leads nodes through transitions, one after the other."""
+    """Action that runs a series of transitions of lifecycle nodes."""
 
     def __init__(
         self,
@@ -153,7 +153,7 @@ class LifecycleTransition(Action):
             raise ValueError("a LifecycleTransition needs names of nodes, and transitions")
 
     def execute(self, context: LaunchContext) -> Any:
-        """Request each node's first transition, and each next one when that is done."""
+        """Request each node's first transition, and each further one after the one before it."""
         numbers = [int(perform(context, one)) for one in self.transition_ids]
         for label in self.transition_labels:
             text = perform(context, label)
@@ -176,11 +176,11 @@ class LifecycleTransition(Action):
 
 
 _REACHED = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive"}
-"""The state each transition leads to."""
+"""State that each lifecycle transition leads to, by the transition's number."""
 
 
 class _After(EventHandler):
-    """Handler of the end of a node's transition."""
+    """Handler of the event that a node has finished a certain transition."""
 
     def __init__(self, node: str, transition: int, entities: Any) -> None:
         def matches(event: Event) -> bool:

@@ -1,6 +1,6 @@
-"""launch.logging: loggers for launch files, separate from the process's own.
+"""Loggers of launch.logging for launch files, separate from those of Python's `logging`.
 
-A launch writes no log files, unless a launch file requests a handler for one.
+A launch writes no log files, unless a launch file requests a handler for a file.
 """
 
 import logging
@@ -20,22 +20,22 @@ _FORMATS = {"default": _PLAIN, "default_with_timestamp": "{created:.7f} " + _PLA
 
 
 class _Screen(Handler):
-    """Writer to the present standard output."""
+    """Log handler that writes to the present `sys.stdout`."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Write one line."""
+        """Write one log record as a line."""
         sys.stdout.write(f"{self.format(record)}\n")
 
 
 class LaunchConfig:
-    """Configuration of loggers: level, format, folder."""
+    """Settings of launch's loggers: level, formats and folder of log files."""
 
     def __init__(self) -> None:
         self._files: dict[str, Handler] = {}
         self.reset()
 
     def reset(self) -> None:
-        """Restore the initial state."""
+        """Close all log files, and restore the initial settings."""
         for handler in self._files.values():
             handler.close()
         self.manager = logging.Manager(logging.RootLogger(logging.INFO))
@@ -49,7 +49,7 @@ class LaunchConfig:
 
     @property
     def level(self) -> int:
-        """Level from which lines are logged."""
+        """Lowest level that is logged."""
         return self.manager.root.level
 
     @level.setter
@@ -58,7 +58,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """Folder for log files: the one set, else ROS 2's."""
+        """Folder of log files: the one that was set, else ROS 2's."""
         return self._log_dir or os.path.normpath(get_logging_directory())
 
     @log_dir.setter
@@ -69,7 +69,7 @@ class LaunchConfig:
 
     @property
     def log_handler_factory(self) -> Callable[..., Handler]:
-        """Factory for a file's log handler, from its path."""
+        """Function that makes a log handler for a file from the file's path."""
         return self._factory
 
     @log_handler_factory.setter
@@ -77,11 +77,11 @@ class LaunchConfig:
         self._factory = factory or FileHandler
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Set the format of lines: a name of launch's, or one of Python's, with braces."""
+        """Set the format of lines on the screen: a name of launch's, or a format with braces."""
         self._screen.setFormatter(_formatter(screen_format, screen_style))
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Set the format of lines in files."""
+        """Set the format of lines in log files: a name of launch's, or a format with braces."""
         if log_format == "default":
             # Alone on the screen it is plain.
             _formatter(log_format, log_style)
@@ -91,15 +91,15 @@ class LaunchConfig:
             handler.setFormatter(self._log_format)
 
     def get_screen_handler(self) -> Handler:
-        """Return the handler for the screen."""
+        """Return the log handler that writes to the screen."""
         return self._screen
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
-        """Return the path of a log file."""
+        """Return the path of a log file in the folder of log files."""
         return os.path.join(self.log_dir, file_name)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> Handler:
-        """Return the handler for a file."""
+        """Return the log handler that writes to a file, creating it at the first call."""
         if file_name not in self._files:
             Path(self.log_dir).mkdir(parents=True, exist_ok=True)
             made = self._factory(self.get_log_file_path(file_name), encoding="utf-8")
@@ -109,7 +109,7 @@ class LaunchConfig:
 
 
 def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
-    """Set a format from an environment variable, else launch's own."""
+    """Set a format from an environment variable, or to launch's default."""
     given = os.environ.get(name) or "default"
     try:
         set_format(given)
@@ -130,7 +130,7 @@ launch_config = LaunchConfig()
 
 
 def get_logger(name: str | None = None) -> logging.Logger:
-    """Return a logger that writes to the screen."""
+    """Return launch's logger with a name, which writes to the screen."""
     logger = launch_config.manager.getLogger(name or "launch")
     logger.propagate = False
     logger.addHandler(launch_config.get_screen_handler())
@@ -138,5 +138,5 @@ def get_logger(name: str | None = None) -> logging.Logger:
 
 
 def reset() -> None:
-    """Remove every logger and setting."""
+    """Remove all loggers of launch and restore the initial settings."""
     launch_config.reset()

@@ -1,4 +1,4 @@
-"""launch's substitutions for truth values, and choices by them."""
+"""Substitutions of ROS's launch for truth values: comparisons, and, or, not, if-else."""
 
 import math
 from typing import Any, ClassVar
@@ -14,7 +14,7 @@ def _holds(context: LaunchContext, value: Any) -> bool:
     """Return whether a text means true.
 
     Raises:
-        SubstitutionFailure: If the text is neither true nor false.
+        SubstitutionFailure: If the text means neither true nor false.
     """
     try:
         return is_true(perform(context, value))
@@ -23,13 +23,13 @@ def _holds(context: LaunchContext, value: Any) -> bool:
 
 
 class EqualsSubstitution(Substitution):
-    """Whether two texts are equal; numbers compare as numbers, truths as truths."""
+    """Substitution for whether two texts are equal; numbers and truth values compare by value."""
 
     def __init__(self, left: Any, right: Any) -> None:
         self.left, self.right = left, right
 
     def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
+        """Return 'true' if the two texts are equal, else 'false'."""
         left, right = perform(context, self.left), perform(context, self.right)
         try:
             equal = math.isclose(float(left), float(right))
@@ -41,15 +41,15 @@ class EqualsSubstitution(Substitution):
 
 
 class NotEqualsSubstitution(EqualsSubstitution):
-    """Whether two texts differ."""
+    """Substitution for whether two texts differ."""
 
     def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
+        """Return 'true' if the two texts differ, else 'false'."""
         return str(super().perform(context) == "false").lower()
 
 
 class _Several(Substitution):
-    """Judgement of several truths."""
+    """Base of substitutions that combine several truth values."""
 
     judge: ClassVar[Any]
 
@@ -57,18 +57,18 @@ class _Several(Substitution):
         self.args = args
 
     def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'; as in ROS 2 all are evaluated."""
+        """Return 'true' or 'false'; as in ROS 2, all values are evaluated."""
         return str(self.judge([_holds(context, value) for value in self.args])).lower()
 
 
 class AnySubstitution(_Several):
-    """Whether one of several is true."""
+    """Substitution for whether at least one of several texts means true."""
 
     judge = any
 
 
 class AllSubstitution(_Several):
-    """Whether all of several are true."""
+    """Substitution for whether all of several texts mean true."""
 
     judge = all
 
@@ -80,43 +80,43 @@ class _Both(_Several):
 
 
 class AndSubstitution(_Both):
-    """Whether both are true."""
+    """Substitution for whether both of two texts mean true."""
 
     judge = all
 
 
 class OrSubstitution(_Both):
-    """Whether one is true."""
+    """Substitution for whether at least one of two texts means true."""
 
     judge = any
 
 
 class NotSubstitution(Substitution):
-    """Whether something is false."""
+    """Substitution for whether a text means false."""
 
     def __init__(self, value: Any) -> None:
         self.value = value
 
     def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
+        """Return 'true' if the text means false, else 'false'."""
         return str(not _holds(context, self.value)).lower()
 
 
 class IfElseSubstitution(Substitution):
-    """One text or another."""
+    """Substitution for one of two texts, chosen by a condition."""
 
     def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        """Make a choice by a condition.
+        """Create the choice between two texts, of which one may be missing.
 
         Raises:
-            RuntimeError: If there is nothing to choose.
+            RuntimeError: If both texts are missing.
         """
         if not if_value and not else_value:
             raise RuntimeError("an IfElseSubstitution needs an if_value or an else_value")
         self.condition, self.if_value, self.else_value = condition, if_value, else_value
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the chosen text."""
+        """Evaluate the condition; return the text for true or the text for false."""
         word = perform(context, self.condition).strip().lower()
         chosen = _holds(
             context, {"on": "true", "yes": "true", "off": "false", "no": "false"}.get(word, word)

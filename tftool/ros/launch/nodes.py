@@ -1,4 +1,4 @@
-"""launch_ros's Node."""
+"""Action of launch_ros that starts a node."""
 
 import shlex
 import shutil
@@ -23,12 +23,13 @@ from tftool.ros.launch.substitutions import Substitution, perform
 
 
 class Node(Startable):
-    """A node: a package's executable, or a file.
+    """Action that starts a node: a program of a package, or a file.
 
     Attributes:
-        node_name: Full name, known when the launch runs.
-        expanded_node_namespace: Namespace then; "" where none was given.
-        expanded_remapping_rules: Remappings of the node and its scope once started; None before.
+        node_name: Full name of the node, known when the launch runs.
+        expanded_node_namespace: Namespace when the launch runs; "" if none was given.
+        expanded_remapping_rules: Remappings of the node and its scope, once it is started; None
+            before.
     """
 
     UNSPECIFIED_NODE_NAME: Final = "<node_name_unspecified>"
@@ -52,11 +53,11 @@ class Node(Startable):
         shell: Any = False,
         **kwargs: Any,
     ) -> None:
-        """Declare the program to start.
+        """Describe the program to start, its name, namespace, parameters and remappings.
 
         Raises:
-            TypeError: If the parameters are no list of mappings and files, or the remappings
-                no list of pairs.
+            TypeError: If the parameters are not a list of mappings and files, or the remappings
+                not a list of pairs.
         """
         super().__init__(**kwargs)
         self.package, self.executable = package, executable
@@ -72,22 +73,22 @@ class Node(Startable):
 
     @property
     def node_package(self) -> Any:
-        """Package of the node."""
+        """Package of the node, as given."""
         return self.package
 
     @property
     def node_executable(self) -> Any:
-        """Executable of the node."""
+        """Executable of the node, as given."""
         return self.executable
 
     def is_node_name_fully_specified(self) -> bool:
-        """Whether the launch knows both its name and its namespace."""
+        """Return whether both the name and the namespace of the node are known."""
         return bool(self.expanded_node_namespace) and (
             self.UNSPECIFIED_NODE_NAME not in self.node_name
         )
 
     def _perform_substitutions(self, context: LaunchContext) -> None:
-        """Evaluate name, namespace and remappings, as subclasses expect."""
+        """Evaluate name, namespace and remappings; users' subclasses call this method."""
         name = self.UNSPECIFIED_NODE_NAME
         if self.name is not None:
             name = perform(context, self.name)
@@ -98,7 +99,7 @@ class Node(Startable):
         self.expanded_remapping_rules = remaps_in(context, self.remappings)
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the node."""
+        """Evaluate the node's settings, and start its program."""
         self._perform_substitutions(context)
         options, _ = names.parse(
             ["--ros-args", *(perform(context, one) for one in self.ros_arguments)]
@@ -142,10 +143,10 @@ class Node(Startable):
 
 
 def python_file(executable: str) -> str:
-    """Return the file of a node without a package, searched as a shell does.
+    """Return the Python file of a node without a package, searched as a shell does.
 
     Raises:
-        UsageError: If there is none, or it is not valid Python.
+        UsageError: If there is no such file, or it is not a Python program.
     """
     found = shutil.which(executable) or executable
     try:
@@ -161,7 +162,7 @@ def python_file(executable: str) -> str:
 
 
 def _listed(given: Any) -> list[Any]:
-    """Return a list of words; a single text is split as a shell would."""
+    """Return words as a list; a single text is split as a shell does."""
     if given is None:
         return []
     if isinstance(given, str):

@@ -1,4 +1,4 @@
-"""ament_index_python: paths of packages."""
+"""Functions of ament_index_python that return the paths of packages."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ class PackageNotFoundError(KeyError):
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """Return a package's share directory: in a workspace, its sources.
+    """Return a package's share directory; in a workspace, that is its source folder.
 
     Raises:
         PackageNotFoundError: If there is no such package.
@@ -28,32 +28,32 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
-    """Return the share directory as a Path."""
+    """Return a package's share directory as a Path."""
     return Path(get_package_share_directory(package_name))
 
 
 def get_package_prefix(package_name: str) -> str:
-    """Return a package's prefix; without an installation, the same folder."""
+    """Return a package's install prefix; nothing is installed, so it is the share directory."""
     return get_package_share_directory(package_name)
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
-    """Return every package and its folder."""
+    """Return the folder of every known package, by name."""
     return {name: str(package.path) for name, package in current().packages.items()}
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """Return every resource of a type with its prefix; packages are the only type known here."""
+    """Return the resources of a type with their prefixes; only type "packages" has any."""
     return get_packages_with_prefixes() if resource_type == "packages" else {}
 
 
 def has_resource(resource_type: str, resource_name: str) -> str | None:
-    """Return the prefix that holds a resource; None if there is none."""
+    """Return the prefix that contains a resource; None if there is no such resource."""
     return get_resources(resource_type).get(resource_name)
 
 
 def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
-    """Return a resource's content, which is empty for a package, and its prefix.
+    """Return the content of a resource, which is always empty, and its prefix.
 
     Raises:
         LookupError: If there is no such resource.

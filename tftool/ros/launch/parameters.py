@@ -1,4 +1,4 @@
-"""launch_ros's parameters: typed values, names with values, files."""
+"""Parameters of nodes in launch files: typed values, mappings and parameter files."""
 
 import os
 import tempfile
@@ -18,17 +18,17 @@ _SINGLE = (str, int, float, bool)
 
 
 class BadParameterError(UsageError, TypeError):
-    """Error for a value that no parameter can have, found during the launch."""
+    """Error for a value, found during the launch, that no parameter can have."""
 
 
 class ParameterValue:
-    """A parameter's value with a given type."""
+    """Value of a parameter, with the type that it must have."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        """Take a value, or texts only known during the launch.
+        """Store a value, or substitutions that the launch evaluates later.
 
         Raises:
-            TypeError: If a plain value has another type.
+            TypeError: If the value is no substitution and not of the given type.
         """
         self.value_type = value_type
         # A list of texts is one text where one value is wanted.
@@ -41,10 +41,10 @@ class ParameterValue:
             raise TypeError(f"a parameter's value must be {shown}, not {value!r}")
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """Return the value.
+        """Return the value, with substitutions evaluated.
 
         Raises:
-            ValueError: If the value is not of that type.
+            ValueError: If the value is not of the given type.
         """
         if _is_text(self.value):
             self.value = _typed(perform(context, self.value), self.value_type)
@@ -56,7 +56,7 @@ class ParameterValue:
 
 
 class ParameterDescription:
-    """A parameter: its name and value."""
+    """Name and value of one parameter in a launch file."""
 
     def __init__(self, name: Any, value: Any, *, value_type: Any = None) -> None:
         self.name: Any = normalize_to_list_of_substitutions(name)
@@ -64,16 +64,16 @@ class ParameterDescription:
 
     @property
     def value(self) -> Any:
-        """Value of the parameter."""
+        """Value of the parameter, or substitutions for it."""
         return self._value.value
 
     @property
     def value_type(self) -> Any:
-        """The type of its value."""
+        """Type that the value must have; None for any."""
         return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Return name and value of the parameter.
+        """Return name and value of the parameter, with substitutions evaluated.
 
         Raises:
             ValueError: If the value is not of its type.
@@ -97,10 +97,10 @@ class ParameterFile:
         self._made: Path | None = None
 
     def read(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
-        """Return the parameters in the file: (node, name, value).
+        """Read the file; return (node, name, value) of each parameter.
 
         Raises:
-            InputError: If it cannot be read, or is laid out otherwise.
+            InputError: If the file cannot be read, or is not a parameter file.
         """
         path = Path(perform(context, self._given))
         if not is_true(perform(context, self.allow_substs)):
@@ -108,7 +108,7 @@ class ParameterFile:
         return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the path of a file with all `$(…)` replaced: of a copy, if there may be any.
+        """Return the file's path; with `allow_substs`, that of a copy with `$(…)` replaced.
 
         Raises:
             InputError: If a `$(…)` is not known.
@@ -124,17 +124,17 @@ class ParameterFile:
         return path
 
     def cleanup(self) -> None:
-        """Delete the copy."""
+        """Delete the copy that `evaluate` made, if any."""
         if self._made is not None:
             self._made.unlink(missing_ok=True)
             self._made, self.param_file = None, self._given
 
 
 def normalize_parameters(parameters: Any) -> list[Any]:
-    """Normalise a node's parameters: mappings from dotted names to values, and files.
+    """Check a node's parameters, and convert each mapping to one with dotted names.
 
     Raises:
-        TypeError: If the argument is no list, or an item can be no parameter.
+        TypeError: If the argument is not a list, or an item is not a mapping or a file.
     """
     if not isinstance(parameters, Sequence) or isinstance(parameters, str | bytes):
         raise TypeError(f"a node's parameters are a list of mappings and files, not {parameters!r}")
@@ -150,10 +150,10 @@ def normalize_parameters(parameters: Any) -> list[Any]:
 
 
 def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], Any]:
-    """Flatten a mapping of parameters: the texts of a dotted name, and its value.
+    """Flatten nested mappings of parameters: from the parts of a dotted name to its value.
 
     Raises:
-        TypeError: If a name is not a string, or a value can be no parameter's.
+        TypeError: If a name is not a string, or no parameter can have a value.
     """
     if not isinstance(parameters, Mapping):
         raise TypeError(f"parameters are a mapping from names to values, not {parameters!r}")
@@ -186,7 +186,7 @@ def _normalized(value: Any) -> Any:
 
 
 def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Any, ...]:
-    """Evaluate normalized parameters: mappings from names to values, and paths.
+    """Evaluate the substitutions in normalised parameters; return mappings and file paths.
 
     Raises:
         TypeError: If a text gives a value that no parameter can have.
@@ -206,7 +206,7 @@ def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tu
 def evaluate_parameter_dict(
     context: LaunchContext, parameters: Mapping[Any, Any]
 ) -> dict[str, Any]:
-    """Evaluate a normalized mapping of parameters.
+    """Evaluate the substitutions in a normalised mapping of parameters.
 
     Raises:
         TypeError: If a text gives a value that no parameter can have.
@@ -236,7 +236,7 @@ def _evaluated(context: LaunchContext, value: Any) -> Any:
 
 
 def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, str, Any]]:
-    """Return what normalized parameters set: (node, name, value)."""
+    """Return (node, name, value) of all parameters in normalised mappings and files."""
     found: list[tuple[str, str, Any]] = []
     for one in given:
         if isinstance(one, ParameterFile):
@@ -253,7 +253,7 @@ def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, st
 
 
 def _typed(text: str, kind: Any) -> Any:
-    """Parse a text as some type; None allows any type of a parameter."""
+    """Parse a text as a value of a type; None allows every type of a parameter."""
     if kind is str:
         return text
     value = names.strict_yaml_value(text)
@@ -305,7 +305,7 @@ def _parts_of(value: Any) -> list[Substitution]:
 
 
 def _is_text(value: Any) -> bool:
-    """Whether a value is a text that only the launch can evaluate."""
+    """Return whether a value contains substitutions that only the launch can evaluate."""
     if isinstance(value, Substitution):
         return True
     return _is_parts(value) and any(isinstance(one, Substitution) for one in value)
@@ -320,5 +320,5 @@ def _is_parts(value: Any) -> bool:
 
 
 def _holds_texts(value: Any) -> bool:
-    """Whether some items of a list are only known during the launch."""
+    """Return whether some items of a list are substitutions."""
     return isinstance(value, list | tuple) and any(_is_text(one) for one in value)

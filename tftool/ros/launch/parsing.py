@@ -1,4 +1,4 @@
-"""Parser of texts in XML and YAML launch files: `$(var name)`, `$(find-pkg-share pkg)`, nested."""
+"""Parser of texts in XML and YAML launch files, which may contain `$(var name)` and the like."""
 
 import inspect
 from collections.abc import Callable, Iterable
@@ -14,10 +14,10 @@ from tftool.ros.launch.substitutions import PythonExpression, TextSubstitution
 
 
 def parsed(text: Any, where: str) -> list[Any]:
-    """Parse a text with `$(…)` parts into substitutions.
+    """Parse a text that may contain `$(…)` into a list of substitutions.
 
     Raises:
-        InputError: If a part is not closed or not known, or there are too many.
+        InputError: If a `$(…)` is not closed or not known, or there are too many.
     """
     if str(text).count("$(") > DEEPEST:
         raise InputError(f"{where}: one text can have at most {DEEPEST} '$(…)'")
@@ -28,15 +28,15 @@ def parsed(text: Any, where: str) -> list[Any]:
 
 
 class _Quoted(list[Any]):
-    """A quoted word."""
+    """Parts of a word that is in quotes."""
 
 
 _ESCAPED = tuple("$()'\"\\")
-"""What a backslash before it makes an ordinary character."""
+"""Characters with a special meaning, which a backslash before them removes."""
 
 
 def _end_of_quote(text: str, start: int) -> int:
-    """Return the end of the quote that begins at `start`; -1 if there is none."""
+    """Return the index of the quote that closes the quote at `start`; -1 if there is none."""
     at = start + 1
     while at < len(text) and text[at] != text[start]:
         at += 2 if text[at] == "\\" else 1
@@ -68,7 +68,7 @@ def _parse(text: str, start: int, where: str, *, closing: bool) -> tuple[list[An
 
 
 def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
-    """Parse one `$(name argument argument)`, after its bracket."""
+    """Parse one `$(name argument argument)` from after its opening bracket; return its end too."""
     words: list[list[Any]] = []
     at = start
     while at < len(text) and text[at] != ")":
@@ -104,14 +104,14 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
 
 
 def _made(kind: Any, *words: list[Any]) -> Any:
-    """Make a substitution of a class; words are its arguments in order, by name where necessary."""
+    """Create a substitution of a class, with the words as its arguments in order."""
     pairs = zip(inspect.signature(kind).parameters.values(), words, strict=False)
     named = {one.name: word for one, word in pairs if one.kind is one.KEYWORD_ONLY}
     return kind(*words[: len(words) - len(named)], **named)
 
 
 def _expression(*words: list[Any]) -> PythonExpression:
-    """Return `$(eval …)`: an expression; of two in quotes, the second lists modules."""
+    """Return the substitution for `$(eval …)`; a second quoted text lists modules to import."""
     if len(words) == 2 and all(isinstance(word, _Quoted) for word in words):
         plain = "".join(part.text for part in words[1] if isinstance(part, TextSubstitution))
         modules = [name.strip() for name in plain.split(",") if name.strip()]
@@ -127,4 +127,4 @@ def _spaced(words: Iterable[list[Any]]) -> list[Any]:
 
 
 EXPOSED: dict[str, Callable[..., Any]] = {"eval": _expression}
-"""Makers of substitutions that are more than an object of their class, and of users' own."""
+"""Functions that create substitutions by tag: special ones, and users' own."""

@@ -1,4 +1,4 @@
-"""launch's actions that start processes."""
+"""Actions of ROS's launch that start processes."""
 
 import itertools
 import re
@@ -20,27 +20,27 @@ from tftool.ros.launch.substitutions import ROS2, is_true, perform
 SHELLS = ("sh", "bash", "dash", "zsh")
 
 _PYTHON_FLAG = re.compile(r"-[bBdEiIOPqsSuv]+")
-"""Flags of Python that take no value."""
+"""Flags of the Python interpreter that have no value."""
 
 _IMPORT = re.compile(
     r"^\s*(?:from|import)\s+(?P<module>[\w.]+)(?:\s+import\s+(?P<name>\w+))?", re.M
 )
 
 LONGEST = 1e9
-"""How many seconds something may wait: about thirty years."""
+"""Longest allowed delay in seconds, about thirty years."""
 
 
 @dataclass(frozen=True, slots=True)
 class Executable:
-    """An executable ready to start.
+    """Program of a package or file, ready to start.
 
     Attributes:
-        package: Package; None for a file.
-        name: Name there, or the file.
-        arguments: Own arguments.
-        options: ROS 2's.
-        label: Its name in the log, before its number.
-        argv: Command line, if that is not the one that launch_ros gives a node.
+        package: Name of the package; None for a file.
+        name: Name of the program in the package, or path of the file.
+        arguments: The program's arguments, without those of ROS.
+        options: Options after `--ros-args`.
+        label: Name of the program in log lines, before its number.
+        argv: Command line; None for the one that launch_ros gives a node.
     """
 
     package: str | None
@@ -64,13 +64,13 @@ class Executable:
 
 
 class Startable(Action):
-    """Action that starts something, which ends some time and may be restarted.
+    """Base of actions that start a process, which may be started again after its end.
 
     Attributes:
-        process_details: Name in the log and command line, once started; None before.
+        process_details: Name in log lines and command line, once started; None before.
         return_code: Exit status, once ended; None before.
-        output_lines: With `cached_output`, the lines it has written, each with whether it
-            wrote it to its standard output.
+        output_lines: With `cached_output`, the lines that the process has written, each with
+            whether it came from the standard output.
     """
 
     takes_time: ClassVar[bool] = True
@@ -98,36 +98,36 @@ class Startable(Action):
         self.respawn, self.respawn_delay = respawn, respawn_delay
 
     def get_stdout(self) -> str:
-        """Return the process's standard output so far, if `cached_output` is set."""
+        """Return the standard output so far, if `cached_output` is set; else ""."""
         return "".join(line for is_stdout, line in self.output_lines if is_stdout)
 
     def get_stderr(self) -> str:
-        """Return the process's standard error so far, if `cached_output` is set."""
+        """Return the standard error so far, if `cached_output` is set; else ""."""
         return "".join(line for is_stdout, line in self.output_lines if not is_stdout)
 
     def get_output(self) -> str:
-        """Return all that it has written, with `cached_output`."""
+        """Return standard output and error so far, if `cached_output` is set; else ""."""
         return "".join(line for _, line in self.output_lines)
 
     def handle_exit(self, context: LaunchContext) -> None:
-        """Handle the end of the process."""
+        """Register the actions given as `on_exit` for the end of the process."""
         if self.on_exit is not None:
             context.launch.handlers.append(
                 OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
             )
 
     def respawn_after(self, context: LaunchContext) -> float | None:
-        """Return the delay of its restart in seconds; None for no restart.
+        """Return the delay in seconds before the process is started again; None for never.
 
         Raises:
-            UsageError: If that is not a number.
+            UsageError: If the delay is not a number.
         """
         if not is_true(perform(context, self.respawn)):
             return None
         return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
 
     def say_unused(self, context: LaunchContext, *names: str) -> None:
-        """Report arguments without an effect here."""
+        """Log a warning for given arguments of the action that have no effect here."""
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
             verb = "has" if len(given) == 1 else "have"
@@ -136,10 +136,10 @@ class Startable(Action):
 
 
 def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
-    """Parse a number of seconds.
+    """Evaluate a duration in seconds.
 
     Raises:
-        UsageError: If the value is no duration.
+        UsageError: If the value is not a number of seconds; the text names it by `what`.
     """
     text = perform(context, value)
     try:
@@ -152,7 +152,7 @@ def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
 
 
 class ExecuteProcess(Startable):
-    """A system command."""
+    """Action that runs a system command."""
 
     def __init__(
         self,
@@ -172,7 +172,7 @@ class ExecuteProcess(Startable):
         self.shell = shell
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the process."""
+        """Start the command; a Python program that uses rclpy runs inside tftool."""
         words = [perform(context, word) for word in self.cmd]
         if not words or not words[0].strip():
             raise UsageError("ExecuteProcess is given no command")
@@ -210,7 +210,7 @@ class ExecuteProcess(Startable):
         return None
 
     def _execute_ros2(self, context: LaunchContext, words: Sequence[str]) -> Any:
-        """Run `ros2 WORDS` without a process: start a node, or query the session."""
+        """Run `ros2 WORDS` inside tftool: start a node, or run another command of ROS 2."""
         if words[:1] == ["run"] and len(words) > 2:
             options, arguments = names.parse(words[3:])
             options.namespace = options.namespace or context.launch_configurations.get(
@@ -228,7 +228,7 @@ class ExecuteProcess(Startable):
 
 
 def _plain_words(words: Sequence[str], shell: bool) -> list[str]:
-    """Return the words of one command, even as a shell splits them; none of a shell's script."""
+    """Return the words of a single command, split as a shell does; [] for a shell script."""
     if not shell and len(words) == 3 and words[1] == "-c" and Path(words[0]).name in SHELLS:
         words, shell = words[2:], True
     if shell:
@@ -244,22 +244,22 @@ def _plain_words(words: Sequence[str], shell: bool) -> list[str]:
 
 
 def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
-    """Return the words after `ros2` in a command; None for others and for shell scripts."""
+    """Return the words after `ros2` in a command; None for other commands."""
     words = _plain_words(words, shell)
     return words[1:] if words and Path(words[0]).name == ROS2 else None
 
 
 def is_python(word: str) -> bool:
-    """Whether a command is a Python interpreter."""
+    """Return whether a command is a Python interpreter."""
     return re.fullmatch(r"python(3(\.\d+)?)?", Path(word).name) is not None
 
 
 def _rclpy_program(
     words: Sequence[str], shell: bool, cwd: str | None, context: LaunchContext
 ) -> tuple[Path, list[str]] | None:
-    """Return the file of a Python command that uses rclpy, with its argv; None for others.
+    """Return file and arguments of a Python command that uses rclpy; None for other commands.
 
-    That is `python3 FILE …` or `python3 -m MODULE …`, after flags of Python's.
+    Such a command is `python3 FILE …` or `python3 -m MODULE …`, with or without flags of Python.
     """
     words = _plain_words(words, shell)
     if not words or not is_python(words[0]):
@@ -278,7 +278,7 @@ def _rclpy_program(
 
 
 def _module_files(module: str, roots: Iterable[Path]) -> Iterator[Path]:
-    """Yield the files that a module may be."""
+    """Yield the existing files that a module's name can mean below some folders."""
     for root in roots:
         place = root.joinpath(*module.split("."))
         for file in (place.with_name(f"{place.name}.py"), place / "__init__.py"):
@@ -287,7 +287,7 @@ def _module_files(module: str, roots: Iterable[Path]) -> Iterator[Path]:
 
 
 def _uses_rclpy(file: Path, roots: Sequence[Path], seen: set[Path]) -> bool:
-    """Whether a file imports rclpy, itself or by another file below `roots`."""
+    """Return whether a file, or a file below `roots` that it imports, mentions rclpy."""
     if file in seen:
         return False
     seen.add(file)
@@ -304,6 +304,6 @@ def _uses_rclpy(file: Path, roots: Sequence[Path], seen: set[Path]) -> bool:
 
 
 def _texts(context: LaunchContext, given: Any) -> dict[str, str]:
-    """Return environment variables from a mapping or pairs."""
+    """Evaluate environment variables, given as a mapping or as pairs."""
     pairs = given.items() if isinstance(given, Mapping) else given
     return {perform(context, key): perform(context, value) for key, value in pairs}

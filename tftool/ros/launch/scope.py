@@ -1,6 +1,6 @@
-"""Settings for all of launch_ros's nodes in a scope: namespace, remappings, parameters.
+"""Settings for all nodes started in a scope of a launch file: namespace, remappings, parameters.
 
-As in ROS 2 they are kept among the launch configurations, where a scope begins and ends them.
+As in ROS 2 these settings are stored among the launch arguments, which end with the scope.
 """
 
 from collections.abc import Iterable
@@ -18,22 +18,22 @@ _NAMESPACE, _REMAPS, _PARAMETERS = "ros_namespace", "ros_remaps", "global_params
 
 
 def is_namespace_absolute(ns: str) -> bool:
-    """Whether a namespace begins at the root."""
+    """Return whether a namespace begins with a slash."""
     return ns.startswith("/")
 
 
 def is_root_namespace(ns: str) -> bool:
-    """Whether a namespace is the root."""
+    """Return whether a namespace is the root, "/"."""
     return ns == "/"
 
 
 def make_namespace_absolute(ns: str | None) -> str | None:
-    """Return the absolute namespace; None stays None."""
+    """Return a namespace with a leading slash; None stays None."""
     return ns if ns is None or is_namespace_absolute(ns) else f"/{ns}"
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """Return a namespace inside another; None means not given."""
+    """Join two namespaces, unless the second is absolute; None means not given."""
     if base_ns is None or ns is None:
         joined = base_ns if ns is None else ns
     elif is_namespace_absolute(ns) or not base_ns:
@@ -44,14 +44,14 @@ def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
 
 
 def namespace_in(context: LaunchContext, own: Any) -> str | None:
-    """Return the absolute namespace of a node in the scope; None if none was given.
+    """Return the absolute namespace for a node in the current scope; None if none was given.
 
     Args:
-        context: The scope.
-        own: Namespace of the node itself, or None.
+        context: State of the launch, with the scope's settings.
+        own: Namespace given for the node itself, or None.
 
     Raises:
-        UsageError: If the text is not a namespace.
+        UsageError: If ROS 2 does not accept the namespace.
     """
     given = None if own is None else perform(context, own)
     base = context.launch_configurations.get(_NAMESPACE)
@@ -62,7 +62,7 @@ def namespace_in(context: LaunchContext, own: Any) -> str | None:
 
 
 def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
-    """Return a remapping as two lists of substitutions.
+    """Convert a remapping, a pair of texts, to a pair of lists of substitutions.
 
     Raises:
         TypeError: If the rule is not a pair.
@@ -74,16 +74,16 @@ def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
 
 
 def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any]]:
-    """Return each remapping as two lists of substitutions.
+    """Convert remappings, pairs of texts, to pairs of lists of substitutions.
 
     Raises:
-        TypeError: If one is not a pair.
+        TypeError: If a rule is not a pair.
     """
     return (normalize_remap_rule(rule) for rule in remap_rules)
 
 
 def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tuple[str, str]]:
-    """Return the remappings for a node in the scope; the first match counts."""
+    """Return the remappings for a node in the current scope; the first match applies."""
     return [
         *_kept(context, _REMAPS),
         *((perform(context, old), perform(context, new)) for old, new in own),
@@ -91,7 +91,7 @@ def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tu
 
 
 def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
-    """Return the scope's parameters: (node, name, value); "" means every node."""
+    """Return the scope's parameters as (node, name, value); node "" means every node."""
     found: list[tuple[str, str, Any]] = []
     for kept in _kept(context, _PARAMETERS):
         if isinstance(kept, str):
@@ -102,12 +102,12 @@ def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
 
 
 def add_node_name(context: LaunchContext, node_name: str) -> None:
-    """Count a node's full name."""
+    """Count one more node that was started with a full name."""
     context.node_names[node_name] += 1
 
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
-    """Return how many nodes of a full name were started."""
+    """Return how many nodes were started with a full name."""
     return context.node_names[node_name]
 
 
@@ -128,37 +128,37 @@ def _keep(context: LaunchContext, name: str, *more: Any) -> None:
 
 
 class PushRosNamespace(Action):
-    """Moves the scope's nodes into a namespace."""
+    """Action that sets a namespace for the nodes started later in the scope."""
 
     def __init__(self, namespace: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.namespace = namespace
 
     def execute(self, context: LaunchContext) -> Any:
-        """Enter the namespace."""
+        """Set the scope's namespace, inside the present one."""
         namespace = namespace_in(context, self.namespace)
         if namespace is not None:
             context.launch_configurations[_NAMESPACE] = namespace
 
 
 class SetRemap(Action):
-    """Remaps a topic for all nodes of the scope."""
+    """Action that adds a remapping for the nodes started later in the scope."""
 
     def __init__(self, src: Any, dst: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.src, self.dst = src, dst
 
     def execute(self, context: LaunchContext) -> Any:
-        """Add the remapping."""
+        """Add the remapping to the scope."""
         _keep(context, _REMAPS, (perform(context, self.src), perform(context, self.dst)))
 
 
 class SetParameter(Action):
-    """Sets a parameter for all nodes of the scope.
+    """Action that sets a parameter for the nodes started later in the scope.
 
     Attributes:
-        name: Name: texts.
-        value: Value, or texts.
+        name: Name of the parameter, as substitutions.
+        value: Value of the parameter, or substitutions for it.
     """
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
@@ -168,7 +168,7 @@ class SetParameter(Action):
         self.name = list(key)
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the parameter."""
+        """Set the parameter in the scope."""
         found = read_all(context, [self._normalized])
         _keep(context, _PARAMETERS, *((name, value) for _, name, value in found))
 
@@ -178,21 +178,21 @@ def _hashable(name: Any) -> Any:
 
 
 class SetUseSimTime(SetParameter):
-    """Sets use_sim_time for all nodes of the scope."""
+    """Action that sets the parameter use_sim_time for the nodes started later in the scope."""
 
     def __init__(self, value: Any, **kwargs: Any) -> None:
         super().__init__("use_sim_time", value, **kwargs)
 
 
 class SetParametersFromFile(Action):
-    """Sets the parameters in a file, for all nodes of the scope or one."""
+    """Action that sets the parameters of a file, for one node or all in the scope."""
 
     def __init__(self, filename: Any, node_name: Any = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.filename, self.node_name = filename, node_name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the parameters, for one node or for those named in the file."""
+        """Set the file's parameters in the scope, for one node or those that the file names."""
         path = perform(context, self.filename)
         if self.node_name is None:
             _keep(context, _PARAMETERS, path)
@@ -203,16 +203,16 @@ class SetParametersFromFile(Action):
 
 
 class ParameterSubstitution(Substitution):
-    """Value of a parameter in the scope."""
+    """Substitution for the value of a parameter that the scope sets."""
 
     def __init__(self, name: Any, *, default: Any = None) -> None:
         self.name, self.default = name, default
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the present value.
+        """Return the parameter's present value in the scope, or the default.
 
         Raises:
-            SubstitutionFailure: If the scope sets none, and there is no default.
+            SubstitutionFailure: If the scope does not set it, and there is no default.
         """
         name = perform(context, self.name)
         for node, set_name, value in reversed(parameters_in(context)):

@@ -1,4 +1,4 @@
-"""launch's LaunchService: a launch run by a program itself."""
+"""Class LaunchService of ROS's launch, with which a program runs a launch itself."""
 
 import asyncio
 import sys
@@ -16,10 +16,10 @@ from tftool.ros.launch.events import Event
 
 
 class LaunchService:
-    """Runs launch descriptions as the program that made it.
+    """Service that runs launch descriptions inside the program that created it.
 
     Attributes:
-        errors: Sentences about faults of the launch itself, and of its processes.
+        errors: Sentences about errors of the launch itself and of its processes.
     """
 
     def __init__(
@@ -33,7 +33,7 @@ class LaunchService:
         self.errors: list[str] = []
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Add a description, which is executed when it runs; at once if it runs already."""
+        """Add a launch description; it is executed with the others, or at once during a run."""
         launch = self._launch
         if launch is None or self._owner is None:
             self._entities.append(launch_description)
@@ -41,7 +41,7 @@ class LaunchService:
             self._owner.ask(lambda: launch.do([launch_description]))
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Launch, and block until everything has ended.
+        """Execute the descriptions, and block until everything has ended.
 
         Returns:
             0, or 1 if something failed.
@@ -50,7 +50,7 @@ class LaunchService:
         return self.wait()
 
     def wait(self) -> int:
-        """Block until a launch that was begun has ended; return as `run` does."""
+        """Block until a launch started by `begin` has ended; return 0, or 1 if something failed."""
         launch = self._launch
         if launch is None:
             return 0
@@ -58,10 +58,10 @@ class LaunchService:
         return int(bool(launch.failed))
 
     def begin(self, *, keep_alive: bool = False) -> Launch:
-        """Start the launch, which goes on by itself.
+        """Start the launch and return it; it goes on while the caller does other work.
 
         Args:
-            keep_alive: Whether the launch goes on when none of its processes runs any more.
+            keep_alive: Whether the launch goes on after its last process has ended.
         """
         self._owner = owner = program.current()
 
@@ -89,7 +89,7 @@ class LaunchService:
         return self._launch
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run the launch beside other coroutines; a cancellation ends it."""
+        """Run the launch as a coroutine, beside others; cancelling it ends the launch."""
         launch = self.begin(keep_alive=not shutdown_when_idle)
         self._threads.add(threading.get_ident())
         try:
@@ -103,23 +103,23 @@ class LaunchService:
 
     @property
     def failed_itself(self) -> bool:
-        """Whether the launch, and not only a process of it, has failed."""
+        """Whether the launch itself has failed, and not only a process of it."""
         return self._launch is not None and "launch" in self._launch.failed
 
     def emit_event(self, event: Event) -> None:
-        """Pass an event to the handlers, if it runs."""
+        """Pass an event to the handlers, if the launch is running."""
         launch = self._launch
         if launch is not None and self._owner is not None:
             self._owner.ask(lambda: launch.emit(event))
 
     def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
-        """End the launch, if it runs.
+        """End the launch, if it is running.
 
         Args:
-            force_sync: Whether there is to be nothing to await.
+            force_sync: Whether to return None in every thread.
 
         Returns:
-            A coroutine, as in ROS 2, in the thread of the launch's loop; None elsewhere.
+            A coroutine to await, as in ROS 2, in the thread of the launch's event loop; else None.
         """
         launch = self._launch
         if launch is None or launch.ended.is_set():
@@ -135,4 +135,4 @@ class LaunchService:
 
 
 async def _nothing() -> None:
-    """Do nothing: requests to a launch take effect at once."""
+    """Do nothing; the returned coroutine exists because callers await it."""

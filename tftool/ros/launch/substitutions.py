@@ -1,4 +1,4 @@
-"""launch's substitutions: texts known only during the launch."""
+"""Substitutions of ROS's launch: texts that are known only while the launch runs."""
 
 import math
 import os
@@ -16,25 +16,25 @@ from tftool.ros.launch.logging import launch_config
 
 ROS2: Final = "ros2"
 XACRO: Final = "xacro"
-"""The command of ROS 2 that is carried out without a process of its own."""
+"""Name of the ROS command that tftool runs without a process."""
 
 ON_STDERR: Final = ("fail", "warn", "ignore", "capture")
-"""What a `Command` may do about output on its standard error."""
+"""Allowed values of `on_stderr` of a `Command`."""
 
 
 class SubstitutionFailure(UsageError):
-    """Error for a text that cannot be produced."""
+    """Error for a substitution whose text cannot be computed."""
 
 
 class Substitution:
-    """Text known only during the launch."""
+    """Base of substitutions: texts that are known only while the launch runs."""
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """Compute the text."""
         raise NotImplementedError
 
     def describe(self) -> str:
-        """Return the substitution as text."""
+        """Return a description of the substitution, before it is evaluated."""
         return f"{type(self).__name__}()"
 
     def __truediv__(self, other: Any) -> "PathJoinSubstitution":
@@ -42,11 +42,11 @@ class Substitution:
 
 
 SomeSubstitutionsType = Any
-"""What may stand where a text is wanted, for annotations."""
+"""Type of an argument that is a text, a substitution or a list of both, for annotations."""
 
 
 def perform(context: LaunchContext, value: Any) -> str:
-    """Return the text of a substitution, or the joined texts of a list."""
+    """Return the text of a substitution, or the joined texts of a list of them."""
     if value is None:
         return ""
     if isinstance(value, Substitution):
@@ -61,7 +61,7 @@ def perform(context: LaunchContext, value: Any) -> str:
 
 
 def describe(value: Any) -> str:
-    """Return the textual form of substitutions, before their evaluation."""
+    """Return a description of one or several substitutions, before they are evaluated."""
     if isinstance(value, Substitution):
         return value.describe()
     if isinstance(value, Sequence) and value and not isinstance(value, str):
@@ -70,10 +70,10 @@ def describe(value: Any) -> str:
 
 
 def is_true(text: str) -> bool:
-    """Return a text's truth value by launch's rules.
+    """Return whether a text means true, by the rules of ROS's launch.
 
     Raises:
-        UsageError: If the text is neither true nor false.
+        UsageError: If the text means neither true nor false.
     """
     word = text.strip().lower()
     if word in ("true", "1"):
@@ -84,7 +84,7 @@ def is_true(text: str) -> bool:
 
 
 class TextSubstitution(Substitution):
-    """A constant text."""
+    """Substitution that is a constant text."""
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
@@ -94,7 +94,7 @@ class TextSubstitution(Substitution):
         self.text = text
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """Return the constant text."""
         return self.text
 
     def describe(self) -> str:
@@ -103,14 +103,14 @@ class TextSubstitution(Substitution):
 
 
 class LaunchConfiguration(Substitution):
-    """Value of a launch argument."""
+    """Substitution for the value of a launch argument."""
 
     def __init__(self, variable_name: Any, *, default: Any = None) -> None:
         self.variable_name = variable_name
         self.default = default
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the present value."""
+        """Return the argument's present value, or the default."""
         name = perform(context, self.variable_name)
         if name in context.launch_configurations:
             return context.launch_configurations[name]
@@ -123,27 +123,27 @@ class LaunchConfiguration(Substitution):
         )
 
     def describe(self) -> str:
-        """LaunchConfig('name')."""
+        """Return the description "LaunchConfig('name')"."""
         return f"LaunchConfig({describe(self.variable_name)})"
 
 
 class LaunchLogDir(Substitution):
-    """Folder of the launch's logs, as in `launch.logging`."""
+    """Substitution for the folder of log files."""
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path."""
+        """Return the path of the folder of log files."""
         return launch_config.log_dir
 
 
 class EnvironmentVariable(Substitution):
-    """Value of an environment variable."""
+    """Substitution for the value of an environment variable."""
 
     def __init__(self, name: Any, *, default_value: Any = None) -> None:
         self.name = name
         self.default_value = default_value
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the present value."""
+        """Return the variable's present value, or the default."""
         name = perform(context, self.name)
         if name in context.environment:
             return context.environment[name]
@@ -152,19 +152,19 @@ class EnvironmentVariable(Substitution):
         raise SubstitutionFailure(f"environment variable '{name}' does not exist")
 
     def describe(self) -> str:
-        """EnvVar('NAME')."""
+        """Return the description "EnvVar('NAME')"."""
         return f"EnvVar({describe(self.name)})"
 
 
 class LocalSubstitution(Substitution):
-    """Value known only in a certain place: 'event.reason' in an event handler."""
+    """Substitution for a local value, such as 'event.reason' in an event handler."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
         self.expression = expression
         self.description = description
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the present value."""
+        """Return the local value as text."""
         value: Any = context.locals
         for name in self.expression.split("."):
             if not hasattr(value, name):
@@ -177,49 +177,49 @@ class LocalSubstitution(Substitution):
         return str(value)
 
     def describe(self) -> str:
-        """LocalVar('event.reason')."""
+        """Return the description "LocalVar('event.reason')"."""
         return f"LocalVar('{self.description or self.expression}')"
 
 
 class PathJoinSubstitution(Substitution):
-    """Joined parts of a path."""
+    """Substitution for a path joined from several parts."""
 
     def __init__(self, substitutions: Iterable[Any]) -> None:
         self.substitutions = list(substitutions)
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path."""
+        """Return the joined path."""
         return os.path.join(*(perform(context, one) for one in self.substitutions))
 
     def describe(self) -> str:
-        """PathJoinSubstitution('parts')."""
+        """Return the description "PathJoinSubstitution('parts')"."""
         parts = ", ".join(describe(one) for one in self.substitutions)
         return f"PathJoinSubstitution('{parts}')"
 
 
 class StringJoinSubstitution(Substitution):
-    """Texts joined by a delimiter."""
+    """Substitution for several texts joined by a delimiter."""
 
     def __init__(self, substitutions: Iterable[Any], delimiter: Any = "") -> None:
         self.substitutions = list(substitutions)
         self.delimiter = delimiter
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the joined text."""
+        """Return the joined texts."""
         return perform(context, self.delimiter).join(
             perform(context, one) for one in self.substitutions
         )
 
 
 class PythonExpression(Substitution):
-    """Value of a Python expression, which is the launch file's own code."""
+    """Substitution for the value of a Python expression in the launch file."""
 
     def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
         self.expression = expression
         self.python_modules = python_modules
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the expression's value as text."""
+        """Evaluate the expression, and return its value as text."""
         text = perform(context, self.expression)
         given = self.python_modules
         modules = [given] if isinstance(given, str | Substitution) else given
@@ -235,7 +235,7 @@ class PythonExpression(Substitution):
             ) from None
 
     def describe(self) -> str:
-        """PythonExpr(expression, [modules])."""
+        """Return the description "PythonExpr(expression, [modules])"."""
         given = self.python_modules
         modules = [given] if isinstance(given, str | Substitution) else given
         shown = ", ".join(describe(one) for one in modules)
@@ -249,50 +249,50 @@ def _this_file(context: LaunchContext) -> Path:
 
 
 class ThisLaunchFile(Substitution):
-    """Path of the launch file."""
+    """Substitution for the path of the current launch file."""
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path."""
+        """Return the path of the current launch file."""
         return str(_this_file(context))
 
 
 class ThisLaunchFileDir(Substitution):
-    """Folder of the launch file."""
+    """Substitution for the folder of the current launch file."""
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the folder."""
+        """Return the folder of the current launch file."""
         return str(_this_file(context).parent)
 
 
 class AnonName(Substitution):
-    """Name that no other node has."""
+    """Substitution for a name made unique by a number."""
 
     def __init__(self, name: Any) -> None:
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the name with a number, the same one throughout this launch."""
+        """Return the name with its number, the same throughout one launch."""
         name = perform(context, self.name)
         return f"{name}_{context.number_of(name)}"
 
 
 class FindPackageShare(Substitution):
-    """Share directory of a package."""
+    """Substitution for the share directory of a package."""
 
     def __init__(self, package: Any) -> None:
         self.package = package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path of the share directory: in a workspace, the package's sources."""
+        """Return the package's share directory; in a workspace, that is its source folder."""
         return str(context.workspace.share(perform(context, self.package)))
 
     @staticmethod
     def find(package_name: str) -> str:
-        """Return a package's path at once, for launch files that join paths themselves."""
+        """Return a package's share directory at once, not only while the launch runs."""
         return packages.get_package_share_directory(package_name)
 
     def describe(self) -> str:
-        """FindPackageShare(pkg='name')."""
+        """Return the description "FindPackageShare(pkg='name')"."""
         return f"FindPackageShare(pkg={describe(self.package)})"
 
 
@@ -300,13 +300,13 @@ FindPackage = FindPackagePrefix = FindPackageShare
 
 
 class FindExecutable(Substitution):
-    """Path of a command."""
+    """Substitution for the path of a system command."""
 
     def __init__(self, *, name: Any) -> None:
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path of the executable."""
+        """Return the command's path; `ros2` and `xacro`, which tftool runs itself, stay words."""
         name = perform(context, self.name)
         if name in (ROS2, XACRO):
             # ExecuteProcess carries out the one itself, and Command the other.
@@ -318,13 +318,13 @@ class FindExecutable(Substitution):
 
 
 class FileContent(Substitution):
-    """Content of a text file."""
+    """Substitution for the content of a text file."""
 
     def __init__(self, path: Any) -> None:
         self.path = path
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """Return the file's text."""
         path = perform(context, self.path)
         try:
             return read_named_text(Path(path))
@@ -334,13 +334,13 @@ class FileContent(Substitution):
 
 
 class ExecutableInPackage(Substitution):
-    """Path of a package's executable."""
+    """Substitution for the path of a package's executable."""
 
     def __init__(self, executable: Any, package: Any) -> None:
         self.executable, self.package = executable, package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the file in the sources; of a console script the path after installation."""
+        """Return the executable's path: its source file, or the path of a console script."""
         name = perform(context, self.executable)
         package = context.workspace.package(perform(context, self.package))
         if name in package.scripts:
@@ -352,7 +352,7 @@ class ExecutableInPackage(Substitution):
 
 
 def _expanded(words: list[str]) -> str:
-    """Return the output of `xacro FILE NAME:=VALUE …`, without ROS.
+    """Return the output of the command `xacro FILE NAME:=VALUE …`, run without ROS.
 
     Raises:
         SubstitutionFailure: If the command line is not xacro's, or the file cannot be expanded.
@@ -373,21 +373,21 @@ def _expanded(words: list[str]) -> str:
 
 
 class Command(Substitution):
-    """Output of a command."""
+    """Substitution for the output of a command."""
 
     def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
-        """Make a command's substitution.
+        """Describe the command; `perform` runs it.
 
         Args:
-            command: The command and its arguments, as in a shell.
-            on_stderr: Treatment of text on its standard error: "fail", "warn", "ignore",
-                or "capture" as part of its output.
+            command: The command and its arguments, as typed in a shell.
+            on_stderr: What to do if the command writes to its standard error: "fail", "warn",
+                "ignore", or "capture" to append that text to the output.
         """
         self.command = command
         self.on_stderr = on_stderr
 
     def perform(self, context: LaunchContext) -> str:
-        """Run the command; return its output."""
+        """Run the command, and return its standard output."""
         import shlex
         import subprocess
 

@@ -1,4 +1,4 @@
-"""launch.utilities, for users' extensions of launch."""
+"""Functions of launch.utilities, which users' extensions of launch call."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -8,15 +8,15 @@ from tftool.ros.launch.substitutions import Substitution, TextSubstitution
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """Return the joined texts of substitutions."""
+    """Return the texts of several substitutions, joined."""
     return "".join(context.perform_substitution(one) for one in subs)
 
 
 def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
-    """Return a text, a substitution, or several as a list of substitutions.
+    """Convert a text, a substitution, or a list of both to a list of substitutions.
 
     Raises:
-        TypeError: If something is neither.
+        TypeError: If an item is neither a text nor a substitution.
     """
     if isinstance(subs, str):
         return [TextSubstitution(text=subs)]
@@ -41,10 +41,10 @@ def ensure_argument_type(
     argument_name: str,
     caller: str | None = None,
 ) -> None:
-    """Check that an argument has one of some types.
+    """Raise an error unless an argument has one of some types.
 
     Raises:
-        TypeError: If the argument has another type, or the types are no types.
+        TypeError: If the argument has another type, or `types` contains something else than types.
     """
     allowed = types if isinstance(types, Iterable) else [types]
     if not any(is_a(argument, one) for one in allowed):
@@ -56,23 +56,23 @@ def ensure_argument_type(
 
 
 def is_a(obj: object, entity_type: type) -> bool:
-    """Whether an object is of a type."""
+    """Return whether an object is an instance of a type."""
     return isinstance(obj, entity_type)
 
 
 def is_a_subclass(obj: object, entity_type: type) -> bool:
-    """Whether a class, or an object's class, is a subclass of another."""
+    """Return whether a class, or an object's class, is a subclass of another class."""
     kind = obj if isinstance(obj, type) else type(obj)
     return issubclass(kind, entity_type)
 
 
 def isclassinstance(obj: object) -> bool:
-    """Whether an object has a class, as every object has."""
+    """Return whether an object has a class; every object does."""
     return hasattr(obj, "__class__")
 
 
 def normalize_to_list_of_entities(entities: Any) -> list[Any]:
-    """Return actions and descriptions as a flat list."""
+    """Return actions and launch descriptions, nested in lists, as a flat list."""
     if not isinstance(entities, Iterable):
         return [entities]
     return [one for entity in entities for one in normalize_to_list_of_entities(entity)]
