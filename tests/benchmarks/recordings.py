@@ -77,11 +77,10 @@ def _payload(layout: str, frames: list) -> bytes:
     return b"".join(parts)
 
 
-def write(kind: str, path: Path, per_message: int, transforms: int = TRANSFORMS) -> None:
-    """Write a recording of a kind, such as "mcap zstd", with the peers' own writers."""
+def _write(kind: str, path: Path, per_message: int) -> None:
     from tests.recordings import writers
 
-    messages = _messages("ros1" if kind.startswith("ros1") else "cdr", per_message, transforms)
+    messages = _messages("ros1" if kind.startswith("ros1") else "cdr", per_message, TRANSFORMS)
     if kind.startswith("mcap"):
         compression = getattr(writers.CompressionType, kind.split()[1].upper())
         with path.open("wb") as stream:
@@ -275,7 +274,7 @@ def report() -> str:
         ):
             suffix = {"mcap": ".mcap", "db3": "", "ros1": ".bag"}[kind.split()[0]]
             path = Path(folder) / f"{kind.replace(' ', '_')}_{per_message}{suffix}"
-            write(kind, path, per_message)
+            _write(kind, path, per_message)
             there = [one for one in peers if one != "transform_tree" or _installed("tf_tree")]
             sides = ["ours", *there]
             if kind.split()[-1] in ("zstd", "lz4", "bz2"):
@@ -327,7 +326,7 @@ def _big(folder: Path) -> list[str]:
 
     container = Mcap(path)
     Recorded("big", container).transforms()
-    lines.append(f"  of which read: {container.bytes_read / 1e6:.1f} MB")
+    lines.append(f"  of which read: {container.read / 1e6:.1f} MB")
     container.close()
     path.unlink()
     _write_big(path, "zstd")

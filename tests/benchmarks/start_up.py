@@ -1,13 +1,12 @@
 """How soon a command answers, against a Python that does nothing, and one that only imports."""
 
+import os
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
-
-from tests.benchmarks import recordings
 
 ROUNDS = 21
 
@@ -44,13 +43,14 @@ def files(folder: Path) -> None:
         for n in range(9)
     )
     (folder / "robot.urdf").write_text(f'<robot name="arm">{links}{joints}</robot>')
-    recordings.write("mcap zstd", folder / "run.mcap", 5, 10_000)
+    subprocess.run([*TFTOOL, "export", "turtles", "-o", "run.mcap"], cwd=folder, check=True)
 
 
 def measure(command: list[str], folder: Path) -> float:
     """Milliseconds from start to end of one run."""
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     started = time.perf_counter()
-    subprocess.run(command, cwd=folder, capture_output=True, check=True)
+    subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=True)
     return (time.perf_counter() - started) * 1e3
 
 
