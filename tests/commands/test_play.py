@@ -118,7 +118,7 @@ def test_on_a_terminal_findings_are_marked_and_told(tmp_path, tftool, simulated)
     words = ("-m", "tftool", "play", str(file), "--host", "--paused")
     terminal = Terminal(tmp_path, 100, 20, words, {})
     try:
-        terminal.until(lambda screen: "▲" in screen or "△" in screen, "a mark")
+        terminal.until(lambda screen: "█" in screen or "▓" in screen, "a mark")
         terminal.press("n")
         terminal.until(lambda screen: " s: " in screen, "the finding")
         terminal.press("q")

@@ -1,17 +1,23 @@
-"""Position in a playing recording, as one line."""
+"""Position in a playing recording, and the finding of the doctor nearest to it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from rich.text import Text
+
+from tftool.base.color import Color
+from tftool.base.escaping import visible
+from tftool.base.fixed_width import fitted
 from tftool.base.stamps import Duration, as_seconds
+from tftool.drawing import theme
 
 KEYS = (
     ("space", "pause"),
+    ("n N", "findings"),
     ("→", "next"),
     ("[ ]", "1 s"),
     ("{ }", "10 s"),
     ("↑↓", "rate"),
-    ("n", "finding"),
     ("0", "start"),
     ("q", "quit"),
 )
@@ -62,8 +68,13 @@ class Playback:
 
 
 def line(
-    playback: Playback, width: int, *, with_keys: bool = True, ascii_only: bool = False
-) -> str:
+    playback: Playback,
+    width: int,
+    *,
+    with_keys: bool = True,
+    ascii_only: bool = False,
+    palette: theme.Palette = theme.DARK,
+) -> Text:
     """Return a line of at most `width` columns: state, seconds, rate, bar, and the keys that fit.
 
     Args:
@@ -71,34 +82,89 @@ def line(
         width: Columns.
         with_keys: Whether keys are taken.
         ascii_only: Whether to draw in ASCII.
+        palette: Colours of the findings.
     """
     state = ("||" if playback.is_paused else "> ") if ascii_only else "⏸▶"[not playback.is_paused]
     seconds, total = as_seconds(playback.done), as_seconds(playback.total)
     count = len(f"{total:.2f}")
-    text = f"{state} {seconds:{count}.2f} / {total:.2f} s"
-    text += f"  {'x' if ascii_only else '×'}{playback.rate:.3g}"
+    words = f"{state} {seconds:{count}.2f} / {total:.2f} s"
+    words += f"  {'x' if ascii_only else '×'}{playback.rate:.3g}"
     if playback.laps:
-        text += f"  lap {playback.laps + 1}"
+        words += f"  lap {playback.laps + 1}"
     shortest = 3 * _SHORTEST_BAR if playback.marks else _SHORTEST_BAR
-    keys = _keys(width - len(text) - shortest - 4, ascii_only) if with_keys else ""
+    # Without findings there is nothing that their keys could go to.
+    shown = [(key, does) for key, does in KEYS if playback.marks or key != "n N"]
+    keys = _keys(shown, width - len(words) - shortest - 4, ascii_only) if with_keys else ""
     longest = _LONGEST_TIMELINE if playback.marks else _LONGEST_BAR
-    room = min(width - len(text) - len(keys) - 4, longest)
+    room = min(width - len(words) - len(keys) - 4, longest)
+    text = Text(words, no_wrap=True, overflow="crop")
     if room >= _SHORTEST_BAR:
-        full = round(room * min(max(seconds / total, 0.0), 1.0)) if total > 0 else room
-        solid, empty = ("#", ".") if ascii_only else ("━", "─")
-        bar = list(solid * full + empty * (room - full))
-        for mark in reversed(playback.marks):
-            first, last = (
-                min(room - 1, max(0, int(room * moment / max(1, playback.total))))
-                for moment in (mark.since, mark.until)
-            )
-            sign = ("!", "?")[not mark.is_error] if ascii_only else "▲△"[not mark.is_error]
-            bar[first : last + 1] = sign * (last + 1 - first)
-        if playback.marks:
-            # A finding may take all of the bar: where playback is, is seen above it.
-            bar[min(room - 1, full)] = "|" if ascii_only else "●"
-        text += f"  {''.join(bar)}"
-    return f"{text}  {keys}".rstrip()[: max(width, 0)]
+        text.append("  ").append_text(_bar(playback, room, ascii_only, palette))
+    text.append(f"  {keys}")
+    text.rstrip()
+    text.truncate(max(width, 0))
+    return text
+
+
+def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette) -> Text:
+    """Return the timeline: findings in their colours, and the head above them."""
+    share = playback.done / playback.total if playback.total > 0 else 1.0
+    full = round(room * min(max(share, 0.0), 1.0))
+    solid, empty = ("#", ".") if ascii_only else ("━", "─")
+    bar = [*[(solid, "")] * full, *[(empty, "dim")] * (room - full)]
+    for mark in reversed(playback.marks):
+        first, last = (
+            min(room - 1, max(0, int(room * moment / max(1, playback.total))))
+            for moment in (mark.since, mark.until)
+        )
+        style = theme.hexadecimal(_color(mark, palette))
+        bar[first : last + 1] = [("=" if ascii_only else "═", style)] * (last + 1 - first)
+        # One finding may take all of the bar, so that its begin has a sign of its own.
+        bar[first] = ("?!" if ascii_only else "▓█")[mark.is_error], style
+    if playback.marks:
+        bar[min(room - 1, full)] = "|" if ascii_only else "●", "bold"
+    return Text.assemble(*bar)
+
+
+def _color(mark: PlaybackMark, palette: theme.Palette) -> Color:
+    return palette.error if mark.is_error else palette.warning
+
+
+def finding_line(
+    playback: Playback,
+    width: int,
+    *,
+    ascii_only: bool = False,
+    palette: theme.Palette = theme.DARK,
+) -> Text:
+    """Return number, time and text of the finding nearest to the head; empty without findings.
+
+    Args:
+        playback: State of the player.
+        width: Columns.
+        ascii_only: Whether to draw in ASCII.
+        palette: Colours of the findings.
+    """
+    marks = sorted(playback.marks, key=lambda one: one.since)
+    if not marks:
+        return Text()
+    head = playback.done
+
+    def distance(mark: PlaybackMark) -> tuple[Duration, Duration, bool]:
+        away = max(mark.since - head, head - max(mark.since, mark.until), 0)
+        return away, abs(head - mark.since), not mark.is_error
+
+    nearest = min(marks, key=distance)
+    span = f"{as_seconds(nearest.since):.2f}"
+    if nearest.until > nearest.since:
+        span += f"{'-' if ascii_only else '–'}{as_seconds(nearest.until):.2f}"
+    kind = "error" if nearest.is_error else "warning"
+    style = theme.hexadecimal(_color(nearest, palette))
+    place = f"{marks.index(nearest) + 1}/{len(marks)}"
+    text = Text.assemble((f"{place} {kind}", f"bold {style}"), f"  {span} s  ")
+    text.append(visible(nearest.message), style)
+    more = "~" if ascii_only else "…"
+    return text if text.cell_len <= width else Text(fitted(text.plain, width, more=more), style)
 
 
 def passed(marks: Sequence[PlaybackMark], before: Duration, now: Duration) -> list[PlaybackMark]:
@@ -111,8 +177,13 @@ def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
     return min((one.since for one in marks if one.since > now), default=None)
 
 
-def _keys(room: int, ascii_only: bool) -> str:
+def before(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
+    """Return where the mark before this time begins; None before the first."""
+    return max((one.since for one in marks if one.since < now), default=None)
+
+
+def _keys(shown: Sequence[tuple[str, str]], room: int, ascii_only: bool) -> str:
     """Return as many keys with explanations as fit; `q` always, if there is room for one."""
-    *first, last = [f"{_ASCII.get(key, key) if ascii_only else key} {word}" for key, word in KEYS]
+    *first, last = [f"{_ASCII.get(key, key) if ascii_only else key} {word}" for key, word in shown]
     texts = ("  ".join([*first[:count], last]) for count in range(len(first), -1, -1))
     return next((text for text in texts if len(text) <= room), "")

@@ -5,7 +5,10 @@ import os
 import shutil
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
+
+from rich.console import Console
+from rich.text import Text
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
@@ -19,7 +22,16 @@ from tftool.commands.shared.terminal import keyboard
 from tftool.doctor.evidence import evidence_of_recording
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
-from tftool.drawing.playback_line import Playback, PlaybackMark, after, line, passed
+from tftool.drawing import theme
+from tftool.drawing.playback_line import (
+    Playback,
+    PlaybackMark,
+    after,
+    before,
+    finding_line,
+    line,
+    passed,
+)
 from tftool.frames.moment import At
 from tftool.opener import named
 from tftool.recordings.recording import Recording
@@ -45,7 +57,11 @@ FASTER: Final = 1.1
 
 NEAR, FAR = seconds(1), seconds(10)
 
+AT: Final = seconds(0.5)
+"""Time after the begin of a finding in which the key for the one before passes it over."""
+
 _ERASE = "\r\x1b[2K"
+_ERASE_TWO = f"{_ERASE}\x1b[1A\x1b[2K"
 
 
 def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> None:
@@ -54,7 +70,7 @@ def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> Non
     Args:
         player: The player.
         key: The key.
-        marks: Findings that "n" goes to, one after the other.
+        marks: Findings that "n" goes to, one after the other, and "N" back.
     """
     if key == "space":
         if player.is_paused:
@@ -67,8 +83,10 @@ def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> Non
         player.set_rate(player.rate * (FASTER if key == "up" else 1.0 / FASTER))
     elif key in _SEEKS:
         player.seek(player.position + _SEEKS[key])
-    elif key == "n":
-        to = after(marks, player.position - player.start)
+    elif key in ("n", "N"):
+        now = player.position - player.start
+        # While it plays, a little after a finding still counts as at it.
+        to = after(marks, now) if key == "n" else before(marks, now - AT)
         if to is not None:
             player.seek(player.start + to)
     elif key in ("0", "home"):
@@ -87,10 +105,10 @@ _SEEKS: Final[dict[str, Duration]] = {
 
 
 class Display:
-    """Line on stderr, if that is a terminal, with the position of the playback."""
+    """Position of the playback on stderr, if that is a terminal; below it a finding, if any."""
 
     def __init__(self, player: "Player", clock: Clock, marks: Sequence[PlaybackMark] = ()) -> None:
-        """Start without a line.
+        """Start without a picture.
 
         Args:
             player: The player.
@@ -101,7 +119,9 @@ class Display:
         self._done: Duration = -1
         self._player = player
         self._clock = clock
-        self._is_shown = False
+        self._erase = ""
+        self._console = Console(stderr=True)
+        self._palette = theme.LIGHT if theme.prefers_light(os.environ) else theme.DARK
         self.has_keys = False
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
         encoding = (getattr(sys.stderr, "encoding", "") or "ascii").lower()
@@ -117,7 +137,7 @@ class Display:
             tell_record(record)
 
     def draw(self) -> None:
-        """Redraw the line."""
+        """Redraw the lines."""
         if not self._is_terminal:
             return
         player = self._player
@@ -135,20 +155,25 @@ class Display:
         self._done = now.done
         # The last column stays free: some terminals wrap there.
         width = shutil.get_terminal_size().columns - 1
-        text = line(now, width, with_keys=self.has_keys, ascii_only=self._ascii_only)
-        sys.stderr.write(_ERASE + text)
+        style: Any = {"ascii_only": self._ascii_only, "palette": self._palette}
+        lines = [line(now, width, with_keys=self.has_keys, **style)]
+        if now.marks:
+            lines.append(finding_line(now, width, **style))
+        with self._console.capture() as captured:
+            self._console.print(Text("\n").join(lines), end="", soft_wrap=True, highlight=False)
+        sys.stderr.write(self._erase + captured.get())
         sys.stderr.flush()
-        self._is_shown = True
+        self._erase = _ERASE if len(lines) == 1 else _ERASE_TWO
 
     def clear(self) -> None:
-        """Erase the line."""
-        if self._is_shown:
-            sys.stderr.write(_ERASE)
+        """Erase the lines."""
+        if self._erase:
+            sys.stderr.write(self._erase)
             sys.stderr.flush()
-            self._is_shown = False
+            self._erase = ""
 
     async def keep(self) -> None:
-        """Redraw the line for as long as this runs."""
+        """Redraw the lines for as long as this runs."""
         while True:
             self.draw()
             await self._clock.sleep(REDRAW, Phase.WATCH)
