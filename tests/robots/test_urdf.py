@@ -191,6 +191,7 @@ def test_a_declaration_that_others_read_is_read(tmp_path, first):
 
 def test_an_empty_name_is_taken():
     assert parse(ARM.replace('name="arm"', 'name=""')).name == ""
+    assert list(parse('<robot name=""><link name=""/></robot>').links) == [""]
 
 
 def test_several_roots_are_named_with_the_remedy():

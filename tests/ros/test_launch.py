@@ -177,6 +177,7 @@ def test_substitutions_give_texts(tmp_path, monkeypatch):
         "EnvironmentVariable('COLOUR')": "red",
         "EnvironmentVariable('NO_SUCH', default_value='none')": "none",
         "PathJoinSubstitution(['a', TextSubstitution(text='b')])": "a/b",
+        "PathSubstitution(TextSubstitution(text='a')) / 'b' / ['c', 'd']": "a/b/cd",
         "TextSubstitution(text='a') / 'b'": "a/b",
         "StringJoinSubstitution(['a', 'b'], delimiter='-')": "a-b",
         "PythonExpression(['2 * ', '21'])": "42",
@@ -226,6 +227,16 @@ def test_environment_and_folder_reach_a_process(tmp_path):
 
     assert done.said("echo-1")[1:3] == ["green big", str(tmp_path)]
     assert done.said("launch") == ["over"]
+
+
+def test_an_argument_as_on_exit_fails_only_when_the_process_ends(tmp_path):
+    done = described(
+        tmp_path,
+        "LogInfo(msg='begun')",
+        "ExecuteProcess(cmd=['sleep', '9'], on_exit=LaunchConfiguration('on_exit'))",
+    )
+
+    assert done.said("launch")[0] == "begun"
 
 
 def test_handlers_hear_of_starts_and_can_be_taken_away(tmp_path):

@@ -169,6 +169,13 @@ def test_a_parameter_file_is_read_like_a_single_value(tmp_path):
     ]
 
 
+def test_a_tab_after_a_value_is_read_as_libyaml_reads_it(tmp_path):
+    file = tmp_path / "params.yaml"
+    file.write_text("a:\n  ros__parameters:\n    port: 2368\t\t# of the lidar\n")
+
+    assert names.read_parameters(file) == [("/a", "port", 2368)]
+
+
 def test_names_can_be_asked_for_as_in_rclpy(ros_runtime):
     from rclpy.exceptions import (
         InvalidNamespaceException,

@@ -236,6 +236,57 @@ def test_python_packages_that_cmake_installs_are_found_under_their_own_names(tmp
     assert sorted(found) == [str(folder), str(folder / "python"), str(folder / "src")]
 
 
+def test_programs_that_cmake_installs_run_from_any_folder_under_any_name(tmp_path):
+    folder = package(
+        tmp_path / "robot",
+        package__xml="<package><name>robot</name></package>",
+        CMakeLists__txt="project(robot)\ninstall(PROGRAMS\n  robot/deep/talk.py  # a node\n"
+        "  ${CMAKE_CURRENT_SOURCE_DIR}/robot/listen.py tools/tool.sh\n"
+        "  DESTINATION lib/${PROJECT_NAME}\n)\n"
+        "install(PROGRAMS bin/main.py DESTINATION lib/${PROJECT_NAME} RENAME hello)\n"
+        "# install(PROGRAMS robot/old.py DESTINATION lib/robot)\n",
+    )
+    places = ("robot/deep/talk.py", "robot/listen.py", "bin/main.py", "robot/old.py")
+    for place in (*places, "tools/tool.sh"):
+        (folder / place).parent.mkdir(parents=True, exist_ok=True)
+        (folder / place).touch()
+
+    found = Workspace(tmp_path).package("robot").programs
+    assert {name: str(path.relative_to(folder)) for name, path in found.items()} == {
+        "talk.py": "robot/deep/talk.py",
+        "listen.py": "robot/listen.py",
+        "hello": "bin/main.py",
+    }
+
+
+def test_folders_that_cmake_installs_are_found_where_ros_would_have_them(tmp_path):
+    folder = package(
+        tmp_path / "arm",
+        package__xml="<package><name>arm</name></package>",
+        CMakeLists__txt="install(DIRECTORY description/urdf launch DESTINATION share/arm)\n"
+        "install(DIRECTORY bringup/ DESTINATION share/${PROJECT_NAME})\n"
+        "install(FILES plain.yaml DESTINATION share/arm/config)\n",
+    )
+    for place in ("description/urdf/arm.urdf", "launch/arm.launch.py", "bringup/urdf/extra.urdf"):
+        (folder / place).parent.mkdir(parents=True, exist_ok=True)
+        (folder / place).write_text(place)
+    (folder / "plain.yaml").write_text("plain")
+
+    workspace = Workspace(tmp_path)
+    share = workspace.share("arm")
+    assert (share / "urdf/arm.urdf").read_text() == "description/urdf/arm.urdf"
+    assert (share / "urdf/extra.urdf").read_text() == "bringup/urdf/extra.urdf"
+    assert (share / "config/plain.yaml").read_text() == "plain"
+    assert (share / "launch/arm.launch.py").is_file()
+
+
+def test_of_two_packages_of_one_name_the_one_below_src_counts(tmp_path):
+    for place in ("docker/robot", "src/robot"):
+        package(tmp_path / place, package__xml="<package><name>robot</name></package>")
+
+    assert Workspace(tmp_path).package("robot").path == tmp_path / "src" / "robot"
+
+
 def test_two_programs_of_one_module_share_no_globals(tmp_path):
     from tftool.ros.host import user_code
 

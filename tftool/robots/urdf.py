@@ -214,8 +214,11 @@ class _Reader:
             self._note(robot, "the robot has no name")
         materials = self._materials(robot)
         links: dict[str, RobotLink] = {}
-        for element in robot.all("link"):
-            self._add(element, "link", links, self._link(element, materials))
+        listed = list(robot.all("link"))
+        for element in listed:
+            # urdfdom reads a link named "", and simulators publish a robot of only that one.
+            nameless = len(listed) == 1 and element.attributes.get("name") == ""
+            self._add(element, "link", links, self._link(element, materials, nameless))
         joints: dict[str, RobotJoint] = {}
         places: dict[str, _Element] = {}
         for element in robot.all("joint"):
@@ -385,9 +388,11 @@ class _Reader:
             texture.attributes.get("filename", "") if texture is not None else "",
         )
 
-    def _link(self, element: _Element, materials: Mapping[str, Surface]) -> RobotLink | None:
+    def _link(
+        self, element: _Element, materials: Mapping[str, Surface], nameless: bool
+    ) -> RobotLink | None:
         try:
-            name = self._word(element, "name")
+            name = "" if nameless else self._word(element, "name")
         except _Unreadable:
             return None
         visuals = self._shapes(element, "visual", materials)

@@ -279,6 +279,7 @@ def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
     """Return every known program as (package, name), with its file if it has one."""
     found: dict[tuple[str, str], Path | None] = dict.fromkeys(_OURS)
     for package in workspace.packages.values():
+        found |= {(package.name, name): file for name, file in package.programs.items()}
         found |= {(package.name, name): package.place_of_script(name) for name in package.scripts}
     return found
 
@@ -301,7 +302,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
             f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own."
         )
     known = [name for one, name in _OURS if one == package]
-    known += found.scripts if found is not None else []
+    known += [*found.scripts, *found.programs] if found is not None else []
     if not known and found is None:
         raise UsageError(missing_package(package, workspace, OUR_PACKAGES))
     hint = did_you_mean(executable, known)

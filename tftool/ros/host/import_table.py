@@ -59,7 +59,8 @@ rclpy.wait_for_message: rclpy.core: wait_for_message
 rclpy.client: rclpy.services: Client
 rclpy.service: rclpy.services: Service
 rclpy.guard_condition: rclpy.entities: GuardCondition
-rclpy.task: rclpy.futures: Future Task
+rclpy rclpy.task: rclpy.futures: Future
+rclpy.task: rclpy.futures: Task
 rclpy.executors: rclpy.executors: Executor SingleThreadedExecutor MultiThreadedExecutor
     ExternalShutdownException ShutdownException TimeoutException ConditionReachedException
 rclpy.callback_groups: rclpy.entities: CallbackGroup MutuallyExclusiveCallbackGroup
@@ -88,11 +89,13 @@ rclpy.action rclpy.action.graph: rclpy.node_graph: get_action_client_names_and_t
 rclpy.action.client: rclpy.action_client: ClientGoalHandle GoalStatus
 rclpy.action.server: rclpy.action_server: ServerGoalHandle
 rclpy.lifecycle rclpy.lifecycle.node: rclpy.lifecycle: LifecycleNode LifecycleNodeMixin
-    LifecycleState TransitionCallbackReturn
+    LifecycleState
+rclpy.lifecycle rclpy.lifecycle.node rclpy.lifecycle.managed_entity: rclpy.lifecycle:
+    TransitionCallbackReturn
 rclpy.lifecycle rclpy.lifecycle.publisher: rclpy.lifecycle: LifecyclePublisher
 rclpy.lifecycle rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity SimpleManagedEntity
 rclpy.lifecycle: rclpy.lifecycle: Node=LifecycleNode State=LifecycleState
-    Publisher=LifecyclePublisher
+    Publisher=LifecyclePublisher NodeMixin=LifecycleNodeMixin
 rclpy.serialization: rclpy.topics: serialize_message deserialize_message
 rclpy.signals: rclpy.core: get_current_signal_handlers_options
 rclpy.utilities: rclpy.core: remove_ros_args timeout_sec_to_nsec
@@ -151,13 +154,14 @@ launch.actions: launch.actions: SetLaunchConfiguration<let> UnsetLaunchConfigura
     ResetEnvironment<reset_env> UnsetEnvironmentVariable<unset_env> PushLaunchConfigurations=Push
     PopLaunchConfigurations=Pop OpaqueFunction GroupAction<group> IncludeLaunchDescription<include>
     TimerAction<timer> LogInfo<log> RegisterEventHandler UnregisterEventHandler EmitEvent
-    Shutdown<shutdown>
+launch.actions launch.actions.shutdown_action: launch.actions: Shutdown<shutdown>
 launch.actions: launch.processes: ExecuteProcess<executable> ExecuteLocal=ExecuteProcess
 launch.conditions: launch.conditions: IfCondition UnlessCondition LaunchConfigurationEquals
     LaunchConfigurationNotEquals InvalidConditionExpressionError evaluate_condition_expression
 launch.event_handlers: launch.events: OnProcessExit OnProcessStart OnShutdown OnExecutionComplete
     OnProcessIO
-launch.events: launch.events: Shutdown ExecutionComplete matches_action
+launch.events: launch.events: Shutdown ExecutionComplete
+launch.events launch.events.matchers: launch.events: matches_action
 launch.events.process: launch.events: ProcessExited ProcessStarted ProcessIO ShutdownProcess
     SignalProcess RunningProcessEvent
 launch.frontend launch.frontend.entity: launch.exposing: Entity
@@ -167,15 +171,22 @@ launch.frontend.parse_substitution: launch.exposing: parse_substitution parse_if
 launch.launch_description_sources: launch.description: PythonLaunchDescriptionSource
     AnyLaunchDescriptionSource FrontendLaunchDescriptionSource
 launch.substitutions: launch.substitutions: TextSubstitution LaunchConfiguration<$var>
-    EnvironmentVariable<$env> PathJoinSubstitution StringJoinSubstitution PythonExpression<$eval>
+    EnvironmentVariable<$env> PathJoinSubstitution PathSubstitution StringJoinSubstitution
+    PythonExpression<$eval>
     ThisLaunchFile<$filename> ThisLaunchFileDir<$dirname> AnonName<$anon> FindExecutable<$find-exec>
     Command<$command> SubstitutionFailure LocalSubstitution FileContent<$file-content>
     LaunchLogDir<$log_dir,$launch_log_dir>
 launch.substitutions: launch.logic: EqualsSubstitution<$equals> NotEqualsSubstitution<$not-equals>
-    AndSubstitution<$and> OrSubstitution<$or> NotSubstitution<$not> AnySubstitution<$any>
-    AllSubstitution<$all> IfElseSubstitution<$if>
-launch.utilities: launch.utilities: perform_substitutions normalize_to_list_of_substitutions
+    IfElseSubstitution<$if>
+launch.substitutions launch.substitutions.boolean_substitution: launch.logic: AndSubstitution<$and>
+    OrSubstitution<$or> NotSubstitution<$not> AnySubstitution<$any> AllSubstitution<$all>
+launch.utilities launch.utilities.perform_substitutions_impl: launch.utilities:
+    perform_substitutions
+launch.utilities launch.utilities.normalize_to_list_of_substitutions_impl: launch.utilities:
+    normalize_to_list_of_substitutions
+launch.utilities launch.utilities.normalize_to_list_of_entities_impl: launch.utilities:
     normalize_to_list_of_entities
+launch launch.some_entities_type: launch.description: SomeEntitiesType
 launch.utilities launch.utilities.ensure_argument_type_impl: launch.utilities: ensure_argument_type
 launch.utilities launch.utilities.class_tools_impl: launch.utilities: is_a is_a_subclass
     isclassinstance
@@ -192,8 +203,9 @@ launch_ros.actions: launch.components: ComposableNodeContainer<node_container>
 launch_ros.actions.load_composable_nodes: launch.components: get_composable_node_load_request
 launch_ros.descriptions launch_ros.descriptions.composable_node: launch.components: ComposableNode
 launch_ros.actions: launch.lifecycle: LifecycleNode<lifecycle_node> LifecycleTransition
-launch_ros.events launch_ros.events.matchers launch_ros.events.lifecycle
-    launch_ros.events.lifecycle.lifecycle_node_matchers: launch.lifecycle: matches_node_name
+launch_ros.events launch_ros.events.matchers launch_ros.events.matchers.matches_node_name
+    launch_ros.events.lifecycle launch_ros.events.lifecycle.lifecycle_node_matchers:
+    launch.lifecycle: matches_node_name
 launch_ros.events.lifecycle: launch.lifecycle: ChangeState StateTransition
 launch_ros.event_handlers: launch.lifecycle: OnStateTransition
 launch_ros.substitutions: launch.substitutions: ExecutableInPackage<$exec-in-pkg> FindPackage
@@ -203,9 +215,15 @@ launch_ros.substitutions launch_ros.substitutions.parameter: launch.scope:
     Parameter=ParameterSubstitution<$param>
 launch_ros.parameter_descriptions launch_ros.descriptions: launch.parameters: ParameterValue
     ParameterFile Parameter=ParameterDescription
-launch_ros.utilities: launch.scope: is_namespace_absolute is_root_namespace make_namespace_absolute
-    prefix_namespace normalize_remap_rule normalize_remap_rules add_node_name get_node_name_count
-launch_ros.utilities: launch.parameters: normalize_parameters normalize_parameter_dict
+launch_ros.utilities launch_ros.utilities.namespace_utils: launch.scope: is_namespace_absolute
+    is_root_namespace make_namespace_absolute prefix_namespace
+launch_ros.utilities launch_ros.utilities.normalize_remap_rule: launch.scope: normalize_remap_rule
+    normalize_remap_rules
+launch_ros.utilities launch_ros.utilities.track_node_names: launch.scope: add_node_name
+    get_node_name_count
+launch_ros.utilities launch_ros.utilities.normalize_parameters: launch.parameters:
+    normalize_parameters normalize_parameter_dict
+launch_ros.utilities launch_ros.utilities.evaluate_parameters: launch.parameters:
     evaluate_parameters evaluate_parameter_dict
 launch_testing: launch_testing.description: parametrize ready_to_test_action_timeout
 launch_testing launch_testing.decorator: launch_testing.description: post_shutdown_test
@@ -262,8 +280,11 @@ _WITH_MODULES_OF_CLASSES = (
     "launch.events.process",
     "launch.launch_description_sources",
     "launch.substitutions",
+    "launch_xml.launch_description_sources",
+    "launch_yaml.launch_description_sources",
     "launch_ros.actions",
     "launch_ros.event_handlers",
+    "launch_ros.events.lifecycle",
     "launch_ros.substitutions",
 )
 

@@ -335,7 +335,8 @@ def _loader() -> Any:
     """Return a YAML loader with ROS 2's rules for numbers: `12:30` and `2024-01-05` are texts."""
     import yaml
 
-    class Loader(yaml.SafeLoader):
+    # ROS 2 reads with libyaml too, which permits a tab after a value.
+    class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
         pass
 
     kinds = {

@@ -25,10 +25,11 @@ class Package:
         name: Name of the package.
         path: Source folder, also used as the package's share directory.
         scripts: Console scripts, from name to "module:function".
-        installed: Files that setup.py installs under another path in the share directory than
-            their source path: from installed path to file.
+        installed: Files that setup.py or CMakeLists.txt installs under another path in
+            the share directory than their source path: from installed path to file.
         modules: Folders of Python packages that CMakeLists.txt installs
             (`ament_python_install_package`), relative to the source folder.
+        programs: Python files that CMakeLists.txt installs (`install(PROGRAMS …)`), by name.
         data_files: Files that setup.py installs; None if only running setup.py would tell.
     """
 
@@ -37,10 +38,13 @@ class Package:
     scripts: Mapping[str, str] = field(default_factory=dict)
     installed: Mapping[str, Path] = field(default_factory=dict)
     modules: Sequence[str] = ()
+    programs: Mapping[str, Path] = field(default_factory=dict)
     data_files: frozenset[str] | None = None
 
     def script_file(self, name: str) -> Path | None:
         """Return a node's file by name, for packages that install scripts without setup.py."""
+        if name in self.programs:
+            return self.programs[name]
         for folder in ("scripts", "nodes", self.name, "."):
             for file in (name, f"{name}.py"):
                 path = self.path / folder / file
@@ -92,8 +96,19 @@ def read_package(folder: Path) -> Package | None:
             scripts.update(found)
     name = name or folder.name
     moved = dict(_moved(folder, f"share/{name}", installed))
-    modules = _modules_of_cmake(folder / "CMakeLists.txt")
-    return Package(name, folder, scripts, moved, modules, _listed_files(installed))
+    cmake = folder / "CMakeLists.txt"
+    text = read_text(cmake).replace("${PROJECT_NAME}", name) if cmake.is_file() else ""
+    modules = _modules_of_cmake(text)
+    programs = {}
+    for kind, place, source in _installed_by_cmake(text, folder):
+        target, base = PurePosixPath(place), f"share/{name}"
+        if not source.is_file() or ".." in target.parts:
+            continue
+        if kind == "PROGRAMS" and (source.suffix == ".py" or _is_python(source)):
+            programs[target.name] = source
+        elif target.is_relative_to(base) and folder / target.relative_to(base) != source:
+            moved[str(target.relative_to(base))] = source
+    return Package(name, folder, scripts, moved, modules, programs, _listed_files(installed))
 
 
 def _listed_files(data_files: Any) -> frozenset[str] | None:
@@ -110,11 +125,29 @@ def _listed_files(data_files: Any) -> frozenset[str] | None:
     return frozenset(listed)
 
 
-def _modules_of_cmake(path: Path) -> list[str]:
-    """Return the folders of Python packages that a CMakeLists.txt installs; [] without the file."""
-    if not path.is_file():
-        return []
-    calls = re.findall(r"ament_python_install_package\(\s*([^)]*)\)", read_text(path))
+def _installed_by_cmake(text: str, folder: Path) -> Iterator[tuple[str, str, Path]]:
+    """Return what a CMakeLists.txt installs: the kind, the place from the prefix, and the file.
+
+    The kind is PROGRAMS, FILES or DIRECTORY; a directory's files are listed one by one.
+    """
+    pattern = r"^[ \t]*install\(\s*(PROGRAMS|FILES|DIRECTORY)\s+([^)]*)\)"
+    for kind, call in re.findall(pattern, re.sub(r"#.*", "", text), re.M):
+        sources, _, said = call.replace('"', "").partition("DESTINATION")
+        target, *more = said.split() or [""]
+        renamed = more[more.index("RENAME") + 1] if "RENAME" in more[:-1] else None
+        for source in sources.replace("${CMAKE_CURRENT_SOURCE_DIR}/", "").split():
+            top = folder / source
+            if kind != "DIRECTORY":
+                yield kind, f"{target.rstrip('/')}/{renamed or top.name}", top
+                continue
+            base = top if source.endswith("/") else top.parent
+            for file in sorted(top.rglob("*")):
+                yield kind, str(PurePosixPath(target, file.relative_to(base).as_posix())), file
+
+
+def _modules_of_cmake(text: str) -> list[str]:
+    """Return the folders of Python packages that the text of a CMakeLists.txt installs."""
+    calls = re.findall(r"ament_python_install_package\(\s*([^)]*)\)", text)
     words = [call.replace('"', "").split() for call in calls]
     return [
         one[one.index("PACKAGE_DIR") + 1] if "PACKAGE_DIR" in one[:-1] else one[0]

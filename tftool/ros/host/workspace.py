@@ -8,7 +8,6 @@ import weakref
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from itertools import chain
-from operator import attrgetter
 from pathlib import Path, PurePosixPath
 
 from tftool.base.errors import InputError, UsageError
@@ -251,7 +250,8 @@ def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
         folder, depth = waiting.pop()
         try:
             with os.scandir(folder) as found:
-                entries = sorted(found, key=attrgetter("name"), reverse=True)
+                # The first of two packages of one name counts, and src holds what is built.
+                entries = sorted(found, key=lambda one: (one.name != "src", one.name), reverse=True)
         except OSError:
             entries = []
         names = {one.name for one in entries}

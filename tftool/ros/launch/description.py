@@ -12,6 +12,9 @@ from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.events import ExecutionComplete
 from tftool.ros.launch.substitutions import perform
 
+SomeEntitiesType = Any
+"""An action, or several, for annotations."""
+
 
 class LaunchDescriptionEntity:
     """Base of actions and launch descriptions."""

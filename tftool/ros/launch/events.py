@@ -2,7 +2,7 @@
 
 import signal
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -144,8 +144,9 @@ def _entities(given: Any, event: Event, context: Any) -> Any:
 
 def _listed(given: Any) -> list[Any]:
     """Return the actions given to an event handler; [] if a function will return them."""
-    found = [given] if hasattr(given, "visit") else given
-    return [] if found is None or callable(found) else list(found)
+    if given is None or callable(given):
+        return []
+    return list(given) if isinstance(given, Iterable) else [given]
 
 
 class EventHandler:

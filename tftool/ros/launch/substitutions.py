@@ -196,6 +196,17 @@ class PathJoinSubstitution(Substitution):
         parts = ", ".join(describe(one) for one in self.substitutions)
         return f"PathJoinSubstitution('{parts}')"
 
+    def __truediv__(self, part: Any) -> "PathJoinSubstitution":
+        """Return the path with one more part."""
+        return PathJoinSubstitution([*self.substitutions, part])
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """First part of a path; `/` adds others."""
+
+    def __init__(self, path: Any) -> None:
+        super().__init__([path])
+
 
 class StringJoinSubstitution(Substitution):
     """Substitution for several texts joined by a delimiter."""
