@@ -123,7 +123,7 @@ def open_frames(
     far = None if word is None else reach_at(word)
     if word is None or far is not None:
         refuse_options_of_files(robot, recording, word)
-        from tftool.world.link.heard_frames import join_to_listen, listened
+        from tftool.world.link.session_world import join_to_listen, listened
 
         given = {**reach, "connect": [*connects]}
         if word is not None:
@@ -133,7 +133,7 @@ def open_frames(
     found = named(word)
     if found.kind is Kind.SCENARIO:
         refuse_options_of_files(robot, recording, found.name)
-        from tftool.scenario.played_frames import played
+        from tftool.scenario.play import played
 
         if until is not None and not isinstance(until, At) and not math.isinf(until):
             until = nanoseconds(until)

@@ -96,7 +96,7 @@ def compare_reading() -> str:
 def compare_processes() -> str:
     """Small recordings, two processes against one."""
     from tftool.commands.fleet import fleet
-    from tftool.commands.fleet.fleet_tasks import Examination
+    from tftool.commands.fleet.fleet import Examination
     from tftool.commands.fleet.workers import workers_of
     from tftool.doctor.evidence import Scope
     from tftool.doctor.model import Settings

@@ -10,7 +10,7 @@ from tftool.messages.turtle_messages import Pose, Twist
 from tftool.screens.terminal import world_app as showing
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.clock import SimClock, run
-from tftool.world.nodes.turtle_teleop import BANNER
+from tftool.world.nodes.turtle_drivers import BANNER
 from tftool.world.world import World
 
 

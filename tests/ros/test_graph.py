@@ -2,7 +2,7 @@
 
 import pytest
 
-from tftool.world.nodes.turtle_teleop import KeyPress
+from tftool.world.nodes.turtle_drivers import KeyPress
 from tftool.world.nodes.turtlesim import Turtlesim
 
 

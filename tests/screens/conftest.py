@@ -7,7 +7,7 @@ from tftool.world.clock import Phase, SimClock, run
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import Broadcaster
 from tftool.world.nodes.follower import Follower
-from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtle_drivers import Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 from tftool.world.world import World

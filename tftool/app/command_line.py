@@ -1,4 +1,4 @@
-"""One command's line: parsed by typer, its help laid out by subject, its refusals as sentences."""
+"""A command line: parsed by typer, its help laid out by subject, its refusals as sentences."""
 
 import gc
 import math
@@ -14,19 +14,23 @@ from typer.core import TyperCommand, TyperOption
 from typer.main import get_command
 
 from tftool.app.index import COMMANDS, load, show_help
+from tftool.app.main import main
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.declaration import (
     POSE_OPTIONS,
     SESSION_OPTIONS,
+    Command,
     Invocation,
     typer_function,
 )
 from tftool.commands.shared.notices import complain
+from tftool.commands.shared.options import argument
 from tftool.recordings.poses.pose_options import collect, names_file, pose_options
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Providers
+
 
 _SESSION = "help_session"
 _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
@@ -254,3 +258,18 @@ def _help_session() -> Any:
         callback=show,
         help=f"Show this and the options of {SESSION.lower()}.",
     )
+
+
+class HelpOptions(Command, shares=False):
+    """Show the list of commands, or the help of one (man).
+
+    tftool help
+    tftool help echo
+    """
+
+    name: str | None = argument("What to explain.", metavar="[COMMAND]")
+
+
+def run(options: HelpOptions) -> ExitStatus:
+    """Run `tftool help`."""
+    return ExitStatus(main(["--help"] if options.name is None else [options.name, "--help"]))

@@ -73,7 +73,7 @@ def load(name: str) -> "type[Command]":
     Help and completion list every command, but import only the commands they describe in detail.
     """
     # Only `help` asks for other commands.
-    home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}"
+    home = "tftool.app.command_line" if name == "help" else f"tftool.commands.{name}"
     command: type[Command] = getattr(import_module(home), f"{name.capitalize()}Options")
     return command
 

@@ -17,7 +17,6 @@ from tftool.base.errors import UsageError
 from tftool.base.near_names import did_you_mean
 from tftool.base.stamps import seconds
 from tftool.messages.classes import INTERFACES
-from tftool.messages.parameter_values import value_of
 from tftool.ros.host import executables, names, program, ros2_words, rosidl_runtime
 from tftool.ros.host.package_files import read_text
 from tftool.ros.host.values import stamp_of
@@ -41,6 +40,7 @@ from tftool.ros.rclpy.qos import (
 )
 from tftool.ros.rclpy.topics import serialize_message
 from tftool.ros.rclpy.validation import topic_or_service_is_hidden
+from tftool.world.node_parameters import value_of
 
 Print = Callable[[str], object]
 

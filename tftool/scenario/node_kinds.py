@@ -34,8 +34,7 @@ from tftool.world.nodes.follower import Follower
 from tftool.world.nodes.joints import MOTIONS, MovingRobot
 from tftool.world.nodes.mobile_robot import LaserPoint, MapCorrection, RobotOdometry, ScanMatcher
 from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
-from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic
-from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic, Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import World
 

@@ -1,5 +1,6 @@
-"""Running a scenario: builds its world, runs it on simulated or real time, judges it."""
+"""Running a scenario: builds its world, runs it on a clock, judges it, or records its frames."""
 
+import math
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import replace
@@ -7,13 +8,17 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias
 
 from tftool.base.errors import NodeFailed
-from tftool.base.stamps import Stamp
-from tftool.scenario import load
-from tftool.scenario.load import NO_ARGUMENTS
+from tftool.base.escaping import visible
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.frames.frames import Frames
+from tftool.frames.moment import At, checked_moment
+from tftool.recordings.find import Found
+from tftool.scenario.load import NO_ARGUMENTS, load, parse
 from tftool.scenario.node_kinds import KINDS
 from tftool.scenario.scenario import Scenario, Verdict
 from tftool.scenario.script import Drive, Press, Script
 from tftool.world.clock import Clock, SimClock, run
+from tftool.world.frame_listener import heard_in, run_apart
 from tftool.world.supervisor import live
 from tftool.world.world import World
 
@@ -138,7 +143,7 @@ def build(
         ScenarioError: If the scenario cannot be read with them.
     """
     if arguments:
-        scenario = load.parse(scenario.source, scenario.file, arguments)
+        scenario = parse(scenario.source, scenario.file, arguments)
     return Play(scenario, clock)
 
 
@@ -160,3 +165,51 @@ def run_scenario(
     with watch(play.world), suppress(NodeFailed):
         run(clock, play.live())
     return play.verdict()
+
+
+USUAL = seconds(5)
+"""How long a scenario is played unless more is asked for."""
+
+
+def played(
+    found: Found,
+    until: Duration | float | At | None,
+    margin: Duration,
+    cache_time: Duration | None,
+    watch: Callable[[World], object] | None,
+) -> Frames:
+    """Play a scenario on simulated time, and return all its transforms.
+
+    Args:
+        found: File.
+        until: The last moment: a duration, infinity for all of it, or a moment that must lie
+            inside; `USUAL` if None.
+        margin: Seconds to play on after a moment, for transforms that arrive after their stamp.
+        cache_time: Cache time of the buffers, in place of the scenario's own; unlimited if None.
+        watch: Called with its world before it lives.
+
+    Raises:
+        NodeFailed: If a node raised.
+        UsageError: If the moment is outside the span.
+    """
+    scenario = replace(load(found.paths[0], expects=False), expect=())
+    if cache_time is not None:
+        scenario = replace(scenario, cache_time=cache_time)
+    clock = SimClock()
+    start, whole = clock.epoch, scenario.duration
+    if until is None:
+        end, margin = start + min(USUAL, whole), 0
+    elif isinstance(until, At):
+        end = checked_moment(until, f"scenario '{visible(scenario.name)}'", start, whole)
+    elif math.isinf(until):
+        end, margin = start + whole, 0
+    else:
+        end = start + int(until)
+    play = build(scenario, clock)
+    if watch is not None:
+        watch(play.world)
+    # What the listener forgets counts from `end` on.
+    memory = None if cache_time is None else cache_time + margin
+    with heard_in(play.world, memory) as (buffer, log):
+        run_apart(clock, play.live(end + margin))
+    return Frames("scenario", scenario.name, buffer=buffer, span=(start, end), log=log, found=found)

@@ -28,7 +28,7 @@ from tftool.scenario.scenario import Outcome, Step
 from tftool.scenario.units import RelativeMoment
 from tftool.world.node import PATIENCE, Node
 from tftool.world.nodes.turtle import PEN_COLOR, PEN_WIDTH
-from tftool.world.nodes.turtle_teleop import KEYS, KeyPress
+from tftool.world.nodes.turtle_drivers import KEYS, KeyPress
 from tftool.world.world import World
 
 SILENCE: Duration = seconds(1)

@@ -9,7 +9,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.geometry.rigid import Transform
-from tftool.screens.browser.live_messages import LiveDisplays
+from tftool.screens.browser.drawn_messages import LiveDisplays
 from tftool.screens.browser.server import PageServer
 from tftool.world.clock import WallClock, run
 from tftool.world.link.zenoh.rendezvous import page_secret

@@ -1,6 +1,6 @@
 """Snapshots are taken at a steady rate, and leave time for everything else."""
 
-from tftool.screens.browser.cadence import Cadence
+from tftool.screens.browser.client import Cadence
 
 MS = 1_000_000
 

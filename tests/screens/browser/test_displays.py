@@ -21,8 +21,7 @@ from tftool.messages.classes import INTERFACES
 from tftool.messages.turtle_messages import PointStamped, point_stamped
 from tftool.screens.browser.displays import cloud, markers, path, point, scan
 from tftool.screens.browser.displays.shapes import Arrival
-from tftool.screens.browser.live_messages import LiveDisplays
-from tftool.screens.browser.recorded_messages import Limits, recorded_tracks
+from tftool.screens.browser.drawn_messages import Limits, LiveDisplays, recorded_tracks
 from tftool.world.clock import SimClock
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
 from tftool.world.world import World
@@ -526,7 +525,7 @@ def test_a_server_shows_them_where_they_were(chromium, run):
     from tftool.commands.shared.connection import Connection
     from tftool.commands.shared.on_screen import at_rest
     from tftool.opener import open_frames
-    from tftool.screens.browser.recorded_messages import tracks_named
+    from tftool.screens.browser.drawn_messages import tracks_named
     from tftool.screens.browser.server import PageServer
     from tftool.world.clock import run as run_on
 

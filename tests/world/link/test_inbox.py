@@ -5,8 +5,8 @@ import threading
 
 from tests.world.link.conftest import until
 from tftool.world.clock import WallClock, run
-from tftool.world.link import inbox
-from tftool.world.link.inbox import Inbox
+from tftool.world.link import queues
+from tftool.world.link.queues import Inbox
 
 
 def taken_in(fill, expected):
@@ -36,7 +36,7 @@ def test_what_came_before_the_start_and_from_other_threads_comes_in_order():
 
 
 def test_messages_beyond_the_most_are_lost_and_counted_and_news_of_others_never(monkeypatch):
-    monkeypatch.setattr(inbox, "MOST_WAITING", 3)
+    monkeypatch.setattr(queues, "MOST_WAITING", 3)
 
     def fill(box, take):
         for number in range(5):
@@ -50,7 +50,7 @@ def test_messages_beyond_the_most_are_lost_and_counted_and_news_of_others_never(
 
 
 def test_bytes_that_wait_are_bounded_too(monkeypatch):
-    monkeypatch.setattr(inbox, "MOST_BYTES", 100)
+    monkeypatch.setattr(queues, "MOST_BYTES", 100)
 
     def fill(box, take):
         for size in (60, 60, 40):
@@ -63,7 +63,7 @@ def test_bytes_that_wait_are_bounded_too(monkeypatch):
 
 
 def test_messages_without_a_payload_are_bounded_like_all_others(monkeypatch):
-    monkeypatch.setattr(inbox, "MOST_WAITING", 2)
+    monkeypatch.setattr(queues, "MOST_WAITING", 2)
 
     def fill(box, take):
         for number in range(5):

@@ -6,8 +6,8 @@ import pytest
 
 from tests.patience import PATIENCE
 from tftool.base.errors import LinkError
-from tftool.world.link import outbox
-from tftool.world.link.outbox import Outbox
+from tftool.world.link import queues
+from tftool.world.link.queues import Outbox
 from tftool.world.link.zenoh.transport import KeyPublisher
 
 
@@ -78,10 +78,10 @@ def test_a_message_goes_out_by_a_reader_that_takes_nothing_without_waiting_for_i
 
 
 @pytest.mark.parametrize(
-    ("bound", "most", "size"), [("MOST_WAITING", 50, 0), ("MOST_BYTES", 50_000, 1000)]
+    ("bound", "most", "size"), [("MOST_UNSENT", 50, 0), ("MOST_UNSENT_BYTES", 50_000, 1000)]
 )
 def test_there_is_an_end_to_what_waits(out, monkeypatch, bound, most, size):
-    monkeypatch.setattr(outbox, bound, most)
+    monkeypatch.setattr(queues, bound, most)
     stuck, sent = Stuck(), []
     out.put(stuck)
     assert stuck.begun.wait(PATIENCE)
@@ -106,8 +106,8 @@ def test_there_is_an_end_to_what_waits(out, monkeypatch, bound, most, size):
 
 
 def test_a_sender_that_never_returns_holds_up_the_loop_once_and_not_for_ever(out, monkeypatch):
-    monkeypatch.setattr(outbox, "MOST_WAITING", 50)
-    monkeypatch.setattr(outbox, "LONGEST_WAIT", 0.02)
+    monkeypatch.setattr(queues, "MOST_UNSENT", 50)
+    monkeypatch.setattr(queues, "LONGEST_WAIT", 0.02)
     stuck, sent = Stuck(), []
     out.put(stuck)
     assert stuck.begun.wait(PATIENCE)
@@ -121,7 +121,7 @@ def test_a_sender_that_never_returns_holds_up_the_loop_once_and_not_for_ever(out
 
 
 def test_the_bytes_of_a_message_count_until_it_is_sent(out, monkeypatch):
-    monkeypatch.setattr(outbox, "MOST_BYTES", 100)
+    monkeypatch.setattr(queues, "MOST_UNSENT_BYTES", 100)
     stuck = Stuck()
 
     class Publisher:

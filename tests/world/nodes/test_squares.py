@@ -1,7 +1,6 @@
 from tests.world.nodes.harness import At, log_texts, new_world, play
 from tftool.messages.turtle_messages import Empty, Pose, Twist, twist
-from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic
-from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic, Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 
 

@@ -5,7 +5,7 @@ from tftool.base.errors import UsageError
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import RotateAbsolute, Twist, twist
 from tftool.world.clock import SimClock, run
-from tftool.world.nodes.turtle_teleop import KEYS, KeyPress, Teleop
+from tftool.world.nodes.turtle_drivers import KEYS, KeyPress, Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 from tftool.world.world import World

@@ -9,7 +9,7 @@ from tftool.base.stamps import seconds
 from tftool.geometry import planar
 from tftool.geometry.motion import pursuit, unicycle
 from tftool.world.nodes import follower, trail, turtle
-from tftool.world.nodes import turtle_teleop as teleop
+from tftool.world.nodes import turtle_drivers as teleop
 
 CONSTANTS = VECTORS["constants"]
 

@@ -8,8 +8,7 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Pose, RotateAbsolute, Twist, twist
 from tftool.world.nodes.broadcasters import DynamicCarrot, FixedCarrot, carrot_offset, static_turtle
-from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic, State
-from tftool.world.nodes.turtle_teleop import BANNER, KEYS, Teleop
+from tftool.world.nodes.turtle_drivers import BANNER, KEYS, DrawSquare, Mimic, State, Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import TransformMessage
 

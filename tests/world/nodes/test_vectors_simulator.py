@@ -17,7 +17,7 @@ from tftool.messages.turtle_messages import (
     Twist,
     twist,
 )
-from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtle_drivers import Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 
 TICK = 0.016

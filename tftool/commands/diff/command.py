@@ -25,7 +25,7 @@ from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.pair_samples import only_chain, sample
 from tftool.frames.trajectory_errors import Pair, PieceLength, trajectory_errors
 from tftool.recordings.target import refuse_existing
-from tftool.world.link.heard_frames import NOTHING_RUNS
+from tftool.world.link.session_world import NOTHING_RUNS
 
 SESSION = "session"
 """The word that names the session that runs."""

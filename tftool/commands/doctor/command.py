@@ -13,8 +13,7 @@ from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import seconds
 from tftool.commands.doctor import DoctorOptions, FailOn
 from tftool.commands.fleet import fleet
-from tftool.commands.fleet.fleet import expanded
-from tftool.commands.fleet.fleet_tasks import UNREADABLE, Examination
+from tftool.commands.fleet.fleet import UNREADABLE, Examination, expanded
 from tftool.commands.fleet.workers import workers_of
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.evidence_sources import evidence_from, rules_of

@@ -35,10 +35,10 @@ def run(connection: Connection, options: InfoOptions) -> ExitStatus:
             return _show(connection, path, options.places[0], for_programs=options.for_programs)
     if options.output is None and all(_is_text(place) for place in options.places):
         return _list_texts(connection, options.places, for_programs=options.for_programs)
-    from tftool.commands.fleet import fleet, fleet_tasks
+    from tftool.commands.fleet import fleet
     from tftool.commands.fleet.workers import workers_of
 
-    workers, task = workers_of(options.processes, options.scheduler), fleet_tasks.Inventory()
+    workers, task = workers_of(options.processes, options.scheduler), fleet.Inventory()
     if options.output is not None:
         counts = fleet.swept_into(
             options.places, options.output, workers, task, resume=options.resume
@@ -49,7 +49,7 @@ def run(connection: Connection, options: InfoOptions) -> ExitStatus:
             write_json(rows)
         else:
             sys.stdout.write(recording_view.as_lines(rows, line_width()))
-    return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
+    return ExitStatus.UNREADABLE if fleet.UNREADABLE in counts else ExitStatus.DONE
 
 
 def _is_launch_file(place: str) -> bool:

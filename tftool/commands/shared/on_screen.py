@@ -13,7 +13,7 @@ from tftool.screens.still_frames import StillFrames
 from tftool.world.clock import run
 from tftool.world.log import Log
 from tftool.world.nodes.remote_turtles import FarTurtles
-from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtle_drivers import Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from tftool.commands.shared.on_screen import (
 from tftool.commands.teleop import TeleopOptions
 from tftool.messages.turtle_messages import Pose
 from tftool.screens.terminal.screen_options import Setting
-from tftool.world.nodes.turtle_teleop import BANNER, KEYS
+from tftool.world.nodes.turtle_drivers import BANNER, KEYS
 from tftool.world.world import World
 
 START = seconds(5)

@@ -32,8 +32,12 @@ from tftool.recordings.target import refuse_existing
 from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
-from tftool.screens.browser.live_messages import LiveDisplays
-from tftool.screens.browser.recorded_messages import IN_A_FILE, recorded_tracks, tracks_named
+from tftool.screens.browser.drawn_messages import (
+    IN_A_FILE,
+    LiveDisplays,
+    recorded_tracks,
+    tracks_named,
+)
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.server import PageServer
 from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from tftool.messages.classes import INTERFACES
-from tftool.messages.parameter_values import SCALARS, list_result, value_message, value_of
 from tftool.ros.host import names, values
 from tftool.ros.host.error_text import undeclared
 from tftool.ros.rclpy.exceptions import (
@@ -25,7 +24,14 @@ from tftool.ros.rclpy.qos import qos_profile_parameter_events
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.topics import Publisher
 from tftool.ros.rclpy.validation import validate_parameter_name
-from tftool.world.node_parameters import Answer, parameter_services
+from tftool.world.node_parameters import (
+    SCALARS,
+    Answer,
+    list_result,
+    parameter_services,
+    value_message,
+    value_of,
+)
 
 
 class ParameterType(IntEnum):

@@ -1,4 +1,4 @@
-"""One open page and its outgoing pictures."""
+"""One open page: its outgoing pictures, and when they are sent."""
 
 import asyncio
 from collections.abc import Mapping
@@ -6,9 +6,35 @@ from dataclasses import dataclass
 
 from websockets.asyncio.server import ServerConnection
 
-from tftool.base.stamps import Stamp
+from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.screens.browser import page_messages, protocol
+
+FORGIVEN = seconds(1)
+"""Turns that came later than this in all are not made up for."""
+
+
+class Cadence:
+    """Pace of a steady rate, with a pause after each turn at least as long as the turn.
+
+    A turn that comes late moves none of those after it, as long as all of them are short: the
+    average rate stays the requested one.
+    """
+
+    def __init__(self, period: Duration, start: Stamp) -> None:
+        """Start at `start`, with a turn every `period`."""
+        self._period = period
+        self._due = start
+
+    def after(self, began: Stamp, ended: Stamp) -> Stamp:
+        """Return the time of the next turn after one with this start and end."""
+        self._due += self._period
+        # Thousands of frames may take longer than a period: never more than half the time.
+        earliest = ended + (ended - began)
+        if earliest - self._due > FORGIVEN:
+            self._due = earliest
+        return max(self._due, earliest)
+
 
 IN_FLIGHT = 2
 """Poses a page may be sent before it says it has drawn the first of them."""

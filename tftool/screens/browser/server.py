@@ -37,12 +37,16 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import Snapshot
 from tftool.robots.mesh_folders import MeshRefused
 from tftool.screens.browser import assets, page_messages, protocol
-from tftool.screens.browser.cadence import Cadence
-from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
-from tftool.screens.browser.live_messages import LiveDisplays
+from tftool.screens.browser.client import Cadence, PageClient, Poses, SharedMoment, TreeMessage
+from tftool.screens.browser.drawn_messages import (
+    IN_A_FILE,
+    DrawnTopic,
+    Limits,
+    LiveDisplays,
+    pack_tracks,
+)
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.packing import PackedBlock
-from tftool.screens.browser.recorded_messages import IN_A_FILE, DrawnTopic, Limits, pack_tracks
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.standalone import (
     StandaloneData,

@@ -22,9 +22,9 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo
 from tftool.robots.mesh_folders import MeshRefused
 from tftool.screens.browser import assets, protocol
+from tftool.screens.browser.drawn_messages import DrawnTopic, pack_tracks
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Progress, TooLarge
-from tftool.screens.browser.recorded_messages import DrawnTopic, pack_tracks
 from tftool.screens.browser.robots import ShownRobot
 
 MOST_BYTES: Final = 10_000_000

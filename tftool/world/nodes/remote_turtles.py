@@ -10,10 +10,10 @@ from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Stamp, seconds
 from tftool.messages.classes import INTERFACES
-from tftool.messages.parameter_values import value_of
 from tftool.messages.turtle_messages import Pose
 from tftool.world.endpoints import PUBLISHER
 from tftool.world.node import Node
+from tftool.world.node_parameters import value_of
 from tftool.world.nodes.trail import SERVICE, FarDrawing, Segment, Trail
 from tftool.world.nodes.turtle import PEN_COLOR, PEN_WIDTH
 from tftool.world.nodes.turtlesim import BACKGROUND_PARAMETERS

@@ -22,7 +22,7 @@ from tftool.world.clock import WallClock
 from tftool.world.link.foxglove.client import ClientReceiver, FoxgloveClient
 from tftool.world.link.foxglove.protocol import MOST_DEFINITIONS, ServerState
 from tftool.world.link.foxglove.reach import FoxgloveReach
-from tftool.world.link.inbox import Inbox
+from tftool.world.link.queues import Inbox
 
 INFO = json.dumps({"op": "serverInfo", "name": "stranger", "capabilities": []})
 

@@ -16,8 +16,13 @@ from tftool.world.link.dds import dds_types as names
 from tftool.world.link.dds.dds_services import CycloneClient, CycloneServer, ServicePart
 from tftool.world.link.dds.dds_types import Raw, Types
 from tftool.world.link.dds.discovery import Discovery
-from tftool.world.link.dds.library_log import LIBRARY_LOG
-from tftool.world.link.dds.participant import DdsSample, Participant, TopicReader, TopicWriter
+from tftool.world.link.dds.participant import (
+    LIBRARY_LOG,
+    DdsSample,
+    Participant,
+    TopicReader,
+    TopicWriter,
+)
 from tftool.world.link.dds.reach import DdsReach
 from tftool.world.link.dds.settings import network, other_domains, participants_here
 from tftool.world.link.graph import GraphEntity, Process, node_name

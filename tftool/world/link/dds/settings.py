@@ -72,7 +72,7 @@ class Network:
             f"<MaxAutoParticipantIndex>{MOST_PARTICIPANTS}</MaxAutoParticipantIndex><Peers>"
             + "".join(f"<Peer address={quoteattr(one)}/>" for one in peers)
             + "</Peers></Discovery>"
-            # Its complaints are read from `library_log`; tracing would write far more.
+            # Its complaints are read from `LIBRARY_LOG`; tracing would write far more.
             "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>"
         )
 

@@ -27,9 +27,13 @@ from tftool.base.errors import LinkError
 from tftool.base.stamps import Stamp
 from tftool.world.action_parts import Tasks
 from tftool.world.link.foxglove import protocol
-from tftool.world.link.foxglove.payloads import ros_topic
-from tftool.world.link.foxglove.protocol import FoxgloveChannel, ProtocolError, ServerState
-from tftool.world.link.inbox import Inbox
+from tftool.world.link.foxglove.protocol import (
+    FoxgloveChannel,
+    ProtocolError,
+    ServerState,
+    ros_topic,
+)
+from tftool.world.link.queues import Inbox
 
 PAUSES: Final = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Seconds before each further attempt to connect again; the last one from then on."""

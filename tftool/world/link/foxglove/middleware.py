@@ -8,13 +8,19 @@ from tftool.base.errors import InputError, MalformedMessage
 from tftool.base.stamps import Stamp
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
 from tftool.world.link.foxglove.client import ClientReceiver, FoxgloveClient, FoxgloveData
-from tftool.world.link.foxglove.payloads import conversion, define, ros_topic
-from tftool.world.link.foxglove.protocol import FoxgloveChannel, ServerState, clock_message
+from tftool.world.link.foxglove.protocol import (
+    FoxgloveChannel,
+    ServerState,
+    clock_message,
+    conversion,
+    define,
+    ros_topic,
+)
 from tftool.world.link.foxglove.reach import FoxgloveReach
 from tftool.world.link.graph import NODE, SERVER, Graph, GraphEntity
-from tftool.world.link.inbox import Inbox
 from tftool.world.link.link_context import UNKNOWN
 from tftool.world.link.link_options import Options
+from tftool.world.link.queues import Inbox
 from tftool.world.link.seam import Arrived, Middleware, Watcher
 
 CLOCK: Final = ("clock", "rosgraph_msgs/msg/Clock")

@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 from tftool.base.errors import LinkError
 from tftool.messages.layouts import LARGEST
 from tftool.world.endpoints import Quality
-from tftool.world.link.inbox import Inbox
-from tftool.world.link.outbox import Outbox
+from tftool.world.link.queues import Inbox, Outbox
 from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.link.zenoh.rendezvous import PASSWORDS, USER, Rendezvous
 
