@@ -1,4 +1,4 @@
-"""pytest plugin: launch tests of launch_testing and launch_pytest, with `--ros-free`."""
+"""pytest plugin for tests of launch_testing and launch_pytest, loaded by `--ros-free`."""
 
 import unittest
 from collections.abc import Iterable, Iterator
@@ -12,7 +12,7 @@ from tftool.ros.launch_testing.runner import MAKES, LaunchTestRunner, LoadTestsF
 from tftool.ros.testing import RosRuntime
 
 MARKS = ("launch_test", "rostest")
-"""Marks of a function that describes a launch with tests."""
+"""Names of the pytest marks for a function that describes a launch with tests."""
 
 launch_service = fixtures.service_fixture("function")
 launch_context = fixtures.context_fixture("function")
@@ -20,17 +20,17 @@ event_loop = fixtures.loop_fixture("function")
 
 
 class LaunchTestFailure(Exception):
-    """Error for failed tests beside a launch."""
+    """Error that lists the failed tests of one launch."""
 
     def __init__(self, failures: Iterable[tuple[Any, str]]) -> None:
         super().__init__("\n\n".join(f"{case}\n{text}" for case, text in failures))
 
 
 class LaunchTestItem(pytest.Item):
-    """A launch with its tests, once for each set of its parameters."""
+    """pytest item of a file of launch tests: all its launches with their tests."""
 
     def runtest(self) -> None:
-        """Run the test in a world of its own.
+        """Run the launches and their tests in a new world on simulated time.
 
         Raises:
             LaunchTestFailure: If a test fails.
@@ -51,21 +51,21 @@ class LaunchTestItem(pytest.Item):
             raise LaunchTestFailure(failures)
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
-        """Return the failed tests, without the lines of this plugin."""
+        """Return the report of the failed tests, without lines of this plugin's code."""
         if isinstance(excinfo.value, LaunchTestFailure):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """Return file, line and name of the test."""
+        """Return file, line and name of the item for pytest's report."""
         return self.path, 0, f"launch tests: {self.name}"
 
 
 class LaunchTestModule(pytest.Module):
-    """A file that may describe a launch with tests."""
+    """Collector of a file that may describe a launch with tests."""
 
     def collect(self) -> Iterable[Any]:
-        """Return the launch as one test, or the file's tests if it is another file."""
+        """Return one item for a file of launch tests; for another file, its ordinary tests."""
         function = getattr(self.obj, MAKES, None)
         marks = {mark.name for mark in getattr(function, "pytestmark", ())}
         if marks.isdisjoint(MARKS):
@@ -77,7 +77,7 @@ class LaunchTestModule(pytest.Module):
 
 
 def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> pytest.Module | None:
-    """Look closer at files that may describe a launch."""
+    """Return a `LaunchTestModule` for a file that may describe a launch; else None."""
     if MAKES.encode() not in module_path.read_bytes():
         return None
     return LaunchTestModule.from_parent(parent, path=module_path)
@@ -85,7 +85,7 @@ def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> pytest.Module
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
-    """Collect tests beside the launch of a fixture."""
+    """Collect a test with the mark `launch`, which runs beside a fixture's launch."""
     marks = [mark for mark in getattr(obj, "pytestmark", ()) if mark.name == "launch"]
     if not marks or not collector.funcnamefilter(name) or hasattr(obj, "launch_key"):
         return None
@@ -115,7 +115,7 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
 
 
 def _launch_of(item: Any) -> tuple[Any, ...] | None:
-    """Return the launch that a test runs beside; None for other tests."""
+    """Return a key of the launch that a test shares with others; None for other tests."""
     key = getattr(getattr(item, "obj", None), "launch_key", None)
     if key is None or fixtures.scope_of(item.obj) == "function":
         return None
@@ -126,7 +126,7 @@ def _launch_of(item: Any) -> tuple[Any, ...] | None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[Any]) -> None:
-    """Run the tests after a launch's end after those beside it."""
+    """Move tests that run after the end of a launch behind those that run during it."""
     late = [one for one in items if _launch_of(one) is not None and one.obj.launch_key[1]]
     for one in late:
         launch = _launch_of(one)
@@ -137,7 +137,7 @@ def pytest_collection_modifyitems(items: list[Any]) -> None:
 
 @pytest.hookimpl(wrapper=True, trylast=True)
 def pytest_fixture_setup(fixturedef: Any, request: Any) -> Iterator[None]:
-    """Launch the description that a fixture of launch_pytest returns."""
+    """Start the launch whose description a fixture of launch_pytest returns."""
     options = getattr(fixturedef.func, "launch_options", None)
     service: Any = None if options is None else request.getfixturevalue("launch_service")
     value = yield

@@ -1,8 +1,9 @@
-"""pytest plugin: test ROS nodes without ROS.
+"""pytest plugin for tests of ROS nodes without ROS.
 
-The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`. With `pytest --ros-free` every test
-has one, and test files may `import rclpy` at their top. A fixture of a class, a module or the
-session that uses rclpy has one for its whole lifetime, which its tests share.
+The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`: a simulated world. With `pytest
+--ros-free` every test has one, and test files may `import rclpy` at their top. A fixture of a
+class, a module or the session that uses rclpy has one for its whole lifetime, and its tests share
+it.
 """
 
 import sys
@@ -14,15 +15,15 @@ import pytest
 
 _imports: list[Any] = []
 _added: list[str] = []
-"""Folders of the workspace's modules, at the head of the path."""
+"""Folders of the workspace's modules, inserted at the head of `sys.path`."""
 _set_up: list[Any] = []
-"""The fixtures that are being set up, the innermost last."""
+"""Fixtures that are being set up, the innermost last."""
 _shared: list[Any] = []
-"""The runtimes of fixtures that outlive a test."""
+"""Runtimes of fixtures whose scope is larger than one test."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option `--ros-free`."""
+    """Add the option `--ros-free` to pytest."""
     parser.getgroup("tftool").addoption(
         "--ros-free",
         action="store_true",
@@ -39,13 +40,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_load_initial_conftests(early_config: pytest.Config) -> None:
-    """Provide ROS 2's modules before the first conftest.py is imported."""
+    """With `--ros-free`, provide ROS 2's modules before the first conftest.py is imported."""
     if getattr(early_config.known_args_namespace, "ros_free", False):
         _provide(early_config.rootpath)
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Add the plugin of launch tests."""
+    """With `--ros-free`, register the plugin for launch tests."""
     if config.getoption("--ros-free"):
         from tftool.ros import launch_plugin
 
@@ -56,7 +57,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _provide(root: Path) -> None:
-    """Provide ROS 2's modules, and those of the workspace around a folder."""
+    """Provide ROS 2's modules, and the packages of the workspace that contains a folder."""
     if not _imports:
         from tftool.ros.host import program
         from tftool.ros.host.importing import ros_modules
@@ -76,7 +77,7 @@ def _provide(root: Path) -> None:
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """Restore the imports."""
+    """Remove ROS 2's modules and the workspace's folders from the imports."""
     if _imports:
         from tftool.ros.host import program
 
@@ -89,7 +90,7 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
-    """Explain a failed `import rclpy` in a test file, and let packages have files of one name."""
+    """Explain a failed `import rclpy`; let packages have test files of the same name."""
     if _imports and isinstance(collector, pytest.Module):
         # Packages made from one example have tests of one name. pytest imports them by that
         # name alone, and keeps the first module itself.
@@ -106,14 +107,14 @@ def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_fixture_setup(fixturedef: Any) -> Iterator[None]:
-    """Record the fixture being set up."""
+    """Record which fixture is being set up."""
     _set_up.append(fixturedef)
     yield
     _set_up.pop()
 
 
 def _program_of_fixture() -> Any:
-    """Return the program of a fixture that uses rclpy before its tests start."""
+    """Return the program of a fixture that uses rclpy during its setup; None outside of one."""
     if not _set_up:
         return None
     from tftool.ros.testing import RosRuntime
@@ -133,7 +134,7 @@ def _program_of_fixture() -> Any:
 
 @pytest.fixture
 def ros_runtime() -> Iterator[Any]:
-    """World on simulated time; the test is a program in it and may use rclpy."""
+    """Create a world on simulated time in which the test is a program that may use rclpy."""
     from tftool.ros.testing import RosRuntime
 
     if _shared:
@@ -145,6 +146,6 @@ def ros_runtime() -> Iterator[Any]:
 
 @pytest.fixture(autouse=True)
 def _ros_free(request: pytest.FixtureRequest) -> None:
-    """Give every test a runtime, with `--ros-free`."""
+    """With `--ros-free`, give every test the fixture `ros_runtime`."""
     if request.config.getoption("--ros-free"):
         request.getfixturevalue("ros_runtime")

@@ -1,7 +1,7 @@
-"""The programs `ros2 topic`, `service`, `param`, `node`, `action`, `interface` and `pkg`.
+"""Commands `ros2 topic`, `service`, `param`, `node`, `action`, `interface` and `pkg`.
 
-It is a program of the world like any node: `tftool ros2 …` starts it, and launch files that execute
-`ros2` run it without a separate process.
+`ros2` is a program of tftool's world like any node: `tftool ros2 …` starts it, and launch files
+that execute `ros2` run it without a separate process.
 """
 
 import argparse
@@ -45,25 +45,25 @@ from tftool.world.node_parameters import value_of
 Print = Callable[[str], object]
 
 NAME = "_ros2cli"
-"""The node's name; a leading underscore hides it from lists, as in ROS."""
+"""Name of the command's own node; as in ROS, the underscore hides it from lists."""
 
 SETTLE = seconds(0.5)
-"""How long the graph is listened to before it is listed, as ROS's own command does."""
+"""Time in nanoseconds to discover nodes and topics before listing them, as ROS's command does."""
 
 PATIENCE = 10.0
-"""Seconds to wait for a node or a topic that is named."""
+"""Seconds to wait until the given node or topic appears."""
 
 _STATUSES = {4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
 
 UNKNOWN = 1
-"""Exit status when the named thing does not exist."""
+"""Exit status if the given node, topic or parameter does not exist."""
 
 
 def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[], None]:
-    """Return the body of a `Program` that runs `ros2 WORDS` and prints by `show`.
+    """Return the function of a `Program` that runs `ros2 WORDS` and prints lines by calling `show`.
 
     Raises:
-        UsageError: If the words are no command, or a type they name is not known.
+        UsageError: If there is no such command, or a type in the words is not known.
     """
     asked = ros2_words.parse(words)
     # A command is the function of its name here: `_topic_list` is `ros2 topic list`.
@@ -93,10 +93,10 @@ def _show_lines(text: str, show: Print) -> None:
 
 
 def _message(asked: argparse.Namespace) -> Any:
-    """Make a message from its YAML text.
+    """Create the message that a command line describes by a type and YAML text.
 
     Raises:
-        UsageError: If the value does not fit the type.
+        UsageError: If the YAML text does not describe a message of the type.
     """
     kind = {"topic": "msg", "service": "srv", "action": "action"}[asked.noun]
     asked.kind = rosidl_runtime.interface(asked.type, kind)
@@ -148,10 +148,10 @@ def _topic_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _type_of_topic(node: Node, topic: str) -> str:
-    """Wait for a topic, and return its type.
+    """Wait until a topic exists, and return the name of its type.
 
     Raises:
-        UsageError: If the topic does not appear.
+        UsageError: If the topic does not appear in time.
     """
 
     def found() -> str:
@@ -175,7 +175,7 @@ def _wait_until(found: Callable[[], object]) -> None:
 
 
 def _wanted_quality(asked: argparse.Namespace, otherwise: QoSProfile) -> QoSProfile:
-    """Return the profile from `--qos-…` options, completed from `otherwise`."""
+    """Return the QoS profile of the `--qos-…` options, with other settings from `otherwise`."""
     profile = otherwise
     if asked.qos_profile:
         profile = copy(QoSPresetProfiles[asked.qos_profile.upper()].value)
@@ -196,7 +196,7 @@ _POLICIES: dict[str, Any] = {
 
 
 def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
-    """Subscribe with the publishers' QoS, or that of `--qos-…` options."""
+    """Subscribe to a topic with its publishers' QoS, or that of the `--qos-…` options."""
     name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
     ends = [one.qos_profile for one in node.get_publishers_info_by_topic(_full(asked.topic))]
     latched = bool(ends) and all(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in ends)
@@ -248,7 +248,7 @@ def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _field(message: Any, path: str) -> Any:
-    """Return a message's field by a path like "points[0].x".
+    """Return a message's field, given by a path such as "points[0].x".
 
     Raises:
         UsageError: If the message has no such field.
@@ -270,7 +270,7 @@ def _measured(
     value: Callable[[Any], Any],
     tell: Callable[[list[Any]], None],
 ) -> None:
-    """Collect a value of each message; call `tell` with the last ones once a second."""
+    """Collect a value of each message of a topic; once a second, call `tell` with the latest."""
     values: list[Any] = []
     _heard(node, asked, lambda message: values.append(value(message)))
 
@@ -341,7 +341,7 @@ def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _find(pairs: Any, kind: str, show: Print) -> None:
-    """Print the names with a type, "package/msg/Name" or "package/Name"."""
+    """Print the names whose types include `kind`: "package/msg/Name" or "package/Name"."""
     parts = kind.split("/")
     for name, kinds in pairs:
         if any(kind == one or parts == [one.split("/")[0], one.split("/")[-1]] for one in kinds):
@@ -458,10 +458,10 @@ def _service_call(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _parameters(node: Node, name: str) -> AsyncParameterClient:
-    """Return a client for a node's parameters.
+    """Return a client for the parameters of a node.
 
     Raises:
-        UsageError: If the node does not answer.
+        UsageError: If the node's parameter services do not appear in time.
     """
     client = AsyncParameterClient(node, _full(name))
     if not client.wait_for_services(PATIENCE):
@@ -578,10 +578,10 @@ _TYPES = {
 
 
 def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    """Set a node's parameters from a file; print each, with the reason if refused.
+    """Set a node's parameters from a file; print each, with the reason if it is rejected.
 
     Raises:
-        UsageError: If the file cannot be read, or does not name that node.
+        UsageError: If the file cannot be read, or has no parameters for the node.
     """
     client = _parameters(node, asked.node)
     try:
@@ -715,10 +715,10 @@ def _pkg_prefix(asked: argparse.Namespace, workspace: Workspace) -> str:
 
 
 def _pkg_xml(asked: argparse.Namespace, workspace: Workspace) -> str:
-    """Return a package's package.xml, or the texts of one of its tags.
+    """Return the text of a package's package.xml, or of one of its tags.
 
     Raises:
-        UsageError: If the package has no such file, or the file no such tag.
+        UsageError: If the package has no package.xml, or that file has no such tag.
     """
     file = workspace.package(asked.package).path / "package.xml"
     if not file.is_file():

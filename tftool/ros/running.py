@@ -1,4 +1,4 @@
-"""Running users' programs in a world, for the commands `run` and `launch`."""
+"""Running of users' programs in a world, for the commands `run` and `launch`."""
 
 import asyncio
 from collections.abc import Callable, Iterator, Sequence
@@ -17,20 +17,20 @@ from tftool.world.clock import Phase
 from tftool.world.world import World
 
 KEYBOARD_NODE = "teleop_turtle"
-"""What turtlesim calls the node that reads keys."""
+"""Name of the node in which turtlesim's keyboard program runs."""
 
 TURTLE_PACKAGES = ("turtlesim", "turtlesim_msgs", *executables.TURTLE_TF_PACKAGES)
-"""Packages whose nodes and interfaces need a turtlesim."""
+"""Packages whose nodes and interfaces are of use only with a turtlesim."""
 
 TURTLE_TOPICS = frozenset(("turtle1/cmd_vel", "turtle1/pose", "turtle1/color_sensor"))
-"""Topics by which a program that imports nothing of turtlesim still means its first turtle."""
+"""Topics of the first turtle: a program that uses one needs a turtlesim."""
 
 
 def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
-    """Refuse words that `start_program` would refuse, before a world is made.
+    """Raise the errors that `start_program` would raise, before a world is created.
 
     Raises:
-        UsageError: If no executable is named, or there is none of that name, or the rest
+        UsageError: If no executable is given, or it does not exist, or the part after
             `--ros-args` is malformed.
         InputError: If the file cannot be read or is not valid Python.
     """
@@ -66,19 +66,19 @@ def start_program(
     on_exit: Callable[[Program], object],
     name: str = "",
 ) -> str:
-    """Start a node's file, or a package's executable, in a world.
+    """Start a node's file, or an executable of a package, in a world.
 
     Args:
         world: World to join.
-        workspace: Workspace of packages.
-        target: The file, or the package.
-        rest: Remaining words; for a package, the executable first.
-        on_exit: Called once a program of a user's has ended.
+        workspace: Workspace in which packages are searched.
+        target: Path of the file, or name of the package.
+        rest: Further words of the command line; for a package, the executable first.
+        on_exit: Function called when a user's program has ended.
         name: Name of the program and its node, unless `--ros-args` names the node; when
             empty, the name of the file or the executable.
 
     Returns:
-        Its name.
+        Name of the program in log lines.
 
     Raises:
         UsageError: If there is no such executable, or its arguments are malformed.
@@ -110,7 +110,7 @@ def start_program(
 
 
 def tell_unfound(workspace: Workspace, file: Path | None) -> str:
-    """Return a line about parts of a node or launch file that ROS 2 would not find; "" for none."""
+    """Return a line on why ROS 2 would not find a node or launch file, or ""; name one reason."""
     for name, package in workspace.packages.items() if file is not None else ():
         if file is not None and file.is_relative_to(package.path):
             faults = faults_about(package, file, workspace.packages)
@@ -121,7 +121,7 @@ def tell_unfound(workspace: Workspace, file: Path | None) -> str:
 
 
 def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> Path | None:
-    """Return the file of a package's executable; None for other words, and for our own nodes."""
+    """Return the file of a user's executable; None for tftool's nodes and for other words."""
     package = None if is_file(target) or not rest else workspace.packages.get(target)
     if package is None:
         return None
@@ -132,12 +132,12 @@ def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> P
 
 
 def driven_turtle(words: Sequence[str]) -> str:
-    """Return the turtle that a turtle_teleop_key with these arguments drives.
+    """Return the name of the turtle that turtle_teleop_key drives when given some arguments.
 
-    It publishes on `turtle1/cmd_vel`, or on the topic to which `--ros-args` remaps that.
+    The program publishes on `turtle1/cmd_vel`, or on another topic if `--ros-args` remaps this one.
 
     Raises:
-        UsageError: If the words are malformed, or the rule leads to no turtle's `cmd_vel`.
+        UsageError: If the arguments are malformed, or the other topic is not a turtle's `cmd_vel`.
     """
     options, _ = names.parse(words)
     namespace = (options.namespace or "").strip("/")
@@ -152,24 +152,24 @@ def driven_turtle(words: Sequence[str]) -> str:
 
 
 class TurtlesOnDemand:
-    """Hosts a turtlesim in a world as soon as a program uses turtles."""
+    """Starter of a simulated turtlesim in a world, as soon as a program uses turtles."""
 
     def __init__(self, world: World) -> None:
         self._world = world
         self._is_asked = False
 
     def host_from_program(self) -> None:
-        """Host turtlesim for the running program, unless turtles are simulated already."""
+        """Start turtlesim from a program's thread, unless turtles are simulated already."""
         program.current().ask(self.host)
 
     def host_for_topics(self) -> None:
-        """Host turtlesim when a topic of the first turtle is used."""
+        """Start turtlesim if a program uses a topic of the first turtle."""
         if not self._is_asked and TURTLE_TOPICS & self._world.topics().keys():
             # Not at once: the world is entering the topic at this moment.
             asyncio.get_running_loop().call_soon(self.host)
 
     def host(self) -> None:
-        """Host turtlesim, unless turtles are simulated already (in the loop's thread)."""
+        """Start turtlesim unless turtles are simulated already; called in the loop's thread."""
         if self._is_asked:
             return
         self._is_asked = True
@@ -181,7 +181,7 @@ class TurtlesOnDemand:
 
 
 def advice(world: World) -> Iterator[str]:
-    """Yield advice about the lookups of each program of a world."""
+    """Yield advice about the transform lookups of each program in a world."""
     for one in world.nodes:
         if isinstance(one, Program):
             told = filter(None, (sum_up() for sum_up in one.advice))
@@ -189,7 +189,7 @@ def advice(world: World) -> Iterator[str]:
 
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
-    """Wait until something is over, at most for a duration."""
+    """Wait until an event is set, at most for a duration in nanoseconds."""
     if limit is None:
         await over.wait()
         return
@@ -207,22 +207,22 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
 
 
 class Ending:
-    """The end of a run of users' programs."""
+    """End of a run: the program that ended, and an event for it."""
 
     def __init__(self) -> None:
         self.program: Program | None = None
         self.over: asyncio.Event = asyncio.Event()
 
     def __call__(self, program: Program) -> None:
-        """Record that a program has ended; the run is over."""
+        """Store the program that has ended, and set the event."""
         self.program = program
         self.over.set()
 
     def judge(self) -> int:
-        """Return the exit status of the run.
+        """Return the exit status of the run: the ended program's, or 0.
 
         Raises:
-            NodeFailed: If a node raised.
+            NodeFailed: If the program raised an exception.
         """
         return 0 if self.program is None else status_of(self.program)
 
@@ -231,7 +231,7 @@ def status_of(program: Program) -> int:
     """Return the exit status of a program that has ended.
 
     Raises:
-        NodeFailed: If the program raised.
+        NodeFailed: If the program raised an exception.
     """
     # One that ended because we asked it to has done what it should.
     is_stuck = isinstance(program.failure, StuckError)
@@ -244,7 +244,7 @@ def status_of(program: Program) -> int:
 
 
 class ProgramFailed(NodeFailed):
-    """Error for a program that raised, with the user's own line."""
+    """Error for a program that raised an exception; the text shows the user's line."""
 
     def __init__(self, name: str, error: BaseException) -> None:
         super().__init__(name, error)

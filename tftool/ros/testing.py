@@ -1,7 +1,7 @@
 """Unit tests of ROS nodes without ROS, on simulated time.
 
-The test is a program itself: no time passes between its calls, and `rclpy.spin_once(node,
-timeout_sec=10.0)` takes no real time.
+The test itself is a program in the simulated world: no time passes between its calls, and
+`rclpy.spin_once(node, timeout_sec=10.0)` takes no real time.
 """
 
 import threading
@@ -22,12 +22,12 @@ from tftool.world.world import World
 
 
 class RosRuntime:
-    """A world whose event loop runs beside the test; use it with `with`.
+    """Simulated world whose event loop runs in a second thread; a context manager.
 
     Attributes:
-        clock: The simulated clock; it starts at 1000 s.
+        clock: Simulated clock of the world, which starts at 1000 s.
         world: World of the nodes.
-        program: The test's own program.
+        program: Program that stands for the test.
     """
 
     def __init__(self) -> None:
@@ -57,7 +57,7 @@ class RosRuntime:
             raise self._failure
 
     def _ended(self) -> BaseException:
-        """Return why a test waits for a world that has ended."""
+        """Return the exception for a test that waits although the world has ended."""
         failure = self.world.failure
         if failure is None:
             return EndedError("the world has ended")
@@ -71,7 +71,7 @@ class RosRuntime:
             self._failure = error
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Run something in the world, and await it if possible: `ask(lambda: …)`.
+        """Call `request` in the world's event loop; await the result if it is awaitable.
 
         Raises:
             NodeFailed: If a program beside the test, or a node, has failed.
@@ -80,7 +80,7 @@ class RosRuntime:
         return self.program.ask(request)
 
     def sleep(self, duration: float) -> None:
-        """Let `duration` seconds pass, with everything due in them.
+        """Advance simulated time by `duration` seconds, running everything due meanwhile.
 
         Raises:
             NodeFailed: If a program beside the test, or a node, has failed.
@@ -89,7 +89,7 @@ class RosRuntime:
         self.program.ask(lambda: self.clock.sleep(seconds(duration), Phase.WATCH))
 
     def elapsed(self) -> float:
-        """Return seconds since the start."""
+        """Return the simulated seconds since the start."""
         return (self.clock.now() - self.clock.epoch) / 1e9
 
     def start(
@@ -98,13 +98,13 @@ class RosRuntime:
         *argv: str,
         on_exit: Callable[[Program], object] | None = None,
     ) -> Program:
-        """Start a node's file, or a function such as a module's `main`, as a program.
+        """Start a program beside the test: a node's file, or a function such as a module's `main`.
 
         Args:
-            what: The file, or the function.
+            what: Path of the file, or the function.
             argv: Arguments after the file's name on the command line, with `--ros-args`.
-            on_exit: Called once it has ended, however it did; without it, a program that fails
-                ends the world and fails the test.
+            on_exit: Function called when the program has ended in any way; without it, a program
+                that fails ends the world and fails the test.
 
         Raises:
             InputError: If the file cannot be read or is not valid Python.
@@ -132,6 +132,6 @@ class RosRuntime:
         )
 
     def log(self, node: str | None = None) -> list[str]:
-        """Return the log so far, or that of one node."""
+        """Return the log messages so far: of all nodes, or of the node with a name."""
         records: Sequence[LogRecord] = list(self.world.log.records)
         return [record.text for record in records if node is None or record.node == node]

@@ -16,7 +16,7 @@ from tftool.ros.host import import_table
 from tftool.ros.host.fibers import StuckError, user_line_of_error
 
 FEW = 12
-"""How many names a sentence lists; more would hide what it says."""
+"""Largest number of names that a sentence lists, so that it stays readable."""
 
 WHERE_TO_LOOK = (
     "the page 'What of ROS is covered' in tftool's docs lists what runs without ROS; "

@@ -215,7 +215,7 @@ def _joint_state_publisher(asked: Asked) -> Node:
 
 
 TURTLE_TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
-"""ROS's packages of the tf2 tutorials with turtles."""
+"""Packages of ROS's tf2 tutorials with turtles."""
 
 
 def _plain(kind: Callable[[World, str], Node]) -> Callable[[Asked], Node]:
@@ -263,7 +263,7 @@ COMMANDS = {
     ("rviz2", "rviz2"): ("view",),
     ("launch_testing", "launch_test"): ("ros2", "test"),
 }
-"""Programs of ROS that have a command of tftool, which `tftool run` runs in their place."""
+"""Programs of ROS in whose place `tftool run` runs a command of tftool."""
 
 # Executables with a command of their own here.
 _ELSEWHERE = {

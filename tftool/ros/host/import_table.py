@@ -292,7 +292,7 @@ WHOLE_PACKAGES = (
     "rclpy", "launch", "launch_ros", "tf2_ros", "message_filters",
     "launch_testing", "launch_testing_ros", "launch_pytest", "launch.events", "launch_ros.events",
 )  # fmt: skip
-"""Packages whose modules are attributes after no more than `import launch`."""
+"""Packages whose submodules are attributes without being imported, as after `import launch`."""
 
 
 def snake_case(name: str) -> str:

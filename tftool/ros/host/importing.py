@@ -25,10 +25,10 @@ from tftool.ros.host.shims import IMPORTING, builtins_for_users
 from tftool.ros.host.workspace import TAKEN
 
 DISTRIBUTION = "jazzy"
-"""The ROS 2 distribution whose behaviour programs meet here: what `ROS_DISTRO` says to them."""
+"""ROS 2 distribution whose behaviour tftool has: the value of `ROS_DISTRO` for programs."""
 
 _OURS = Path(__file__).resolve().parents[2]
-"""This package, which may lie below a folder of the user's as well."""
+"""Folder of the package tftool, which may be below a user's folder."""
 
 
 def real_ros() -> str:
@@ -47,7 +47,7 @@ def real_ros() -> str:
 
 
 _LOADING = threading.RLock()
-"""Held while a name is loaded: of an interface, two threads at once would make two classes."""
+"""Lock for loading a name: two threads at once would create two classes for one interface."""
 
 
 class _StandInModule(ModuleType):
@@ -93,7 +93,7 @@ class _StandInModule(ModuleType):
 _PARTS: Mapping[str, Sequence[str]] = MappingProxyType(
     {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
 )
-"""Parts of an interface that its own module has by name: `Trigger_Request`."""
+"""Parts of an interface that its module contains under names such as `Trigger_Request`."""
 
 
 def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
@@ -163,11 +163,11 @@ class _Finder(MetaPathFinder):
     def __init__(self) -> None:
         self.roots: list[Path] = []
         self.behind: list[Callable[[], Iterable[str]]] = []
-        """Return more roots, searched after the others; asked when an import needs them."""
+        """Functions that return further folders, which are searched last; called when needed."""
         self.tested: Path | None = None
-        """The folder of tests and of their subject; others load it."""
+        """Folder of the tests and their subject, whose modules get tftool's builtins."""
         self.on_import: dict[str, Callable[[], object]] = {}
-        """Called when a program first imports a package of that name."""
+        """Functions to call when a program first imports a package, by its name."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None

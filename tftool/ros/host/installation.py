@@ -18,7 +18,7 @@ _INSTEAD = {
     "launch_ros": ("launch_ros", "ros2launch"),
     "tf2_ros": ("tf2_ros", "tf2_ros_py"),
 }
-"""Dependencies that bring a module; a module that is not here is brought by its own name."""
+"""Dependencies that provide a module; another module needs the package of its own name."""
 
 _DEPENDENCY = re.compile(r"<(depend|exec_depend|run_depend)\b[^>]*>\s*([\w-]+)\s*<")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)

@@ -14,7 +14,7 @@ from tftool.base.errors import InputError
 from tftool.base.named_files import read_named_text
 
 MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
-"""One of these in a folder makes it a package."""
+"""File names of which one makes a folder a package."""
 
 
 @dataclass(frozen=True, slots=True)

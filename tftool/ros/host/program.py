@@ -26,20 +26,20 @@ from tftool.world.world import World
 T = TypeVar("T")
 
 POLLS = 100
-"""How often a program may look in vain at one simulated instant before time moves on."""
+"""Failed queries that a program may make in one simulated instant before time advances."""
 
 READINGS = 2_000
-"""How often it may read the clock at one simulated instant before time moves on."""
+"""Readings of the clock in one simulated instant before time advances."""
 
 REQUESTS = 10_000
-"""How often it may ask for anything at one simulated instant before time moves on."""
+"""Requests of any kind in one simulated instant before time advances."""
 
 TICK = seconds(0.001)
-"""How far simulated time moves then: a loop that only polls must see an end of its waiting."""
+"""Nanoseconds by which time then advances, so that a loop that polls comes to its end."""
 
 
 _living: "set[Program]" = set()
-"""The programs that run at the moment, in whatever world."""
+"""Programs that are running, in all worlds of this process."""
 
 
 class ProgramNode(Node):

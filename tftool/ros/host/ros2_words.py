@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 from tftool.base.errors import UsageError
 
 SESSIONLESS = ("interface", "pkg")
-"""Commands that files answer: no session is asked."""
+"""Commands that only read files, without a session of running nodes."""
 
 _QUALITY = "--qos-profile --qos-depth --qos-history --qos-reliability --qos-durability"
 
@@ -53,10 +53,10 @@ pkg executables: [package] --full-path
 pkg prefix: package --share
 pkg xml: package -t
 """
-"""The words of each command: its arguments, in brackets if they may be left out, and options."""
+"""Arguments of each command, in brackets if they may be left out, and its options."""
 
 _ASKING = ("--no-daemon", "-s/--use-sim-time", "--spin-time")
-"""Options about how a graph is asked, which make no difference here."""
+"""Options of ROS 2 for queries of the graph, which have no effect here."""
 
 
 def _rate(text: str) -> float:
@@ -105,7 +105,7 @@ _VALUES: dict[str, dict[str, Any]] = {
     "-w/--wait-matching-subscriptions": {"type": int},
     "-w/--window": {"type": _count, "default": 10_000},
 }
-"""How argparse takes options that have a value, and two arguments; other options are flags."""
+"""Settings for argparse of two arguments and the options with a value; other options are flags."""
 
 
 class _Parser(argparse.ArgumentParser):

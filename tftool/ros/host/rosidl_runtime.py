@@ -46,7 +46,7 @@ def definition(name: str) -> str:
 
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
-"""The kinds of interfaces, and the headings that `ros2 interface list` gives them."""
+"""Kinds of interfaces, with their headings in `ros2 interface list`."""
 
 
 def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:

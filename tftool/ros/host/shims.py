@@ -179,8 +179,8 @@ def _queues() -> ModuleType:
 
 
 IMPORTING = locks.UserRLock()
-"""Held while users' modules are imported, which may sleep: Python's own locks would hold up
-the event loop, and simulated time with it."""
+"""Lock for imports of users' modules, which may sleep: Python's own locks would block the event
+loop, and simulated time with it."""
 
 
 def _is_imported(name: str, fromlist: Any) -> bool:
@@ -212,7 +212,7 @@ def builtins_for_users() -> dict[str, Any]:
 
 
 SLICE: Duration = seconds(0.01)
-"""How long a loop waits at once: by then it sees what came by socket or from another thread."""
+"""Longest single wait of a loop, after which it checks sockets and other threads."""
 
 
 class _WorldSelector(selectors.DefaultSelector):
@@ -244,7 +244,7 @@ class UserEventLoop(asyncio.SelectorEventLoop):
 
 
 _replaced: list[asyncio.AbstractEventLoop] = []
-"""Loops that Python made on a thread's first question: kept, as they would warn when collected."""
+"""Loops that Python created for a thread; stored, because they would warn when collected."""
 
 
 def _get_event_loop() -> asyncio.AbstractEventLoop:

@@ -60,13 +60,13 @@ def _link(file: Path, target: Path) -> None:
 
 
 SHARE = Path(__file__).resolve().parents[1] / "share"
-"""Launch files of the packages we stand in for."""
+"""Folder of the launch files of ROS packages that tftool replaces."""
 
 _SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"}
 _DEPTH = 5
 _KINDS = ("msg", "srv", "action")
 TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", "pytest"}
-"""Python's own modules and ours: interfaces of a package with such a name would hide them."""
+"""Names of modules of Python and tftool, which a package of the same name would hide."""
 
 
 class Workspace:

@@ -1,4 +1,4 @@
-"""launch_testing's parts of a test's description: actions, decorators and markers."""
+"""Actions, decorators and markers of launch_testing for the description of a launch test."""
 
 import functools
 import sys
@@ -20,14 +20,14 @@ from tftool.ros.launch.events import (
 from tftool.ros.launch.processes import ExecuteProcess, seconds_of
 
 READY_WITHIN = 15.0
-"""Seconds that processes have to start before the tests, unless the description says."""
+"""Default limit in seconds until the tests must be ready to start."""
 
 
 class ReadyToTest(Action):
-    """Starts the tests.
+    """Action after which the tests of a launch start.
 
     Attributes:
-        callbacks: Functions called when the tests may start.
+        callbacks: Functions to call when the tests may start.
     """
 
     def __init__(self) -> None:
@@ -35,13 +35,13 @@ class ReadyToTest(Action):
         self.callbacks: list[Callable[[], object]] = []
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the tests."""
+        """Call the callbacks, which start the tests."""
         for callback in self.callbacks:
             callback()
 
 
 def ready_actions(entities: Iterable[Any]) -> Iterator[ReadyToTest]:
-    """Yield the ReadyToTest actions of a description, those inside other actions too."""
+    """Yield the ReadyToTest actions of a description, also those inside other actions."""
     for entity in entities:
         if isinstance(entity, ReadyToTest):
             yield entity
@@ -52,7 +52,7 @@ def ready_actions(entities: Iterable[Any]) -> Iterator[ReadyToTest]:
 
 
 class Test(ExecuteProcess):
-    """A process that is a test itself; it is ended after `timeout` seconds."""
+    """Action that runs a test as a process, which is ended after `timeout` seconds."""
 
     __test__ = False  # for pytest, which collects classes of that name
 
@@ -61,7 +61,7 @@ class Test(ExecuteProcess):
         self.timeout = timeout
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the test and its timeout."""
+        """Start the test's process and its timeout."""
         following = super().execute(context)
         if self.timeout is not None:
             # Not a TimerAction, which would keep the launch alive after the process's end.
@@ -76,10 +76,10 @@ class Test(ExecuteProcess):
 
 
 class GTest(Test):
-    """A test made with GoogleTest.
+    """Action that runs a test made with GoogleTest.
 
     Attributes:
-        path: Executable.
+        path: Path of the test's executable.
     """
 
     def __init__(self, *, path: Any, **kwargs: Any) -> None:
@@ -88,10 +88,10 @@ class GTest(Test):
 
 
 class PyTest(Test):
-    """A file of tests for pytest.
+    """Action that runs a file of tests with pytest.
 
     Attributes:
-        path: The file.
+        path: Path of the file.
     """
 
     def __init__(self, *, path: Any, **kwargs: Any) -> None:
@@ -100,13 +100,13 @@ class PyTest(Test):
 
 
 class KeepAliveProc(ExecuteProcess):
-    """Keeps the launch alive until it is shut down."""
+    """Action that keeps the launch running until it is shut down."""
 
     def __init__(self) -> None:
         super().__init__(cmd=[sys.executable, "-c", "import signal; signal.pause()"])
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start a program that waits for its end."""
+        """Start a program that waits until it is asked to end."""
         self.handle_exit(context)
         context.launch.start_body(self, self.cmd, _wait_for_end)
 
@@ -118,7 +118,7 @@ def _wait_for_end() -> None:
 
 
 class StdoutReadyListener(OnProcessIO):
-    """Handler that carries out actions once a process has written a text."""
+    """Event handler that executes actions when a process has written a text."""
 
     def __init__(self, *, target_action: Any = None, ready_txt: str, actions: Any) -> None:
         def check(event: Event) -> Any:
@@ -136,14 +136,14 @@ class ReadyAggregator:
         self._ready, self._left = ready_fn, num_to_aggregate
 
     def ready_fn(self) -> None:
-        """Count one call."""
+        """Count one call; at the n-th, call the function."""
         self._left -= 1
         if self._left == 0:
             self._ready()
 
 
 def post_shutdown_test() -> Callable[[type], type]:
-    """Return a decorator for test classes that run after the end of the launch."""
+    """Return a decorator for a test class that runs after the end of the launch."""
 
     def decorate(test_class: type) -> type:
         if not isinstance(test_class, type):
@@ -155,14 +155,14 @@ def post_shutdown_test() -> Callable[[type], type]:
 
 
 def keep_alive(description: Callable[..., Any]) -> Callable[..., Any]:
-    """Mark a description whose launch goes on when its processes have ended."""
+    """Mark a description whose launch goes on after its last process has ended."""
     markers = {**getattr(description, "__markers__", {}), "keep_alive": True}
     description.__markers__ = markers  # type: ignore[attr-defined]
     return description
 
 
 def ready_to_test_action_timeout(timeout: float) -> Callable[[Any], Any]:
-    """Return a decorator that sets how many seconds the processes have to start."""
+    """Return a decorator that limits the seconds until the tests must be ready to start."""
 
     def decorate(description: Any) -> Any:
         description.__ready_to_test_action_timeout__ = timeout
@@ -172,11 +172,11 @@ def ready_to_test_action_timeout(timeout: float) -> Callable[[Any], Any]:
 
 
 def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]:
-    """Return a decorator that launches a description once for each set of values.
+    """Return a decorator that repeats a launch and its tests for each set of values.
 
     Args:
         argnames: Names of the parameters, separated by commas.
-        argvalues: A value, or a tuple of values, for each launch.
+        argvalues: For each launch, a value or a tuple of values.
     """
     names = [name.strip() for name in argnames.split(",") if name.strip()]
     sets = [value if isinstance(value, tuple) else (value,) for value in argvalues]
@@ -196,10 +196,10 @@ def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]
 
 
 def retry_on_failure(*, times: int, delay: float | None = None) -> Callable[[Any], Any]:
-    """Return a decorator that repeats a test whose assertion fails.
+    """Return a decorator that repeats a test until its assertions hold.
 
     Args:
-        times: Largest number of runs.
+        times: Largest number of runs of the test.
         delay: Seconds between two runs; None for none.
     """
 

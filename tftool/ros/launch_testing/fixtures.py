@@ -1,4 +1,4 @@
-"""launch_pytest: fixtures that launch a description, and tests that run beside it."""
+"""Fixtures of launch_pytest, which start a launch, and conversion of tests that run beside it."""
 
 import asyncio
 import functools
@@ -18,12 +18,12 @@ from tftool.ros.launch_testing.runner import wait_for_first
 
 
 class LaunchedService(LaunchService):
-    """The launch of a fixture.
+    """Launch service of a fixture, whose launch runs beside the tests.
 
     Attributes:
-        event_loop: Event loop of the tests' coroutines; None once the launch has ended.
-        auto_shutdown: Whether the launch is shut down after its tests.
-        waiting: Tests that continue after the launch's end, by their function.
+        event_loop: Event loop for tests that are coroutines; None once the launch has ended.
+        auto_shutdown: Whether to shut the launch down after its tests.
+        waiting: Generator tests that continue after the launch's end, by their function.
     """
 
     def __init__(self) -> None:
@@ -33,7 +33,7 @@ class LaunchedService(LaunchService):
         self.waiting: dict[Any, Any] = {}
 
     def start(self, description: LaunchDescription, *, keep_alive: bool) -> None:
-        """Launch a description, and wait until its tests may start.
+        """Start a launch, and wait until its tests may start.
 
         Raises:
             AssertionError: If the description has several ReadyToTest actions.
@@ -55,7 +55,7 @@ class LaunchedService(LaunchService):
         wait_for_first((ready, launch.ended))
 
     def finish(self) -> None:
-        """Shut the launch down unless it ends by itself, and wait for its end.
+        """Shut the launch down if `auto_shutdown`, and wait for its end.
 
         Raises:
             AssertionError: If the launch has failed.
@@ -71,16 +71,16 @@ class LaunchedService(LaunchService):
             raise AssertionError("the launch has failed: its lines above say why")
 
     def _is_idle(self) -> bool:
-        """Whether the launch has ended; launch_pytest's examples ask."""
+        """Whether the launch has ended; examples of launch_pytest read this."""
         return self.event_loop is None
 
 
 def service_fixture(scope: Any) -> Any:
-    """Return the fixture `launch_service` for a scope."""
+    """Return the fixture `launch_service` for a scope such as "module"."""
 
     @pytest.fixture(scope=scope, name="launch_service")
     def launch_service() -> Iterator[LaunchedService]:
-        """Launch service of a fixture of launch_pytest."""
+        """Yield the launch service of a fixture of launch_pytest; finish it afterwards."""
         service = LaunchedService()
         yield service
         service.finish()
@@ -89,7 +89,7 @@ def service_fixture(scope: Any) -> Any:
 
 
 def _part_of_service(name: str, part: str) -> Callable[[Any], Any]:
-    """Return a maker of the fixture that gives one attribute of the launch service."""
+    """Return a function that makes a fixture for one attribute of the launch service."""
 
     def make(scope: Any) -> Any:
         @pytest.fixture(scope=scope, name=name)
@@ -121,10 +121,10 @@ def fixture(
     """Declare a fixture that returns a launch description, alone or first in a sequence.
 
     Args:
-        decorated: The function.
+        decorated: Function that returns the description.
         args: As for `pytest.fixture`.
-        shutdown_when_idle: Whether the launch ends once nothing of it runs any more.
-        auto_shutdown: Whether the launch is shut down after its tests.
+        shutdown_when_idle: Whether the launch ends after its last process has ended.
+        auto_shutdown: Whether to shut the launch down after its tests.
         kwargs: As for `pytest.fixture`.
     """
     scope = kwargs.get("scope", "function")
@@ -144,10 +144,10 @@ def fixture(
 
 
 def launched(name: str, options: tuple[bool, bool], service: LaunchedService, value: Any) -> None:
-    """Start the launch of a fixture of that name, which has given a value.
+    """Start the launch whose description a fixture has returned.
 
     Raises:
-        AssertionError: If that is not a description.
+        AssertionError: If the returned value is not a launch description.
     """
     description = value[0] if isinstance(value, tuple | list) and value else value
     if not isinstance(description, LaunchDescription):
@@ -160,12 +160,12 @@ def launched(name: str, options: tuple[bool, bool], service: LaunchedService, va
 
 
 def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable[..., None]:
-    """Return an ordinary test function for a function, coroutine or generator of any kind.
+    """Convert a user's test, a function, coroutine or generator, to an ordinary test function.
 
     Args:
-        test: The user's test function.
+        test: The user's test.
         after_end: Whether the test runs after the end of the launch.
-        second: Whether this is the part of a generator after its `yield`, as a test of its own.
+        second: Whether to run only the part of a generator after its `yield`.
     """
     takes = inspect.signature(test)
     wants_service = "launch_service" in takes.parameters
@@ -207,12 +207,12 @@ def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable
 
 
 def scope_of(test: Any) -> str:
-    """Return the scope of the launch that a test runs beside."""
+    """Return the scope of the launch fixture that a test uses, such as "module"."""
     return str(fixture_of(test)[1])
 
 
 def fixture_of(test: Any) -> tuple[str, str]:
-    """Return the name and the scope of the fixture that a test names; "" for none."""
+    """Return name and scope of the launch fixture in a test's mark; the name is "" without one."""
     for mark in getattr(test, "pytestmark", ()):
         if mark.name == "launch" and (named := mark.kwargs.get("fixture")) is not None:
             if hasattr(named, "launch_fixture"):
@@ -222,12 +222,12 @@ def fixture_of(test: Any) -> tuple[str, str]:
 
 
 def is_generator(test: Any) -> bool:
-    """Whether a test is a generator of either kind."""
+    """Return whether a test is a generator, synchronous or asynchronous."""
     return inspect.isgeneratorfunction(test) or inspect.isasyncgenfunction(test)
 
 
 def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
-    """Yield where a generator of either kind does."""
+    """Yield once for each `yield` of a synchronous or asynchronous generator."""
     if inspect.isgenerator(generator):
         yield from generator
         return
@@ -240,10 +240,10 @@ def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
 
 
 def _end(steps: Iterator[None], test: Any) -> None:
-    """Run the rest of a generator.
+    """Run a generator test from its `yield` to its end.
 
     Raises:
-        AssertionError: If the generator yields once more.
+        AssertionError: If the generator yields again.
     """
     if next(steps, steps) is not steps:
         kind = "a generator" if inspect.isgeneratorfunction(test) else "an async gen"

@@ -1,7 +1,7 @@
-"""launch_pytest's tools: waiting for a process and its output.
+"""Functions of launch_pytest that wait for a process's start, end or output.
 
-Each has a synchronous twin with the suffix `_sync`. They take the launch's context, the process's
-action, the condition as a function, and a timeout in seconds.
+Each coroutine has a synchronous version with the suffix `_sync`. Their arguments are the launch's
+context, the process's action, a function that checks the condition, and a timeout in seconds.
 """
 
 import asyncio
@@ -13,22 +13,22 @@ from tftool.ros.host import program
 from tftool.ros.host.shims import SLICE
 
 Condition = Callable[[Any, Any], Any]
-"""Says of an action, and of a user's function, whether the wait is over."""
+"""Function of an action and a user's function; returns whether the wait is over."""
 
 
 def _limit(timeout: float | None) -> Callable[[], bool]:
-    """Return a function that says whether a timeout is over."""
+    """Return a function that returns whether a timeout, started now, has passed."""
     clock = program.current().clock
     end = None if timeout is None else clock.now() + seconds(timeout)
     return lambda: end is not None and clock.now() >= end
 
 
 def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tuple[Any, Any]:
-    """Return a coroutine function that waits for a condition, and its twin.
+    """Return a coroutine function that waits for a condition, and its synchronous version.
 
     Args:
-        condition: Condition to wait for.
-        otherwise: Called where it does not come to hold in time.
+        condition: Function that returns whether the wait is over.
+        otherwise: Function called if the condition does not become true in time.
     """
 
     async def wait(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:
@@ -52,7 +52,7 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
 
 
 def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
-    """Return the two for a condition that needs no function of the user's."""
+    """Return both functions for a condition without a user's function."""
     wait_checked, wait_checked_sync = _waits(lambda action, _: condition(action), lambda *_: None)
 
     async def wait(context: Any, action: Any, timeout: float | None = None) -> Any:
@@ -65,7 +65,7 @@ def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
 
 
 def _passes(check: Callable[[str], object], output: str) -> bool:
-    """Whether an output passes the assertions of a function."""
+    """Return whether a function with assertions accepts an output."""
     try:
         check(output)
     except AssertionError:

@@ -1,4 +1,4 @@
-"""launch_testing's records of processes and their output, and assertions about these."""
+"""Records of processes and their output in launch tests, and assertions about them."""
 
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
@@ -20,37 +20,37 @@ from tftool.ros.launch_testing.text import build_text_match, without_escapes
 EXIT_OK, EXIT_SIGINT, EXIT_SIGQUIT, EXIT_SIGKILL, EXIT_SIGSEGV = 0, 130, 131, 137, 139
 
 NO_CMD_ARGS = object()
-"""As `cmd_args`: a process without arguments."""
+"""Value of `cmd_args` for a process without arguments."""
 
 
 class NoMatchingProcessException(Exception):
-    """Error for a process that nothing is recorded of."""
+    """Error for a process of which no event was recorded."""
 
 
 class _Record:
-    """Events of processes in order of arrival; tests may wait for them."""
+    """Events of processes in order of arrival, for which tests may wait."""
 
     def __init__(self) -> None:
         self._state = StateMonitor()
         self._events: list[Any] = []
 
     def append(self, event: RunningProcessEvent) -> None:
-        """Add an event."""
+        """Append an event, and wake tests that wait."""
         self._state.change(lambda: self._events.append(event))
 
     def __iter__(self) -> Iterator[Any]:
         return iter(list(self._events))
 
     def processes(self) -> list[Any]:
-        """Return the actions that started the processes."""
+        """Return the actions whose processes have events in this record."""
         return list(dict.fromkeys(event.action for event in self))
 
     def process_names(self) -> list[str]:
-        """Return the names of the processes."""
+        """Return the names of the processes that have events in this record."""
         return list(dict.fromkeys(event.process_name for event in self))
 
     def holds_within(self, check: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait until something holds, at most for `timeout` seconds; return whether it does."""
+        """Wait until a check is true, at most for `timeout` seconds; return its result."""
 
         def holds() -> bool:
             try:
@@ -62,7 +62,7 @@ class _Record:
 
 
 class ProcInfoHandler(_Record):
-    """The newest event of each process: its start or its end."""
+    """Record with the newest event, start or end, of each process."""
 
     def __iter__(self) -> Iterator[Any]:
         return iter({event.action: event for event in list(self._events)}.values())
@@ -77,7 +77,7 @@ class ProcInfoHandler(_Record):
     def assertWaitForShutdown(
         self, process: Any, cmd_args: Any = None, *, timeout: float | None = 10
     ) -> None:
-        """Wait for the end of a process.
+        """Wait until a process has ended.
 
         Raises:
             AssertionError: If the process does not end in time.
@@ -94,7 +94,7 @@ class ProcInfoHandler(_Record):
     def assertWaitForStartup(
         self, process: Any, cmd_args: Any = None, *, timeout: float | None = 10
     ) -> None:
-        """Wait for the start of a process.
+        """Wait until a process has started.
 
         Raises:
             AssertionError: If the process does not start in time.
@@ -105,13 +105,13 @@ class ProcInfoHandler(_Record):
 
 
 class IoHandler(_Record):
-    """The output of processes, line by line."""
+    """Record of the output of processes, line by line."""
 
     def track(self, process_name: str) -> None:
-        """Do nothing: a process without output has none to show."""
+        """Do nothing: ROS 2 needs this call for processes without output."""
 
     def __getitem__(self, key: Any) -> list[ProcessIO]:
-        """Return the output of a process, given by its action or its name."""
+        """Return the output lines of a process, given by its action or its name."""
         return [event for event in self if key in (event.action, event.process_name)]
 
     def waitFor(
@@ -123,13 +123,13 @@ class IoHandler(_Record):
         timeout: float | None = 10,
         **options: Any,
     ) -> bool:
-        """Wait for a text in the output; return whether it came in time.
+        """Wait for a text in the output of processes; return whether it came in time.
 
         Args:
-            expected_output: A text, a pattern, or a list of these in order.
-            process: The process, by its action or a part of its name; None for any.
-            cmd_args: Arguments that it has, where a name fits several.
-            timeout: Seconds to wait at most.
+            expected_output: Text, pattern, or list of texts and patterns in order.
+            process: Action of the process, or a part of its name; None for all processes.
+            cmd_args: Arguments of the process, to choose among processes of one name.
+            timeout: Longest wait in seconds.
             options: As for `assertInStream`.
 
         Raises:
@@ -149,7 +149,7 @@ class IoHandler(_Record):
         return found
 
     def assertWaitFor(self, *args: Any, **kwargs: Any) -> None:
-        """Wait for output as `waitFor` does.
+        """Wait for a text in the output of processes, as `waitFor` does.
 
         Raises:
             AssertionError: If the text does not come in time.
@@ -171,17 +171,17 @@ def _described(action: Any) -> str:
 def resolveProcesses(
     info_obj: Any, *, process: Any = None, cmd_args: Any = None, strict_proc_matching: bool = True
 ) -> list[Any]:
-    """Return the actions of recorded processes.
+    """Return the actions of the recorded processes that match.
 
     Args:
-        info_obj: A record.
-        process: An action, a part of a name, or None for all.
-        cmd_args: With a name: an argument or several, or NO_CMD_ARGS.
-        strict_proc_matching: Whether a name may fit only one.
+        info_obj: Record of processes.
+        process: Action, part of a process's name, or None for all.
+        cmd_args: Arguments that a process found by name must have, or NO_CMD_ARGS.
+        strict_proc_matching: Whether a name may match only one process.
 
     Raises:
-        NoMatchingProcessException: If there is none.
-        ValueError: If a name fits several.
+        NoMatchingProcessException: If no process matches.
+        ValueError: If a name matches several processes.
         TypeError: If `process` is something else.
     """
     known = info_obj.processes()
@@ -224,10 +224,10 @@ def assertExitCodes(
     *,
     strict_proc_matching: bool = True,
 ) -> None:
-    """Check the exit statuses of processes, of all unless one is named.
+    """Check the exit statuses of the matching processes, or of all.
 
     Raises:
-        AssertionError: If one is not among the allowed ones.
+        AssertionError: If an exit status is not among the allowed ones.
     """
     for code in allowable_exit_codes:
         assert isinstance(code, int), f"Provided exit code {code} is not an int"
@@ -251,20 +251,20 @@ def assertInStream(
     strip_ansi_escape_sequences: bool = True,
     stream: str = "stderr",
 ) -> None:
-    """Check that a process has written something.
+    """Check that a process has written a text to one of its output streams.
 
     Args:
-        proc_output: The record of output.
-        expected_output: A text, a pattern, or a list of these in order.
-        process: The process, by its action or a part of its name.
-        cmd_args: Arguments that it has, where a name fits several.
-        output_filter: Changes the output before it is compared.
-        strict_proc_matching: Whether a name may fit only one process.
-        strip_ansi_escape_sequences: Whether colours are removed before.
+        proc_output: Record of the output.
+        expected_output: Text, pattern, or list of texts and patterns in order.
+        process: Action of the process, or a part of its name.
+        cmd_args: Arguments of the process, to choose among processes of one name.
+        output_filter: Function that changes the output before it is compared.
+        strict_proc_matching: Whether a name may match only one process.
+        strip_ansi_escape_sequences: Whether to remove colours before the comparison.
         stream: "stdout" or "stderr".
 
     Raises:
-        AssertionError: If the text is in none of the outputs.
+        AssertionError: If no matching process has written the text.
         ValueError: If there is no such stream.
     """
     if stream not in ("stdout", "stderr"):
@@ -289,35 +289,35 @@ def assertInStream(
 def assertInStdout(
     proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, **options: Any
 ) -> None:
-    """Check that a process has written something to its standard output."""
+    """Check that a process has written a text to its standard output."""
     assertInStream(proc_output, expected_output, process, cmd_args, **options, stream="stdout")
 
 
 def assertInStderr(
     proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, **options: Any
 ) -> None:
-    """Check that a process has written something to its standard error."""
+    """Check that a process has written a text to its standard error."""
     assertInStream(proc_output, expected_output, process, cmd_args, **options, stream="stderr")
 
 
 def assertDefaultStream() -> str:
-    """Return the stream that `assertInStream` takes unless told."""
+    """Return the stream that `assertInStream` checks by default."""
     return "stderr"
 
 
 class SequentialTextChecker:
-    """Search for texts in an output, each after the one before."""
+    """Search for texts in an output, where each must follow the text before it."""
 
     def __init__(self, output: list[str]) -> None:
-        """Search in pieces of output; no text is found across two of them."""
+        """Start at the beginning of an output in pieces; a text must be within one piece."""
         self._output = output
         self._piece = self._column = 0
 
     def assertInStdout(self, msg: str) -> None:
-        """Check that a text follows.
+        """Check that a text follows the text that was found last.
 
         Raises:
-            AssertionError: If the text does not follow in the output.
+            AssertionError: If the text does not follow.
         """
         column = self._column
         for piece in range(self._piece, len(self._output)):
@@ -334,7 +334,7 @@ class SequentialTextChecker:
     assertInText = assertInStdout
 
     def get_nearby_lines(self) -> str:
-        """Return the line that was found last, with two on either side."""
+        """Return the line of the text found last, with two lines on either side."""
         lines = "".join(self._output).splitlines()
         before = "".join(self._output[: self._piece])
         before += "".join(self._output[self._piece : self._piece + 1])[: self._column]
@@ -346,13 +346,13 @@ class SequentialTextChecker:
 def assertSequentialStdout(
     proc_output: Any, process: Any, cmd_args: Any = None
 ) -> Iterator[SequentialTextChecker]:
-    """Check inside this block that a process has written texts in order."""
+    """Yield a checker for texts that a process has written one after the other."""
     (action,) = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)
     yield SequentialTextChecker([line.text.decode() for line in proc_output[action]])
 
 
 class ProcessProxy:
-    """A process with its state and its output."""
+    """View of one process with its state and its output, for tests."""
 
     def __init__(
         self,
@@ -366,7 +366,7 @@ class ProcessProxy:
         self._info, self._output, self._filter = proc_info, proc_output, output_filter
 
     def wait_for_shutdown(self, timeout: float | None = None) -> bool:
-        """Wait for the end of the process; return whether it came in time."""
+        """Wait until the process has ended; return whether it ended in time."""
         return self._info.holds_within(lambda: self.terminated, timeout)
 
     def wait_for_output(
@@ -382,17 +382,17 @@ class ProcessProxy:
 
     @property
     def stdout(self) -> str:
-        """Return the process's standard output so far."""
+        """Standard output of the process so far."""
         return self._text(True)
 
     @property
     def stderr(self) -> str:
-        """Return the process's standard error so far."""
+        """Standard error of the process so far."""
         return self._text(False)
 
     @property
     def output(self) -> str:
-        """Return the process's output so far."""
+        """Standard output and standard error of the process so far."""
         return self._text(True, False)
 
     def _is(self, state: type) -> bool:
@@ -401,7 +401,7 @@ class ProcessProxy:
 
     @property
     def running(self) -> bool:
-        """Whether the process runs."""
+        """Whether the process has started and not ended."""
         return self._is(ProcessStarted)
 
     @property
@@ -423,7 +423,7 @@ def launch_process(
     proc_output: IoHandler,
     **options: Any,
 ) -> Iterator[ProcessProxy]:
-    """Run a process inside this block; `options` are those of ProcessProxy."""
+    """Run a process during this block and yield its `ProcessProxy`, made with `options`."""
     launch_service.include_launch_description(LaunchDescription([process_action]))
     try:
         yield ProcessProxy(process_action, proc_info, proc_output, **options)

@@ -1,4 +1,4 @@
-"""launch_testing's runs: a launch, tests beside it, and tests after its end."""
+"""Runs of launch tests: a launch, tests beside it, and tests after its end."""
 
 import asyncio
 import copy
@@ -21,13 +21,13 @@ from tftool.ros.launch_testing.description import READY_WITHIN, ready_actions
 from tftool.ros.launch_testing.records import IoHandler, ProcInfoHandler
 
 MAKES = "generate_test_description"
-"""The function that a file of launch tests defines."""
+"""Name of the function that a file of launch tests defines."""
 
 STOPPED = "Launch stopped before the active tests finished."
 
 
 class TestResult(unittest.TextTestResult):
-    """Result of a run, with its test cases."""
+    """Result of a run, which also lists the test cases."""
 
     __test__ = False
 
@@ -36,12 +36,12 @@ class TestResult(unittest.TextTestResult):
         self.testCases: list[Any] = []
 
     def startTest(self, test: Any) -> None:
-        """Record the test."""
+        """Add a test case to the list, and start it."""
         self.testCases.append(test)
         super().startTest(test)
 
     def append(self, other: "TestResult") -> None:
-        """Add the tests of another result."""
+        """Add the tests and counts of another result to this one."""
         self.testCases += other.testCases
         self.testsRun += other.testsRun
         for name in ("failures", "errors", "skipped", "expectedFailures", "unexpectedSuccesses"):
@@ -49,14 +49,14 @@ class TestResult(unittest.TextTestResult):
 
 
 class _Loader(unittest.TestLoader):
-    """Loader of the test classes that run before the end of the launch, or after it."""
+    """Loader of the test classes that run during the launch, or of those that run after it."""
 
     def __init__(self, *, after_end: bool) -> None:
         super().__init__()
         self._after_end = after_end
 
     def loadTestsFromTestCase(self, testCaseClass: Any) -> unittest.TestSuite:
-        """Return the tests of a class if it belongs to that time."""
+        """Return the tests of a class; none if the class runs at the other time."""
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._after_end:
             return unittest.TestSuite()
         # A class of its own for each launch, which gets that launch's values.
@@ -73,21 +73,21 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return a function with those of its arguments that have a value of that name."""
+    """Bind those arguments of a function whose names are among some values."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 
 
 class TestRun:
-    """A launch with its tests.
+    """Launch with its tests and the values of its parameters.
 
     Attributes:
         name: Name of the run.
         param_args: Values of the parameters.
         pre_shutdown_tests: Tests that run beside the launch.
         post_shutdown_tests: Tests that run after the launch's end.
-        timeout: Seconds that its processes have to start.
-        markers: Markers of the description.
+        timeout: Seconds until the tests must be ready to start.
+        markers: Markers that decorators have set on the description.
     """
 
     __test__ = False
@@ -121,17 +121,17 @@ class TestRun:
         return f"[{', '.join(map(str, self.param_args.values()))}]" if self.param_args else ""
 
     def all_cases(self) -> Iterator[Any]:
-        """Yield the tests of the run."""
+        """Yield the test cases of the run, during and after the launch."""
         yield from _cases(self.pre_shutdown_tests)
         yield from _cases(self.post_shutdown_tests)
 
     def normalized_test_description(
         self, *, ready_fn: Callable[[], object]
     ) -> tuple[LaunchDescription, dict[str, Any]]:
-        """Return the launch description, and the values for the tests.
+        """Return the launch description, and the values that the tests get.
 
         Args:
-            ready_fn: Called when the tests may start.
+            ready_fn: Function to call when the tests may start.
 
         Raises:
             UsageError: If the description has no ReadyToTest action.
@@ -148,14 +148,14 @@ class TestRun:
         return description, values
 
     def get_launch_description(self) -> LaunchDescription:
-        """Return the launch description, to be displayed."""
+        """Return the launch description only, without starting tests."""
         return self.normalized_test_description(ready_fn=lambda: None)[0]
 
     def check(self) -> None:
-        """Check that its description takes what it is parametrized with.
+        """Check that the description's function accepts the parameters of this run.
 
         Raises:
-            UsageError: If a test's arguments do not match.
+            UsageError: If a parameter is not an argument of the function.
         """
         takes = inspect.getfullargspec(inspect.unwrap(self._function))
         names = {*takes.args, *takes.kwonlyargs}
@@ -167,11 +167,11 @@ class TestRun:
             raise UsageError(f"{MAKES} has unexpected extra argument '{name}'")
 
     def run(self, arguments: Mapping[str, str], preamble: Sequence[Any] = ()) -> TestResult:
-        """Launch the description, and run its tests.
+        """Launch the description, run its tests, and return their result.
 
         Args:
-            arguments: Values for the arguments of the launch.
-            preamble: Actions before it.
+            arguments: Values of the launch's arguments.
+            preamble: Actions to execute before the description.
         """
         ready = asyncio.Event()
         description, values = self.normalized_test_description(ready_fn=ready.set)
@@ -210,7 +210,7 @@ class TestRun:
 def wait_for_first(
     events: Sequence[asyncio.Event], timeout: float | None = None
 ) -> asyncio.Event | None:
-    """Wait for the first of some events of the world; return it, or None after `timeout` s."""
+    """Wait until one of some events is set; return it, or None after `timeout` seconds."""
     owner = program.current()
 
     async def wait() -> None:
@@ -229,7 +229,7 @@ def wait_for_first(
 def _run(
     tests: unittest.TestSuite, given: Mapping[str, Any], attributes: Mapping[str, Any]
 ) -> TestResult:
-    """Run tests; pass values as arguments, and some as attributes too."""
+    """Run tests that get values as arguments, and some values as attributes too."""
     tests = copy.deepcopy(tests)
     classes = dict.fromkeys(type(case) for case in _cases(tests))
     for test_class in classes:
@@ -245,7 +245,7 @@ def _run(
 
 
 def _failed(cases: Sequence[Any], reason: str) -> TestResult:
-    """Return the result of tests that could not run to their end."""
+    """Return the result of tests that could not be run to their end, for one reason."""
     stream = unittest.runner._WritelnDecorator(sys.stderr)
     result = TestResult(stream, descriptions=True, verbosity=0)
     stream.writeln(reason)
@@ -257,7 +257,7 @@ def _failed(cases: Sequence[Any], reason: str) -> TestResult:
 
 
 def _last_words(info: ProcInfoHandler, output: IoHandler) -> Iterator[str]:
-    """Yield the output of each process that has failed."""
+    """Yield the output of each process that ended with an exit status other than 0."""
     for event in info:
         status = getattr(event, "returncode", 0)
         if status:
@@ -266,7 +266,7 @@ def _last_words(info: ProcInfoHandler, output: IoHandler) -> Iterator[str]:
 
 
 class LaunchTestRunner:
-    """Runner of launches with their tests."""
+    """Runner of several launches with their tests."""
 
     def __init__(
         self,
@@ -277,20 +277,20 @@ class LaunchTestRunner:
         self._runs, self._arguments = list(test_runs), list(launch_file_arguments)
 
     def generate_preamble(self) -> list[Any]:
-        """Return actions for the beginning of every launch."""
+        """Return actions to execute before every launch: none, unless a subclass has some."""
         return []
 
     def validate(self) -> None:
-        """Check the descriptions.
+        """Check that each run's description accepts the run's parameters.
 
         Raises:
-            UsageError: If one has other arguments than it is given.
+            UsageError: If a parameter is not an argument of the description's function.
         """
         for run in self._runs:
             run.check()
 
     def run(self) -> dict[TestRun, Any]:
-        """Launch each with its tests; return the results.
+        """Run each launch with its tests; return the results by run.
 
         Raises:
             UsageError: If an argument of the launch is malformed.
@@ -312,10 +312,10 @@ class LaunchTestRunner:
 
 
 def parse_launch_arguments(launch_arguments: Sequence[str]) -> list[tuple[str, str]]:
-    """Return the names and values of `name:=value` words; the last of a name counts.
+    """Parse words of the form `name:=value`; a later value replaces an earlier one.
 
     Raises:
-        RuntimeError: If one is malformed.
+        RuntimeError: If a word is malformed.
     """
     found = {}
     for word in launch_arguments:
@@ -329,10 +329,10 @@ def parse_launch_arguments(launch_arguments: Sequence[str]) -> list[tuple[str, s
 
 
 def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> list[TestRun]:
-    """Return the runs of a file of launch tests: several if its description is parametrized.
+    """Return the runs in a file of launch tests: several if it is parametrized.
 
     Raises:
-        InputError: If the module has no description.
+        InputError: If the module has no function that describes a launch.
     """
     function = getattr(module, MAKES, None)
     if function is None:
@@ -351,15 +351,15 @@ def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> lis
 
 
 def load_tests(path: Path, arguments: Sequence[str]) -> LaunchTestRunner:
-    """Return the runner of a file of launch tests, in the program that runs.
+    """Load a file of launch tests in the running program; return a runner for it.
 
     Args:
-        path: The file.
-        arguments: Values for the arguments of its launch, `name:=value`.
+        path: Path of the file.
+        arguments: Values of the launch's arguments, as `name:=value`.
 
     Raises:
-        InputError: If the file cannot be read or has no description.
-        UsageError: If the description has other arguments than those given.
+        InputError: If the file cannot be read or describes no launch.
+        UsageError: If a parameter is not an argument of the description's function.
     """
     module = user_code.load_module(path)
     runner = LaunchTestRunner(LoadTestsFromPythonModule(module, name=path.stem), arguments)
@@ -368,12 +368,12 @@ def load_tests(path: Path, arguments: Sequence[str]) -> LaunchTestRunner:
 
 
 def run_tests(path: Path, arguments: Sequence[str]) -> None:
-    """Run a file of launch tests as a program's body; it ends with status 1 if one fails.
+    """Run a file of launch tests as the running program.
 
     Raises:
-        InputError: If the file cannot be read or has no description.
-        UsageError: If the description has other arguments than those given.
-        SystemExit: If a test fails.
+        InputError: If the file cannot be read or describes no launch.
+        UsageError: If a parameter is not an argument of the description's function.
+        SystemExit: With status 1, if a test fails.
     """
     results = load_tests(path, arguments).run().values()
     if not all(result.wasSuccessful() for result in results):

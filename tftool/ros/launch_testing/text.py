@@ -1,4 +1,4 @@
-"""launch_testing's comparison of output with what is expected: texts, patterns, lists of both."""
+"""Comparison of output with expected texts, regular expressions, or lists of both."""
 
 import re
 from collections.abc import Callable, Iterable, Sequence
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 Span = tuple[int, int] | None
-"""Where something was found, from and to; None where it was not."""
+"""Start and end index of a match; None without a match."""
 
 _ESCAPES = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]")
 
@@ -17,7 +17,7 @@ def without_escapes(text: str) -> str:
 
 
 def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..., Span]:
-    """Return a matcher for several things, each after the one before; strict: without gaps."""
+    """Return a matcher for several items in order; with `strict`, without gaps between them."""
 
     def match(actual: Any, start: int = 0) -> Span:
         found = first(actual, start)
@@ -35,10 +35,10 @@ def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..., Span]:
-    """Return a function that finds a text, a pattern, or a list of them in a text from `start`.
+    """Return a function that finds texts or patterns, one or a list, in a text from an index.
 
     Raises:
-        ValueError: If it is something else.
+        ValueError: If `expected_text` is none of these.
     """
     if isinstance(expected_text, str):
         wanted = expected_text
@@ -66,12 +66,13 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
 
 
 def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[..., Span]:
-    """Return a function that finds a text, a pattern, or a list of them in lines from `start`.
+    """Return a function that finds texts or patterns, one or a list, in lines from an index.
 
-    A list needs a line for each; strict: one after the other. Alone, strict means every line.
+    Each item of a list needs its own line; with `strict`, these lines follow one another. A single
+    item with `strict` must match every line.
 
     Raises:
-        ValueError: If it is something else.
+        ValueError: If `expected_lines` is none of these.
     """
     if isinstance(expected_lines, str | re.Pattern):
 
@@ -102,10 +103,10 @@ def expect_output(
     strip_ansi_escape_sequences: bool = True,
     strict: bool = False,
 ) -> bool:
-    """Whether a text, or lines, are as expected.
+    """Return whether a text, or some lines, match what is expected.
 
     Raises:
-        ValueError: Unless exactly one of the two, and one expectation, is given.
+        ValueError: Unless one of text and lines, and one expectation, is given.
     """
     if (text is None) == (lines is None):
         raise ValueError("give either text or lines")
@@ -120,10 +121,10 @@ def expect_output(
 
 
 def expected_output_from_file(path: str, encoding: str | None = None) -> list[Any]:
-    """Return the lines of `path`.txt, or the patterns of `path`.regex.
+    """Return the lines of `path`.txt, or `path`.regex compiled line by line.
 
     Raises:
-        RuntimeError: If there is neither.
+        RuntimeError: If neither file exists.
     """
     for suffix, read in ((".txt", str), (".regex", re.compile)):
         file = Path(f"{path}{suffix}")
@@ -137,12 +138,12 @@ def basic_output_filter(
     filtered_patterns: Sequence[str] | None = None,
     filtered_rmw_implementation: str | None = None,
 ) -> Callable[[str], str]:
-    """Return a function that removes lines from an output.
+    """Return a function that removes some lines from an output.
 
     Args:
-        filtered_prefixes: How they begin; "pid" and "rc" unless given.
-        filtered_patterns: Patterns they match.
-        filtered_rmw_implementation: Without an effect: no middleware writes anything here.
+        filtered_prefixes: Prefixes of the lines to remove; by default "pid" and "rc".
+        filtered_patterns: Patterns of the lines to remove.
+        filtered_rmw_implementation: Without effect: no middleware writes output here.
     """
     prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None
                      else filtered_prefixes)  # fmt: skip
@@ -160,10 +161,10 @@ def basic_output_filter(
 
 
 def get_default_filtered_prefixes() -> list[str]:
-    """Return how lines begin that `basic_output_filter` removes unless told."""
+    """Return the prefixes of lines that `basic_output_filter` removes by default."""
     return ["pid", "rc"]
 
 
 def get_default_filtered_patterns() -> list[str]:
-    """Return the patterns of lines that `basic_output_filter` removes unless told: none."""
+    """Return the patterns of lines that `basic_output_filter` removes by default: none."""
     return []

@@ -1,4 +1,4 @@
-"""launch_testing_ros: helpers of launch tests that use topics."""
+"""Helpers of launch_testing_ros for launch tests that use topics."""
 
 import random
 import string
@@ -16,7 +16,7 @@ from tftool.ros.rclpy.node import Node
 
 
 class MessagePump:
-    """Spins a node on a thread."""
+    """Thread that spins a node."""
 
     def __init__(self, node: Any, context: Any = None) -> None:
         self._executor = SingleThreadedExecutor(context=context)
@@ -32,17 +32,17 @@ class MessagePump:
             return
 
     def start(self) -> None:
-        """Start spinning."""
+        """Start the thread that spins the node."""
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop spinning."""
+        """Stop spinning the node, and wait until the thread has ended."""
         self._is_over = True
         self._thread.join()
 
 
 class WaitForTopics:
-    """Waits for a message on each of some topics; as a block it raises if one does not come."""
+    """Waiter for a message on each of some topics; its `with` block raises if one is missing."""
 
     def __init__(
         self,
@@ -53,9 +53,9 @@ class WaitForTopics:
         """Create a node that only this helper uses.
 
         Args:
-            topic_tuples: The topics, each with the type of its messages.
-            timeout: Seconds to wait at most.
-            messages_received_buffer_length: Number of messages of each are kept; None for all.
+            topic_tuples: Topics to wait for, each with its message type.
+            timeout: Longest wait in seconds.
+            messages_received_buffer_length: Number of messages to store per topic; None for all.
         """
         self.topic_tuples, self.timeout = list(topic_tuples), timeout
         self._kept = messages_received_buffer_length
@@ -69,7 +69,7 @@ class WaitForTopics:
         self._pump.start()
 
     def wait(self) -> bool:
-        """Wait for a message on each; return whether all have come."""
+        """Wait for a message on each topic; return whether all have arrived in time."""
         for topic, kind in self.topic_tuples:
             if topic not in self._messages:
                 kept = self._messages[topic] = deque(maxlen=self._kept)
@@ -81,24 +81,24 @@ class WaitForTopics:
         self._state.change(lambda: kept.append(message))
 
     def shutdown(self) -> None:
-        """Destroy the node that waits."""
+        """Stop spinning the helper's node, and destroy it."""
         self._pump.stop()
         self._node.destroy_node()
         self._context.try_shutdown()
 
     def topics_received(self) -> set[str]:
-        """Return the topics on which a message has come."""
+        """Return the topics on which a message has arrived."""
         return {topic for topic, messages in self._messages.items() if messages}
 
     def topics_not_received(self) -> set[str]:
-        """Return the topics on which none has come."""
+        """Return the topics on which no message has arrived."""
         return {topic for topic, _ in self.topic_tuples} - self.topics_received()
 
     def received_messages(self, topic_name: str) -> list[Any]:
-        """Return the last messages of a topic.
+        """Return the last messages that have arrived on a topic.
 
         Raises:
-            KeyError: If it is not among those waited for.
+            KeyError: If the topic is not one of those waited for.
         """
         if topic_name not in self._messages:
             raise KeyError(f"No messages received for topic: {topic_name}")
@@ -116,7 +116,7 @@ class WaitForTopics:
 
 
 class DataRepublisher:
-    """Publishes the messages of one topic on another, changed by a function."""
+    """Node's helper that publishes one topic's messages, changed by a function, on another."""
 
     def __init__(
         self,
@@ -126,14 +126,14 @@ class DataRepublisher:
         msg_type: Any,
         transform_fn: Callable[[Any], Any],
     ) -> None:
-        """Start.
+        """Start to receive and publish messages.
 
         Args:
-            node: The node that does it.
-            listen_topic: Where messages come from.
-            publish_topic: Where they go.
-            msg_type: Type.
-            transform_fn: Returns the changed message, or None for one to drop.
+            node: Node that receives and publishes.
+            listen_topic: Topic to receive from.
+            publish_topic: Topic to publish on.
+            msg_type: Message type of both topics.
+            transform_fn: Function that returns the changed message, or None to drop it.
         """
         self._node, self._change = node, transform_fn
         self._received = 0
@@ -148,16 +148,16 @@ class DataRepublisher:
             self._publisher.publish(changed)
 
     def shutdown(self) -> None:
-        """Stop."""
+        """Destroy the subscription and the publisher."""
         self._node.destroy_subscription(self._subscription)
         self._node.destroy_publisher(self._publisher)
 
     def get_num_received(self) -> int:
-        """Return how many messages have come."""
+        """Return how many messages were received."""
         return self._received
 
     def get_num_republished(self) -> int:
-        """Return how many were published."""
+        """Return how many messages were published."""
         return len(self._republished)
 
     def get_republished(self) -> list[Any]:

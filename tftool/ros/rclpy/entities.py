@@ -18,11 +18,11 @@ from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.time import Clock, ClockType, Time
 
 Work = Callable[[], Any]
-"""The rest of the work on the fiber once an entity was taken from; may return a coroutine."""
+"""Function that an executor calls in the spinning thread; may return a coroutine."""
 
 
 MOST_WAITING: Final = 1000
-"""Requests or goals that may wait for a node that takes none; more are refused."""
+"""Largest number of queued requests or goals; further ones are refused."""
 
 
 @contextmanager
@@ -37,9 +37,9 @@ class NodeEntity:
 
     passes_busy_group = False
     is_a_callback = False
-    """Whether it is a callback of the user's own that only an executor calls."""
+    """Whether the entity is a callback of the user that only an executor calls."""
     only_ends_spin_once = False
-    """Whether it has nothing to do but end a `spin_once`, as what it stands for would in ROS."""
+    """Whether the entity has no work, but ends a `spin_once` as its counterpart in ROS 2 does."""
 
     def __init__(self, seat: NodeSeat, group: Any) -> None:
         self.seat = seat
@@ -341,7 +341,7 @@ class RateTimer(Timer):
 
     only_ends_spin_once = True
     on_end: Callable[[], object] = staticmethod(lambda: None)
-    """Called when it is destroyed."""
+    """Function called when the timer is destroyed."""
 
     def withdraw(self) -> None:
         """Close the timer and end its rate."""

@@ -21,7 +21,7 @@ from tftool.ros.rclpy.futures import Future, Task
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 
 THREADS = 4
-"""How many callbacks a MultiThreadedExecutor runs at once unless told; the same everywhere."""
+"""Default number of callbacks that a MultiThreadedExecutor runs at once, on every machine."""
 
 
 class ExternalShutdownException(Exception):
@@ -56,9 +56,9 @@ class Executor:
         self._seats: list[NodeSeat] = []
         self._batch: deque[NodeEntity] = deque()
         self._tasks: deque[tuple[Task, Any]] = deque()
-        """Tasks to go on with, each with the group that is busy until it ends, or None."""
+        """Tasks to continue, each with the callback group that is busy until it ends, or None."""
         self._has_released = False
-        """Whether a group was released since this executor last looked for work."""
+        """Whether a callback group became free since this executor last looked for work."""
         self._wakers: list[asyncio.Future[None]] = []
         self._reached: Stamp = 0
         self._over = False
@@ -351,7 +351,7 @@ class MultiThreadedExecutor(Executor):
         self._threads = max(1, num_threads or THREADS)
         self._workers = 0
         self._let_go: Future | None = None
-        """Done when no thread spins any more; None while none does."""
+        """Future that is done when the last worker has stopped; None without workers."""
 
     def spin(self) -> None:
         """Execute the nodes' callbacks until the executor or its context is shut down."""

@@ -61,7 +61,7 @@ CALLBACKS = {
     "shuttingdown": "on_shutdown",
     "errorprocessing": "on_error",
 }
-"""The callback of each state that lasts as long as one."""
+"""Name of the callback that runs in each transition state."""
 
 _REQUESTS = (
     Transition(1, "configure", "unconfigured", "configuring"),
@@ -88,7 +88,7 @@ GRAPH = _REQUESTS + tuple(
     for tens, (start, goals) in enumerate(_OUTCOMES.items(), 1)
     for ones, (result, goal) in enumerate(zip(TransitionCallbackReturn, goals, strict=True))
 )
-"""Every transition."""
+"""All transitions between lifecycle states."""
 
 
 class StateMachine:

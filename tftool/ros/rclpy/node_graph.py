@@ -102,7 +102,7 @@ def endpoint_info(end: Endpoint) -> TopicEndpointInfo:
 T = TypeVar("T")
 
 NamesAndTypes = list[tuple[str, list[str]]]
-"""Full names with their leading slash, and the interfaces in use under each."""
+"""Full names with a leading slash, each with its types."""
 
 
 class NodeNameNonExistentError(Exception):

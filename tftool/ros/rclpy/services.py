@@ -18,7 +18,7 @@ from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
-"""The parameter by which ROS 2's nodes are told to describe their types; here none does."""
+"""Parameter that makes ROS 2's nodes describe their types; without effect here."""
 
 
 class ServiceIntrospectionState(IntEnum):

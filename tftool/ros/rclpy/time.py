@@ -18,7 +18,7 @@ S_TO_NS = NANOSECONDS
 _RANGE = 2**63
 
 _FOR_EVER = 10**18
-"""Nanoseconds that no run lasts."""
+"""Nanoseconds longer than any run, as a duration without end."""
 
 
 class ClockType(IntEnum):
@@ -193,7 +193,7 @@ class Clock:
         self._program = program.current()
         self._jump_handles: list[JumpHandle] = []
         self._state = StateMonitor()
-        """Changed when sleeping threads have to look whether they go on."""
+        """State whose change wakes sleeping threads to check whether their sleep is over."""
 
     @property
     def clock_type(self) -> ClockType:
@@ -276,7 +276,7 @@ class ROSClock(Clock):
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
         super().__init__(clock_type=ClockType.ROS_TIME)
         self._is_overridden: bool | None = None
-        """Whether a time source gives the time; None where none has decided: the world does."""
+        """Whether a time source sets the time; None without a time source."""
         self._override = Time(clock_type=ClockType.ROS_TIME)
 
     @property

@@ -1,6 +1,6 @@
-"""tf2_ros's listener and broadcasters.
+"""Transform listener and broadcasters of tf2_ros.
 
-A listener's transforms go straight into its buffer, whether its node spins or not.
+A listener's transforms are inserted into its buffer at once, whether its node spins or not.
 """
 
 from collections.abc import Callable, Iterable
@@ -20,23 +20,23 @@ from tftool.world.clock import Phase
 from tftool.world.world import TransformMessage
 
 _TOLERANCE = 10e-3
-"""How far the square of a quaternion's length may be from 1 for tf2 to take it."""
+"""Largest difference from 1 of a quaternion's squared length that tf2 accepts."""
 
 SILENT = seconds(5.0)
-"""How long a broadcaster may send nothing before that is said."""
+"""Nanoseconds without a transform after which a warning about a broadcaster is logged."""
 
 MOVES = 3
-"""How often a frame may find another parent before these count as two."""
+"""Changes of parent after which a frame counts as having two alternating parents."""
 
 AUTHORITY = "default_authority"
-"""Sender of earlier transforms; that of later ones is known."""
+"""Authority (sender) of transforms that were sent before the listener existed."""
 
 DEFAULT_TF_TOPIC = "/tf"
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class TransformListener:
-    """Fills a buffer from `/tf` and `/tf_static`; earlier statics are there at once."""
+    """Listener that fills a buffer from `/tf` and `/tf_static`, with earlier static transforms."""
 
     def __init__(
         self,
@@ -93,22 +93,22 @@ class TransformListener:
         self._stops.clear()
 
     def unregister(self) -> None:
-        """Unsubscribe."""
+        """Unsubscribe from both topics; the buffer is not filled any more."""
         self._member.program.ask(self._stop)
 
 
 class StaticTransformListener(TransformListener):
-    """Fills a buffer from `/tf_static` only."""
+    """Listener that fills a buffer from `/tf_static` only."""
 
     def __init__(self, buffer: Buffer, node: Node, **kwargs: Any) -> None:
         super().__init__(buffer, node, static_only=True, **kwargs)
 
 
 class _Arrivals(NodeEntity):
-    """A listener as an entity of its node.
+    """Transform listener as an entity of its node, that is, work for an executor.
 
-    The buffer is filled without an executor; a `spin_once` ends when transforms have arrived,
-    as the listener's subscription would end it in ROS.
+    The buffer is filled without an executor; but as in ROS, a `spin_once` ends when transforms have
+    arrived.
     """
 
     only_ends_spin_once = True
@@ -119,7 +119,7 @@ class _Arrivals(NodeEntity):
         self._any = False
 
     def note(self) -> None:
-        """Record that transforms arrived (in the loop's thread)."""
+        """Record that transforms have arrived; called in the event loop's thread."""
         self._any = True
         executor = self.seat.executor
         if executor is not None and executor.spins_once:
@@ -130,17 +130,17 @@ class _Arrivals(NodeEntity):
         return self._any
 
     def take(self) -> Work:
-        """Do nothing: the transforms are already in the buffer."""
+        """Return an empty piece of work: the transforms are already in the buffer."""
         self._any = False
         return lambda: None
 
     def withdraw(self) -> None:
-        """Unsubscribe."""
+        """Unsubscribe from the topics of transforms."""
         self._stop()
 
 
 class TransformBroadcaster:
-    """Publishes moving transforms."""
+    """Broadcaster of moving transforms."""
 
     _static = False
 
@@ -159,7 +159,7 @@ class TransformBroadcaster:
         timer.add_done_callback(lambda _: self._note_silence())
 
     def _note_silence(self) -> None:
-        """Report a broadcaster that has sent nothing while its node was spun."""
+        """Log a warning if the broadcaster has sent nothing although its node was spun."""
         lives = self._member in self._member.program.nodes
         if not self._has_sent and self._member.was_served and lives:
             kind = type(self).__name__
@@ -171,7 +171,7 @@ class TransformBroadcaster:
             )
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802
-        """Publish one or several transforms."""
+        """Publish one transform or several."""
         several = transform if isinstance(transform, Iterable) else [transform]
         kind = INTERFACES.message("geometry_msgs/TransformStamped")
         sent = []
@@ -191,7 +191,7 @@ class TransformBroadcaster:
         seat.world.broadcast(sent, seat.authority, static=self._static)
 
     def _note_parent(self, parent: str, child: str) -> None:
-        """Report once a link with exchanged ends, and a child with two alternating parents."""
+        """Log a warning, once, for exchanged frames or for a child with two parents."""
         above = self._member.world.buffer.parent
         before = above(child)
         if above(parent) == child != parent:
@@ -215,7 +215,7 @@ class TransformBroadcaster:
             self._member.program.say("WARN", self._member.authority, fault)
 
     def _judge(self, sample: TransformStamped) -> None:
-        """Report once per child a missing stamp, and a rotation that is probably a mistake."""
+        """Log a warning, once per child, for a missing stamp or a rotation likely to be wrong."""
         now = self._member.world.clock.now()
         if not (self._static or sample.stamp) and now > seconds(1.0):
             self._report_once(
@@ -254,6 +254,6 @@ class TransformBroadcaster:
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):
-    """Publishes static transforms; late listeners receive them too."""
+    """Broadcaster of static transforms, which late listeners receive too."""
 
     _static = True

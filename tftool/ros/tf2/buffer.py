@@ -1,7 +1,7 @@
-"""tf2_ros's buffer, tf2_py's core of it, and how types are transformed and converted.
+"""Transform buffer of tf2_ros and tf2_py, with the registries of types to transform and convert.
 
-A listener's transforms go directly into a buffer, whether its node spins or not, so that waiting in
-a callback works, on the world's clock.
+A listener's transforms are inserted into its buffer at once, whether its node spins or not. So a
+callback can wait for a transform; it waits on tftool's clock.
 """
 
 import asyncio
@@ -32,7 +32,7 @@ _convert: dict[tuple[Any, Any], Callable[[Any], Any]] = {}
 
 
 class TypeException(TransformException):
-    """Error for a type that is not registered."""
+    """Error for a message type for which no transformation is registered."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -40,52 +40,52 @@ class TypeException(TransformException):
 
 
 class NotImplementedException(TransformException):
-    """Error for something that a buffer does not support."""
+    """Error for a method that a buffer does not implement."""
 
     def __init__(self) -> None:
         super().__init__("CanTransform or LookupTransform not implemented")
 
 
 class TransformRegistration:
-    """Registers how to transform a type."""
+    """Registry of the functions that transform data of a type."""
 
     def print_me(self) -> None:
-        """Do nothing."""
+        """Do nothing; the method exists in ROS 2."""
 
     def add(self, key: Any, callback: Callable[[Any, Any], Any]) -> None:
-        """Register `callback(data, transform)` to transform data of a type."""
+        """Register `callback(data, transform)` as the function that transforms data of a type."""
         _transform[key] = callback
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
         """Return the function that transforms data of a type.
 
         Raises:
-            TypeException: If none does.
+            TypeException: If no function is registered for the type.
         """
         return _of(_transform, key)
 
 
 class ConvertRegistration:
-    """Registers how to convert between types."""
+    """Registry of the functions that convert between types and messages."""
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Register `callback` to make a type from a message."""
+        """Register `callback` as the function that makes an object of a type from a message."""
         _from_msg[key] = callback
 
     def add_to_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Register `callback` to make a message of a type."""
+        """Register `callback` as the function that makes a message from an object of a type."""
         _to_msg[key] = callback
 
     def add_convert(self, key: tuple[Any, Any], callback: Callable[[Any], Any]) -> None:
-        """Register `callback` to convert one type to another."""
+        """Register `callback` as the function that converts from one type to another."""
         _convert[key] = callback
 
     def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Return the function that makes a type from a message."""
+        """Return the function that makes an object of a type from a message."""
         return _of(_from_msg, key)
 
     def get_to_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Return the function that makes a message of a type."""
+        """Return the function that makes a message from an object of a type."""
         return _of(_to_msg, key)
 
     def get_convert(self, key: tuple[Any, Any]) -> Callable[[Any], Any]:
@@ -101,7 +101,7 @@ def _of(registry: dict[Any, T], key: Any) -> T:
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """Convert `a` to another type: a copy, a direct conversion, or through a message."""
+    """Convert `a` to another type: by a copy, a direct conversion, or through a message."""
     if isinstance(a, b_type):
         return copy.deepcopy(a)
     direct = _convert.get((type(a), b_type))
@@ -111,17 +111,17 @@ def convert(a: Any, b_type: Any) -> Any:
 
 
 NOW = Duration()
-"""No waiting."""
+"""Timeout of zero: lookups do not wait."""
 
 
 class BufferInterface:
-    """Transforms stamped data; subclasses look the transforms up."""
+    """Base of buffers: transforms stamped data; subclasses look the transforms up."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
     def _refuse(self, *asked: Any, **named: Any) -> Any:
-        """Look nothing up.
+        """Raise NotImplementedException: a subclass implements the lookup.
 
         Raises:
             NotImplementedException: If the class does not implement it.
@@ -133,7 +133,7 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = NOW, new_type: Any = None
     ) -> Any:
-        """Transform stamped data to another frame.
+        """Transform stamped data from the frame in its header to another frame.
 
         Raises:
             TypeException: If no transformation is registered for this type.
@@ -152,7 +152,7 @@ class BufferInterface:
         timeout: Any = NOW,
         new_type: Any = None,
     ) -> Any:
-        """Transform stamped data to another frame at another time."""
+        """Transform stamped data to another frame at another time, through a fixed frame."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         found = self.lookup_transform_full(
@@ -167,14 +167,14 @@ def _converted(result: Any, new_type: Any) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class LookupRequest:
-    """Lookup of source in target at one time, or between two.
+    """Request for the transform between two frames, at one time or at two.
 
     Attributes:
-        target: Frame the answer is expressed in.
-        source: Frame whose pose is asked for.
-        time: The moment, that of the source.
-        target_time: The moment of the target, with a fixed frame.
-        fixed: Frame that connects two moments; None for one.
+        target: Frame in which the pose is expressed.
+        source: Frame whose pose is requested.
+        time: Time of the source frame, in nanoseconds.
+        target_time: Time of the target frame, used with a fixed frame.
+        fixed: Frame that does not move between the two times; None for a lookup at one time.
     """
 
     target: str
@@ -184,19 +184,19 @@ class LookupRequest:
     fixed: str | None = None
 
     def answer(self, frames: Frames) -> TransformStamped:
-        """Return the transform, or raise."""
+        """Return the transform from a buffer; raise if the buffer does not have it."""
         if self.fixed is None:
             return frames.lookup_transform(self.target, self.source, self.time)
         return frames.lookup_transform_full(*self._full)
 
     def why_not(self, frames: Frames) -> str:
-        """Return why the lookup fails; "" if it succeeds."""
+        """Return the reason why the lookup fails; "" if it succeeds."""
         if self.fixed is None:
             return frames.why_not(self.target, self.source, self.time)
         return frames.why_not_full(*self._full)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:
-        """Return as soon as the lookup succeeds; raise as soon as it never can."""
+        """Wait until the lookup succeeds; raise as soon as it never can."""
         if self.fixed is None:
             await waiting.wait_for_transform(frames, clock, self.target, self.source, self.time)
         else:
@@ -208,10 +208,10 @@ class LookupRequest:
 
 
 def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
-    """Return the lookup requested by a user's code.
+    """Check the arguments of a lookup in users' code; return them as a `LookupRequest`.
 
     Raises:
-        TypeError: If a frame is not a string, or the time no time.
+        TypeError: If a frame is not a string, or the time is not a Time.
     """
     _require_names(target_frame=target_frame, source_frame=source_frame)
     return LookupRequest(target_frame, source_frame, stamp(time))
@@ -220,10 +220,10 @@ def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
 def full_question(
     target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
 ) -> LookupRequest:
-    """Return the lookup between two times requested by a user's code.
+    """Check the arguments of a lookup at two times; return them as a `LookupRequest`.
 
     Raises:
-        TypeError: If a frame is not a string, or a time no time.
+        TypeError: If a frame is not a string, or a time is not a Time.
     """
     _require_names(target_frame=target_frame, source_frame=source_frame, fixed_frame=fixed_frame)
     return LookupRequest(
@@ -238,10 +238,10 @@ def _require_names(**frames: object) -> None:
 
 
 def stamp(time: Any) -> Stamp:
-    """Return the nanoseconds of an rclpy or builtin_interfaces Time.
+    """Return a Time of rclpy or a builtin_interfaces message in nanoseconds.
 
     Raises:
-        TypeError: If the value is no stamp.
+        TypeError: If the value is not a Time.
     """
     if isinstance(time, Time):
         return time.nanoseconds
@@ -254,10 +254,10 @@ def stamp(time: Any) -> Stamp:
 
 
 def length(timeout: Any) -> int:
-    """Return the nanoseconds of a Duration.
+    """Return a Duration of rclpy in nanoseconds.
 
     Raises:
-        TypeError: If the value is no duration.
+        TypeError: If the value is not a Duration.
     """
     if isinstance(timeout, Duration):
         return timeout.nanoseconds
@@ -268,14 +268,14 @@ def length(timeout: Any) -> int:
 
 
 class BufferCore:
-    """Frames and the transforms between them.
+    """Buffer of frames and the transforms between them, without waiting.
+
+    The methods that end in `_core` have the arguments of `Buffer`'s methods except the timeout, and
+    raise at once if a transform is not available.
 
     Attributes:
-        frames: The buffer itself.
-        hints: Hints about its failed lookups.
-
-    The methods that end in `_core` have the arguments of `Buffer`'s waiting methods except the
-    timeout, and refuse at once.
+        frames: tftool's buffer, which stores the transforms.
+        hints: Record of failed lookups, which logs hints.
     """
 
     def __init__(self, cache_time: Duration | None = None) -> None:
@@ -294,23 +294,23 @@ class BufferCore:
     # Setting
 
     def set_transform(self, transform: Any, authority: str) -> None:
-        """Insert a sample of a moving link; a rejection is logged."""
+        """Insert a sample of a moving transform; a rejection is logged."""
         sample = values.pack_transform(transform)
         self._ask(lambda: self.frames.set_transform(sample, authority))
 
     def set_transform_static(self, transform: Any, authority: str) -> None:
-        """Insert a static link; a rejection is logged."""
+        """Insert a static transform; a rejection is logged."""
         sample = values.pack_transform(transform)
         self._ask(lambda: self.frames.set_transform_static(sample, authority))
 
     def clear(self) -> None:
-        """Drop all moving transforms."""
+        """Drop all moving transforms; static ones stay."""
         self._ask(self.frames.clear)
 
     # Asking
 
     def answer(self, asked: LookupRequest) -> Any:
-        """Return the transform as a geometry_msgs TransformStamped, or raise."""
+        """Look a transform up; return it as a geometry_msgs TransformStamped message."""
         return values.unpack_transform(self._ask(lambda: self._looked_up(asked)))
 
     def _looked_up(self, asked: LookupRequest) -> TransformStamped:
@@ -337,7 +337,7 @@ class BufferCore:
         return reason
 
     def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
-        """Return the pose of source in target as a geometry_msgs TransformStamped.
+        """Return the pose of source in target as a geometry_msgs TransformStamped message.
 
         Raises:
             TransformException: If the transform is not available.
@@ -345,7 +345,7 @@ class BufferCore:
         return self.answer(question(*asked, **named))
 
     def lookup_transform_full_core(self, *asked: Any, **named: Any) -> Any:
-        """Return the pose of source at one time in target at another, through a fixed frame.
+        """Return the pose of source at one time in target at another, via a fixed frame.
 
         Raises:
             TransformException: If the transform is not available.
@@ -353,26 +353,26 @@ class BufferCore:
         return self.answer(full_question(*asked, **named))
 
     def can_transform_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
-        """Return (whether a lookup would succeed, why not)."""
+        """Return (whether a lookup would succeed, the reason if not)."""
         return self._whether(question(*asked, **named))
 
     def can_transform_full_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
-        """Return (whether a lookup between two times would succeed, why not)."""
+        """Return (whether a lookup at two times would succeed, the reason if not)."""
         return self._whether(full_question(*asked, **named))
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """Return the newest time at which both are known."""
+        """Return the newest time at which the transform between two frames is known."""
         stamp = self._ask(lambda: self.frames.get_latest_common_time(target_frame, source_frame))
         return Time(nanoseconds=stamp)
 
     # Looking round
 
     def all_frames_as_yaml(self) -> str:
-        """Return every frame as tf2's YAML."""
+        """Return a description of all frames in tf2's YAML format."""
         return str(self._ask(self.frames.all_frames_as_yaml))
 
     def all_frames_as_string(self) -> str:
-        """Return every frame and its parent."""
+        """Return a text with every frame and its parent, as tf2 formats it."""
         return str(self._ask(self.frames.all_frames_as_string))
 
     def _allFramesAsDot(self, time: float = 0.0) -> str:  # noqa: N802
@@ -386,7 +386,7 @@ class BufferCore:
 
 
 class Buffer(BufferCore, BufferInterface):
-    """Frames as a node knows them; filled by a `TransformListener`."""
+    """Buffer of a node, with lookups that wait; a `TransformListener` fills it."""
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
         BufferCore.__init__(self, cache_time)
@@ -404,12 +404,13 @@ class Buffer(BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
     ) -> Any:
-        """Return the pose of source in target as a geometry_msgs TransformStamped.
+        """Return the pose of source in target as a geometry_msgs TransformStamped message.
 
-        With a timeout the thread waits, at most for that long by the world's clock.
+        With a timeout, the calling thread waits for the transform, at most for that time of
+        tftool's clock.
 
         Raises:
-            TransformException: If the transform is not available.
+            TransformException: If the transform is not available in time.
         """
         asked = question(target_frame, source_frame, time)
         self._wait(asked, timeout)
@@ -424,7 +425,7 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Any = NOW,
     ) -> Any:
-        """Return the pose of source at one time in target at another, through a fixed frame.
+        """Return the pose of source at one time in target at another, via a fixed frame.
 
         Raises:
             TransformException: If the transform is not available.
@@ -441,7 +442,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = NOW,
         return_debug_tuple: bool = False,
     ) -> Any:
-        """Return whether a lookup would succeed; with `return_debug_tuple`, (whether, why not)."""
+        """Return whether a lookup would succeed; with `return_debug_tuple`, the reason too."""
         asked = question(target_frame, source_frame, time)
         return self._can(asked, timeout, return_debug_tuple)
 
@@ -455,7 +456,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = NOW,
         return_debug_tuple: bool = False,
     ) -> Any:
-        """Return whether a lookup between two times would succeed."""
+        """Return whether a lookup at two times, through a fixed frame, would succeed."""
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._can(asked, timeout, return_debug_tuple)
 
@@ -465,7 +466,7 @@ class Buffer(BufferCore, BufferInterface):
         return (whether, why_not) if tell_why else bool(whether)
 
     def _wait(self, asked: LookupRequest, timeout: Any) -> None:
-        """Wait while the answer may still become available, at most for the timeout."""
+        """Wait for a transform that may still become available, at most for the timeout."""
         limit = length(timeout)
         if limit > 0:
             self.hints.wait()
@@ -483,15 +484,15 @@ class Buffer(BufferCore, BufferInterface):
     # Awaited
 
     def wait_for_transform_async(self, *asked: Any, **named: Any) -> Future:
-        """Return a future that gets the transform as soon as it is available."""
+        """Return a future that completes with the transform as soon as it is available."""
         return self.promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
-        """Do as `wait_for_transform_async`, between two times."""
+        """Return a future for a lookup at two times; else as `wait_for_transform_async`."""
         return self.promise(full_question(*asked, **named))
 
     def promise(self, asked: LookupRequest) -> Future:
-        """Return a future that gets the transform as soon as it is available."""
+        """Return a future that completes with the requested transform once it is available."""
         future = Future(executor=self._program.executor)
         self.hints.wait()
 
@@ -521,11 +522,11 @@ class Buffer(BufferCore, BufferInterface):
         return future
 
     async def lookup_transform_async(self, *asked: Any, **named: Any) -> Any:
-        """Await the transform."""
+        """Await a transform, and return it."""
         await self.wait_for_transform_async(*asked, **named)
         return self.lookup_transform_core(*asked, **named)
 
     async def lookup_transform_full_async(self, *asked: Any, **named: Any) -> Any:
-        """Await the transform between two times."""
+        """Await a transform between two times, and return it."""
         await self.wait_for_transform_full_async(*asked, **named)
         return self.lookup_transform_full_core(*asked, **named)

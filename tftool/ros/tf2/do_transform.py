@@ -1,7 +1,7 @@
-"""tf2_geometry_msgs and tf2_sensor_msgs: messages transformed to another frame.
+"""Functions of tf2_geometry_msgs and tf2_sensor_msgs that transform messages to another frame.
 
-Neither the message nor the transform is changed. `tftool.geometry.quantities` applies transforms to
-each kind of quantity.
+They return new messages. The formulas for each kind of quantity are in
+`tftool.geometry.quantities`.
 """
 
 import array
@@ -17,7 +17,7 @@ Do = TypeVar("Do", bound=Callable[[Any, Any], Any])
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """Return the message itself."""
+    """Return the given message itself: it needs no conversion."""
     return msg
 
 
@@ -25,7 +25,7 @@ from_msg_msg = to_msg_msg
 
 
 def _registered(name: str) -> Callable[[Do], Do]:
-    """Register a function with buffers as what transforms a type."""
+    """Register the decorated function with buffers, as the one that transforms a message type."""
     kind = INTERFACES.message(name)
 
     def register(function: Do) -> Do:
@@ -74,7 +74,7 @@ def _headed(data: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/PointStamped")
 def do_transform_point(point: Any, transform: Any) -> Any:
-    """Transform a PointStamped."""
+    """Transform a PointStamped message by a TransformStamped."""
     result = _headed(point, transform)
     _put(result.point, carry.point(_transform_of(transform), _xyz(point.point)))
     return result
@@ -82,7 +82,7 @@ def do_transform_point(point: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/Vector3Stamped")
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:
-    """Rotate a Vector3Stamped."""
+    """Rotate a Vector3Stamped message; a translation does not change a vector."""
     result = _headed(vector3, transform)
     _put(result.vector, carry.vector(_transform_of(transform), _xyz(vector3.vector)))
     return result
@@ -90,13 +90,13 @@ def do_transform_vector3(vector3: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/Pose")
 def do_transform_pose(pose: Any, transform: Any) -> Any:
-    """Transform a Pose."""
+    """Transform a Pose message by a TransformStamped."""
     return _pose(_transform_of(transform), pose)
 
 
 @_registered("geometry_msgs/PoseStamped")
 def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
-    """Transform a PoseStamped."""
+    """Transform a PoseStamped message by a TransformStamped."""
     result = _headed(pose, transform)
     result.pose = _pose(_transform_of(transform), pose.pose)
     return result
@@ -104,7 +104,7 @@ def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/PoseWithCovarianceStamped")
 def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
-    """Transform a PoseWithCovarianceStamped."""
+    """Transform a PoseWithCovarianceStamped message, with its covariance."""
     result = _headed(pose, transform)
     result.pose.pose = _pose(_transform_of(transform), pose.pose.pose)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
@@ -120,7 +120,7 @@ def transform_covariance(cov_in: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/PolygonStamped")
 def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
-    """Transform a PolygonStamped."""
+    """Transform the points of a PolygonStamped message by a TransformStamped."""
     result = _headed(polygon, transform)
     a_from_b = _transform_of(transform)
     for point in result.polygon.points:
@@ -130,7 +130,7 @@ def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/Wrench")
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
-    """Transform a Wrench: the torque gains that of the force's lever arm."""
+    """Transform a Wrench message; the force's lever arm adds to the torque."""
     result = duplicate(wrench)
     force, torque = carry.wrench(_transform_of(transform), _xyz(wrench.force), _xyz(wrench.torque))
     _put(result.force, force)
@@ -140,7 +140,7 @@ def do_transform_wrench(wrench: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/WrenchStamped")
 def do_transform_wrench_stamped(wrench: Any, transform: Any) -> Any:
-    """Transform a WrenchStamped."""
+    """Transform a WrenchStamped message by a TransformStamped."""
     result = _headed(wrench, transform)
     result.wrench = do_transform_wrench(wrench.wrench, transform)
     return result
@@ -148,7 +148,7 @@ def do_transform_wrench_stamped(wrench: Any, transform: Any) -> Any:
 
 @_registered("sensor_msgs/PointCloud2")
 def do_transform_cloud(cloud: Any, transform: Any) -> Any:
-    """Transform a PointCloud2; other fields, layout and stamp are kept.
+    """Transform the points of a PointCloud2 message; other fields and the layout stay.
 
     Raises:
         AssertionError: If the cloud has no fields x, y and z.

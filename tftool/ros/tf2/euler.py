@@ -1,7 +1,7 @@
-"""tf_transformations: Euler angles, quaternions (x, y, z, w) and 4×4 matrices.
+"""Functions of tf_transformations for Euler angles, quaternions (x, y, z, w) and 4×4 matrices.
 
 `axes` is "s" (fixed axes) or "r" (rotating axes) and three letters; "sxyz" is roll, pitch, yaw.
-`tftool.geometry` does the computation.
+`tftool.geometry` computes the results.
 """
 
 import math
@@ -30,7 +30,7 @@ def _quad(quaternion: Sequence[float]) -> Quad:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quad:
-    """Return the quaternion of three rotations in sequence."""
+    """Return the quaternion of three Euler angles in radians."""
     made = _quad(conversions.quaternion_from_euler((ai, aj, ak), axes))
     if (owner := running_program()) is not None:
         _look_for_degrees(owner, sys._getframe(1), (ai, aj, ak))
@@ -38,10 +38,10 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, float]) -> None:
-    """Report, once per line of a program, angles that look like degrees.
+    """Log a warning, once per line of a program, for angles that look like degrees.
 
-    Only the first value of a line is examined, as an angle may grow from turn to turn. And only
-    halves and wholes up to 360: 90.0 is no plausible angle in radians.
+    Only the first angles of a line are checked, because an angle may grow from call to call. Only
+    multiples of 0.5 up to 360 count as degrees: 90.0 is an unlikely angle in radians.
     """
     line = (frame.f_code, frame.f_lineno)
     if line in owner.lines_with_angles:
@@ -62,22 +62,22 @@ def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, 
 def euler_from_quaternion(
     quaternion: Sequence[float], axes: str = "sxyz"
 ) -> tuple[float, float, float]:
-    """Return a quaternion's three Euler angles."""
+    """Return the three Euler angles of a quaternion, in radians."""
     return conversions.euler_from_quaternion(quaternion, axes)
 
 
 def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, float]:
-    """Return a rotation matrix's three Euler angles; if not unique, the last is 0."""
+    """Return the three Euler angles of a rotation matrix; if not unique, the last is 0."""
     return conversions.euler_from_matrix(matrix, axes)
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Any:
-    """Return the 4×4 matrix of three Euler angles."""
+    """Return the 4×4 rotation matrix of three Euler angles in radians."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def quaternion_matrix(quaternion: Sequence[float]) -> Any:
-    """Return the 4×4 matrix of a quaternion; zero means no rotation."""
+    """Return the 4×4 rotation matrix of a quaternion; the identity for a zero quaternion."""
     matrix = np.eye(4)
     turn = _quad(quaternion)
     if sum(part * part for part in turn) > _EPSILON:
@@ -86,13 +86,13 @@ def quaternion_matrix(quaternion: Sequence[float]) -> Any:
 
 
 def quaternion_from_matrix(matrix: Any) -> Quad:
-    """Return the quaternion of a 4×4 matrix, w not negative."""
+    """Return the quaternion, with w ≥ 0, of the rotation in a 4×4 matrix."""
     x, y, z, w = conversions.quaternion_from_matrix(np.asarray(matrix, dtype=float).tolist())
     return (-x, -y, -z, -w) if w < 0.0 else (x, y, z, w)
 
 
 def quaternion_about_axis(angle: float, axis: Sequence[float]) -> Quad:
-    """Return the quaternion of a rotation about an axis."""
+    """Return the quaternion of a rotation by an angle in radians about an axis."""
     return _quad(conversions.quaternion_from_axis_angle(axis, angle))
 
 
@@ -157,7 +157,7 @@ def compose_matrix(
     translate: Any = None,
     perspective: Any = None,
 ) -> Any:
-    """Return the 4×4 matrix of a rotation by roll, pitch, yaw, and a translation."""
+    """Return the 4×4 matrix of a rotation (roll, pitch, yaw in radians) and a translation."""
     if scale is not None or shear is not None or perspective is not None:
         raise NotImplementedError("compose_matrix takes angles and translate here")
     matrix = np.identity(4) if angles is None else euler_matrix(*angles)

@@ -1,4 +1,4 @@
-"""Hints about lookups that fail repeatedly: what a node asks for, and why it fails."""
+"""Hints, logged for the user, about transform lookups that fail again and again."""
 
 from collections.abc import Iterator
 
@@ -14,19 +14,19 @@ from tftool.buffer.sample import FrameInfo
 from tftool.ros.host.program import Program
 
 PATIENCE = seconds(3.0)
-"""How long one lookup is refused, without a success, before the reason is said."""
+"""Nanoseconds of failures, without a success, after which the reason is logged."""
 
 MANY = 10
-"""From how many lookups on those for a moment not yet known are counted aloud."""
+"""Smallest number of lookups for which those at times not yet known are reported."""
 
 ONCE = seconds(2.0)
-"""Age of a single sample from which its frame counts as sent once."""
+"""Age of a frame's only sample after which the frame counts as sent once."""
 
 
 class LookupHints:
-    """Lookups of one buffer: how many asked for what, and the hints already given.
+    """Record of the lookups in one buffer, which logs hints about repeated failures.
 
-    Each hint is logged once, as a warning of the program that asks.
+    Each hint is logged once, as a warning of the program that looks transforms up.
 
     Attributes:
         has_listener: Whether a TransformListener fills the buffer.
@@ -45,11 +45,11 @@ class LookupHints:
         program.advice.append(self.summary)
 
     def wait(self) -> None:
-        """Record that the program waits for transforms, or checks for them first."""
+        """Record that the program waits for transforms, or checks for them before a lookup."""
         self._waits = True
 
     def answer(self, target: str, source: str, time: Stamp) -> None:
-        """Record a successful lookup."""
+        """Record a lookup that succeeded."""
         self._asked += 1
         self._refused_since.pop((target, source), None)
         # Simulated time hands a transform over in the instant of its stamp; a network does not.
@@ -57,7 +57,7 @@ class LookupHints:
             self._just_in_time += self._frames.newest_common(target, source) != 0
 
     def refuse(self, target: str, source: str, error: TransformException) -> None:
-        """Record a failed lookup, and report why if failures continue."""
+        """Record a lookup that failed; log the reason if lookups have failed for long."""
         self._asked += 1
         now = self._program.clock.now()
         since = self._refused_since.setdefault((target, source), now)
@@ -83,7 +83,7 @@ class LookupHints:
                     self._say("early", self._early_text())
 
     def look_in_vain(self, target: str, source: str) -> None:
-        """Record a check that found no transform."""
+        """Record a check for a transform that was not available."""
         self._waits = True
         self._hint_that_nothing_arrives()
         now = self._program.clock.now()
@@ -97,7 +97,7 @@ class LookupHints:
                 pass
 
     def summary(self) -> str:
-        """Return a sentence about lookups for a time not yet known; "" if there were few."""
+        """Return a sentence about lookups at times not yet known; "" if there were few."""
         return self._early_text() if self._is_early else ""
 
     @property
@@ -115,7 +115,7 @@ class LookupHints:
         return f"{told}: use Time(), the latest, or a timeout"
 
     def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
-        """Yield the links above two frames with only one, old sample."""
+        """Yield the links above two frames that have only one, old sample."""
         infos = {info.frame: info for info in self._frames.snapshot(now).frames}
         for frame in (target, source):
             seen: set[str] = set()
@@ -129,7 +129,7 @@ class LookupHints:
                 info = infos.get(info.parent)
 
     def _hint_that_nothing_arrives(self) -> None:
-        """Report why nothing can arrive if a node looks up before it is spun."""
+        """Log the reason why the buffer stays empty while the node looks transforms up."""
         owner = self._program
         if self._frames.frames():
             return

@@ -1,4 +1,4 @@
-"""sensor_msgs_py.point_cloud2: points of a PointCloud2 as numpy arrays."""
+"""Functions of sensor_msgs_py.point_cloud2, for a PointCloud2's points as numpy arrays."""
 
 import array
 from collections import namedtuple
@@ -12,14 +12,14 @@ from numpy.lib.recfunctions import structured_to_unstructured
 from tftool.messages.classes import INTERFACES
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
-"""What a field without a name is called."""
+"""Name of a field without a name, followed by its number."""
 
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
-"""How numpy writes a PointField's datatype."""
+"""numpy's type code for each datatype of a PointField."""
 
 
 def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
-    """Yield each element of each field: a field of three is x_0, x_1 and x_2."""
+    """Return (name, (field, index)) of each element; a field x of three gives x_0, x_1 and x_2."""
     named = []
     for number, field in enumerate(fields):
         name = field.name or f"{DUMMY_FIELD_PREFIX}_{number}"
@@ -34,10 +34,10 @@ def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
 def dtype_from_fields(
     fields: Iterable[Any], point_step: int | None = None, is_bigendian: bool = False
 ) -> "np.dtype[Any]":
-    """Return the structured dtype of points with these fields.
+    """Return the structured numpy dtype of a point with some PointFields.
 
     Raises:
-        ValueError: If a field's datatype is none of PointField's, or they do not fit a point.
+        ValueError: If a field's datatype is unknown, or the fields are larger than a point.
     """
     fields = list(fields)
     if point_step is not None and sum(field.count for field in fields) > point_step:
@@ -72,17 +72,17 @@ def read_points(
     uvs: Any = None,
     reshape_organized_cloud: bool = False,
 ) -> npt.NDArray[Any]:
-    """Return the points as a structured array, one element per point.
+    """Return the points of a cloud as a structured array, one element per point.
 
     Args:
-        cloud: A PointCloud2.
-        field_names: Fields to read, in this order; all if None.
-        skip_nans: Leave out points with a NaN.
-        uvs: Points to read: their numbers, or (u, v) pairs of an organized cloud.
-        reshape_organized_cloud: Give an organized cloud's points in its rows.
+        cloud: PointCloud2 message.
+        field_names: Fields to read, in this order; None for all.
+        skip_nans: Whether to leave out points that contain a NaN.
+        uvs: Points to read: their indices, or (u, v) pairs for an organized cloud.
+        reshape_organized_cloud: Whether to return an organized cloud's points in rows.
 
     Raises:
-        AssertionError: If the message is none, a field is not there or the data is too short.
+        AssertionError: If the message is not a PointCloud2, lacks a field or has too little data.
     """
     kind: Any = INTERFACES.message("sensor_msgs/PointCloud2")
     if not isinstance(cloud, kind):
@@ -120,10 +120,10 @@ def read_points_numpy(
     uvs: Any = None,
     reshape_organized_cloud: bool = False,
 ) -> npt.NDArray[Any]:
-    """Return the points as a plain array, one row per point; the fields have one type.
+    """Return the points of a cloud as a plain array, one row per point.
 
     Raises:
-        AssertionError: If the fields have several types; also as in `read_points`.
+        AssertionError: If the fields have different types; also as in `read_points`.
     """
     wanted = _named(cloud.fields)
     if field_names is not None:
@@ -140,7 +140,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Any = None,
 ) -> list[Any]:
-    """Return the points as named tuples."""
+    """Return the points of a cloud as named tuples."""
     points = read_points(cloud, field_names, skip_nans, uvs)
     kind = namedtuple("Point", points.dtype.names or ())  # type: ignore[misc]
     return [kind._make(point) for point in points.tolist()]
@@ -149,18 +149,18 @@ def read_points_list(
 def create_cloud(
     header: Any, fields: Sequence[Any], points: Any, step: int | None = None, point_step: Any = None
 ) -> Any:
-    """Return a PointCloud2 of points.
+    """Return a PointCloud2 message with some points.
 
     Args:
-        header: Header.
-        fields: PointFields.
-        points: Tuples with a number for each field; or an array, structured or one row a
+        header: Header of the message.
+        fields: PointField messages.
+        points: Tuples with a number for each field, or an array: structured, or with one row per
             point. An array of rows of points makes an organized cloud.
-        step: Bytes from one point to the next, if more than the fields take.
-        point_step: The same, by its newer name.
+        step: Bytes from one point to the next, if more than the fields need.
+        point_step: Another name for `step`.
 
     Raises:
-        AssertionError: If the points do not have the fields.
+        AssertionError: If a point does not have as many numbers as there are fields.
     """
     step = step if step is not None else point_step
     form = dtype_from_fields(fields, step)
@@ -193,7 +193,7 @@ def create_cloud(
 
 
 def create_cloud_xyz32(header: Any, points: Any, step: int | None = None) -> Any:
-    """Return a PointCloud2 of points with x, y and z in 32 bits."""
+    """Return a PointCloud2 message of points with x, y and z as 32-bit floats."""
     field: Any = INTERFACES.message("sensor_msgs/PointField")
     fields = [
         field(name=name, offset=4 * place, datatype=field.FLOAT32, count=1)

@@ -1,4 +1,4 @@
-"""tf2_ros: another node's buffer, used through an action."""
+"""Client and server of tf2_ros's action for lookups in another node's buffer."""
 
 from typing import Any
 
@@ -38,7 +38,7 @@ _NUMBERS: tuple[tuple[type[TransformException], int], ...] = (
     (TimeoutException, 5),
     (TransformException, 6),
 )
-"""Each refusal's number in a TF2Error, the most special first."""
+"""Error number in a TF2Error for each exception class, subclasses before their bases."""
 
 
 def _action() -> Any:
@@ -46,7 +46,7 @@ def _action() -> Any:
 
 
 class BufferClient(BufferInterface):
-    """Client of a `BufferServer`; usable wherever a `Buffer` is."""
+    """Client that looks transforms up in another node's buffer, like a `Buffer`."""
 
     def __init__(
         self,
@@ -55,14 +55,14 @@ class BufferClient(BufferInterface):
         check_frequency: float = 10.0,
         timeout_padding: Any = _PADDING,
     ) -> None:
-        """Make a client on a node.
+        """Create a client for the buffer that another node serves.
 
         Args:
-            node: Asking node.
-            ns: The action's name.
-            check_frequency: How often ROS 2 looks for the answer; here it is awaited.
-            timeout_padding: How much longer than the timeout to wait for the answer, as a
-                Duration or in seconds.
+            node: Node that looks transforms up.
+            ns: Name of the action.
+            check_frequency: Unused: ROS 2 polls for the result, tftool awaits it.
+            timeout_padding: Additional time to wait for the result after the timeout, as a Duration
+                or in seconds.
         """
         super().__init__()
         self.node = node
@@ -90,7 +90,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Any = NOW,
     ) -> Any:
-        """Return the pose of source at one time in target at another, through a fixed frame.
+        """Return the pose of source at one time in target at another, via a fixed frame.
 
         Raises:
             TransformException: If the transform is not available, or the server does not answer
@@ -100,15 +100,15 @@ class BufferClient(BufferInterface):
         return self._ask(asked, timeout)
 
     def can_transform(self, *asked: Any, **named: Any) -> bool:
-        """Return whether a lookup would succeed."""
+        """Return whether a lookup in the server's buffer would succeed."""
         return _succeeds(self.lookup_transform, *asked, **named)
 
     def can_transform_full(self, *asked: Any, **named: Any) -> bool:
-        """Return whether a lookup between two times would succeed."""
+        """Return whether a lookup at two times in the server's buffer would succeed."""
         return _succeeds(self.lookup_transform_full, *asked, **named)
 
     def destroy(self) -> None:
-        """Close the client."""
+        """Close the client of the action."""
         self.action_client.destroy()
 
     def _ask(self, asked: LookupRequest, timeout: Any) -> Any:
@@ -144,7 +144,7 @@ class BufferClient(BufferInterface):
 
 
 class BufferServer:
-    """Server of a node's buffer for `BufferClient`s."""
+    """Server that looks transforms up in a node's buffer for `BufferClient`s."""
 
     def __init__(
         self,
@@ -153,13 +153,13 @@ class BufferServer:
         ns: str = "tf2_buffer_server",
         check_period: Any = None,
     ) -> None:
-        """Serve the action.
+        """Start to serve the action.
 
         Args:
-            buffer: Buffer of the transforms.
-            node: Serving node.
-            ns: The action's name.
-            check_period: Period of ROS 2's check; unused here, as answers are event-driven.
+            buffer: Buffer with the transforms.
+            node: Node that serves the action.
+            ns: Name of the action.
+            check_period: Unused: ROS 2 polls for transforms, tftool is notified of them.
         """
         self.buffer = buffer
         self.node = node
@@ -191,7 +191,7 @@ class BufferServer:
         return result
 
     async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until the transform is found, at most `limit` nanoseconds."""
+        """Wait until the transform is found, at most for the duration `limit`."""
         if found.done() or limit.nanoseconds <= 0:
             return
         over = Future()
@@ -208,7 +208,7 @@ class BufferServer:
             self.node.destroy_timer(timer)
 
     def destroy(self) -> None:
-        """Stop serving."""
+        """Stop serving the action."""
         self._server.destroy()
 
 

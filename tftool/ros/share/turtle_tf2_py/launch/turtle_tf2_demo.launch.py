@@ -1,4 +1,4 @@
-"""The simulator, two broadcasters, and a follower of `target_frame`."""
+"""Launch file of the turtle demo: a simulator, two broadcasters, and a follower."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -7,7 +7,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Launch two turtles; the second follows the first."""
+    """Describe two turtles; turtle2 follows the frame of the argument `target_frame`."""
     return LaunchDescription(
         [
             DeclareLaunchArgument(

@@ -1,4 +1,4 @@
-"""The demo, its follower after a carrot."""
+"""Launch file of the turtle demo in which turtle2 follows a point fixed to turtle1, carrot1."""
 
 from launch import LaunchDescription
 from launch.actions import IncludeLaunchDescription
@@ -8,7 +8,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Two turtles and a carrot."""
+    """Describe two turtles and the frame carrot1, fixed to turtle1, which turtle2 follows."""
     demo = PathJoinSubstitution([ThisLaunchFileDir(), "turtle_tf2_demo.launch.py"])
     return LaunchDescription(
         [

@@ -1,4 +1,4 @@
-"""turtle3 drives in a circle and says where it is, in world."""
+"""Launch file in which turtle3 drives in a circle and publishes its position in frame world."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -6,7 +6,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Describe the message filter's inputs; the filter itself is started by hand."""
+    """Describe the inputs of the message filter, which users start themselves."""
     package = "turtle_tf2_py"
     return LaunchDescription(
         [
