@@ -1,4 +1,4 @@
-"""Text and JSON of calibrations."""
+"""Calibrations of a sensor's mount, as text lines and as JSON."""
 
 import math
 from collections.abc import Sequence
@@ -12,11 +12,11 @@ from tftool.geometry.rigid import Transform
 
 
 def lines(found: Calibration, width: int | None = None) -> str:
-    """Return the mount as tf2 prints it, with its interval, the clock offset and the verdict.
+    """Return a calibration as text: the mount as tf2 prints it, the clock offset, and a verdict.
 
     Args:
         found: The calibration.
-        width: Cells of a line; no limit if None.
+        width: Longest line in cells; None for no limit.
     """
     text: list[str] = []
     moving, fixed = ([visible(name) for name in names] for names in (found.moving, found.fixed))
@@ -75,7 +75,7 @@ def _clock(found: Calibration) -> str:
 
 
 def clock_object(found: ClockOffset) -> dict[str, float | None]:
-    """Return a clock offset for programs."""
+    """Return a clock offset as a mapping, for --json."""
     return {
         "seconds": found.seconds,
         "interval95": found.interval95,
@@ -85,7 +85,7 @@ def clock_object(found: ClockOffset) -> dict[str, float | None]:
 
 
 def as_object(found: Calibration, check: dict[str, object] | None = None) -> dict[str, object]:
-    """Return a calibration for programs.
+    """Return a calibration as a mapping, for --json.
 
     Args:
         found: The calibration.
@@ -125,7 +125,7 @@ def as_object(found: Calibration, check: dict[str, object] | None = None) -> dic
 
 
 def pose_object(pose: Transform | None) -> dict[str, Sequence[float]] | None:
-    """Return a pose for programs."""
+    """Return a pose's translation and rotation as a mapping, for --json."""
     if pose is None:
         return None
     return {"translation": list(pose.translation), "rotation": list(pose.rotation)}

@@ -1,7 +1,7 @@
-"""Picture of frames as coloured text lines, at any size.
+"""Canvas that draws frames on a plane as coloured text lines, at any size.
 
 Trails, axes and lines to parents are drawn in braille (eight dots to a cell), turtles in blocks or
-as arrows. Scales account for cells that are twice as high as wide. The drawing is a frozen
+as arrows. Scales account for cells that are twice as high as wide. The values to draw are a frozen
 `PlanePicture`, independent of buffers and simulators.
 """
 
@@ -39,21 +39,21 @@ from tftool.drawing.plane import (
 from tftool.geometry.motion.unicycle import FIELD
 
 MOST_NAMED: Final = 80
-"""Of more frames, only the first have their names beside them."""
+"""Largest number of frames whose names are written."""
 
 PIXELS_PER_METRE: Final = 45.0
-"""Of turtlesim, in which pens have their widths."""
+"""Pixels per metre in turtlesim, where the width of a pen is given in pixels."""
 
 WITH_SCALE: Final = (26, 9)
-"""Columns and rows from which the grid's metres stand at its sides."""
+"""Smallest columns and rows of a picture with a scale."""
 
 
 THICK_FROM: Final = 26
-"""Rows from which axes are two dots wide."""
+"""Smallest number of rows of a picture whose axes are two dots wide."""
 
 
 class _KeptDrawing:
-    """Dots of a drawing: what it is of, and how many of its strokes are drawn."""
+    """Dots of a drawing's strokes so far, and the number of strokes that are in them."""
 
     key: object = None
     done = 0
@@ -61,21 +61,21 @@ class _KeptDrawing:
 
 
 class Canvas:
-    """Picture of a given size that keeps the trails drawn so far.
+    """Drawer of pictures of one size, which stores the trails it has drawn so far.
 
     Args:
-        columns: Cells across, with those of the scale.
-        rows: Cells down, with that of the scale.
-        ascii_only: Draw with ASCII characters alone.
-        mono: Whether there are no colours: then axes bear their letters, turtles are arrows.
-        palette: The screen's own colours.
-        scaled: Whether metres stand at the left and below, where there is room.
+        columns: Width of the picture in cells, including the scale.
+        rows: Height of the picture in cells, including the scale.
+        ascii_only: Whether to draw with ASCII characters only.
+        mono: Whether to draw without colours: axes then have letters, turtles are arrows.
+        palette: Colours of the screen.
+        scaled: Whether to write metres at the left and below, if there is room.
 
     Attributes:
-        asked: The cells that were asked for, across and down.
-        columns: Cells across of the picture itself.
-        rows: Cells down of the picture itself.
-        gutter: Cells at its left, for the scale.
+        asked: Width and height in cells, as given.
+        columns: Width in cells without the scale.
+        rows: Height in cells without the scale.
+        gutter: Cells at the left that the scale takes.
     """
 
     def __init__(
@@ -103,7 +103,7 @@ class Canvas:
         self._sheet: CellSheet | None = None
 
     def lines(self, picture: PlanePicture, view: Viewport) -> list[Line]:
-        """Draw a picture of exactly the requested lines and cells."""
+        """Draw a picture; return as many lines, each of as many cells, as were requested."""
         if not self.columns or not self.rows:
             return [[] for _ in range(self.rows)]
         if view != self._view:
@@ -137,7 +137,7 @@ class Canvas:
     # The ground and what is drawn on it
 
     def _ends(self, lines: Points) -> Points:
-        """Convert lines of the plane, shape (n, 4) or (n, 2, 2), to dots, shape (n, 2, 2)."""
+        """Convert lines in metres, shape (n, 4) or (n, 2, 2), to dots, shape (n, 2, 2)."""
         view = self._view
         with np.errstate(all="ignore"):
             ends = (lines.reshape(-1, 2, 2) - (view.left, view.bottom)) * (4.0 / view.per_row)
@@ -145,7 +145,7 @@ class Canvas:
         return ends
 
     def _gridded(self) -> Dots:
-        """Draw faint lines at every step; without colours, dots at their crossings."""
+        """Draw the grid: faint lines, or without colours, dots where the lines cross."""
         dots, view = Dots(self.columns, self.rows), self._view
         right = view.left + 0.5 * view.per_row * self.columns
         top, step = view.bottom + view.per_row * self.rows, grid_step(view.per_row)
@@ -159,7 +159,7 @@ class Canvas:
         return dots
 
     def _cells_inside(self, field: TurtleField | None) -> Mask:
-        """Return which cells are on the field."""
+        """Return a mask of the cells that are on the turtles' field."""
         inside = np.zeros((self.rows, self.columns), bool)
         if field is not None:
             corners = [self.place(*corner) for corner in field.corners()]
@@ -171,7 +171,7 @@ class Canvas:
         return inside
 
     def _ground_color(self, role: str, field: TurtleField | None) -> Numbers | int:
-        """Return a colour of `PaperColors` by cell: that beside the field, and that on it."""
+        """Return the colour with a role of `PaperColors`, by cell: beside the field and on it."""
         beside = packed(getattr(self._paper, role))
         if field is None:
             return beside
@@ -180,7 +180,7 @@ class Canvas:
     def _grow(
         self, kept: "_KeptDrawing", drawn: Drawn, place: object, field: TurtleField | None = None
     ) -> None:
-        """Draw new ends of a trail; start again if it moved, changed or became shorter."""
+        """Draw the new strokes of a drawing; start again if it was moved, replaced or shortened."""
         key, total = (place, drawn.edition), drawn.forgotten + len(drawn.strokes)
         if kept.key != key or total < kept.done:
             kept.key, kept.done = key, 0
@@ -201,7 +201,7 @@ class Canvas:
             kept.dots.draw(self._ends(lines[some]), colors[some], one)
 
     def _faint(self, colors: Numbers, field: TurtleField | None) -> Numbers:
-        """Return the paler colours of trails."""
+        """Return paler versions of colours, for the trails."""
         beside = colors
         if self._palette is theme.LIGHT:
             beside = blended(beside, theme.INK, 0.55)
@@ -213,7 +213,7 @@ class Canvas:
     # Drawn above it
 
     def _mark(self, sheet: CellSheet, picture: PlanePicture) -> Mask:
-        """Draw the lines to parents, walls and axes; return the cells they take."""
+        """Draw lines to parents, walls and axes; return a mask of the cells they cover."""
         view, field = self._view, picture.field
         links = [
             ends
@@ -294,7 +294,7 @@ class Canvas:
                         self._letter_inks(placed, named[placed.label.name]))  # fmt: skip
 
     def _letter_inks(self, placed: PlacedLabel, one: PlaneFrame) -> list[int]:
-        """Return a colour for each letter of a name, readable on its ground."""
+        """Return a colour for each letter of a name, readable on the background of its cell."""
         inks = []
         for on_field in (False, True):
             ink = self._ink_of(one, on_field=on_field)
@@ -331,7 +331,7 @@ class Canvas:
         return sprites.badge(*place, one.theta, color, per_metre, blocks=not self._ascii)
 
     def _ink_of(self, one: PlaneFrame, *, on_field: bool) -> Color:
-        """Return a frame's colour on its ground; amber or red if it is stale."""
+        """Return a frame's colour for its background; amber or red if the frame is stale."""
         palette = theme.DARK if on_field else self._palette
         return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
 
@@ -341,7 +341,7 @@ class Canvas:
         return is_seen and bool(self._inside[row, column])
 
     def place(self, x: float, y: float) -> Point:
-        """Return the column and row of a point of the plane."""
+        """Return the column and row, in cells, of a point given in metres."""
         view = self._view
         # The corners of a picture may be farther away than anything in it.
         if not abs(x) + abs(y) <= 1e3 * FARTHEST:
@@ -387,19 +387,19 @@ class Canvas:
 
 
 def axis_length(view: Viewport, rows: int) -> float:
-    """Return the length of drawn axes, metres: about a tenth of the picture, never a mere dot."""
+    """Return the length in metres of drawn axes: about a tenth of the picture."""
     return view.per_row * min(4.0, max(1.6, rows / 10.0))
 
 
 def metres(value: float, step: float) -> str:
-    """Format a number of a scale with as many digits as its steps need."""
+    """Format a number of a scale with as many decimals as the scale's step needs."""
     digits = max(0, -math.floor(math.log10(step) + 1e-9))
     text = f"{value:.{digits}f}"
     return "0" if not text.strip("-0.") else text
 
 
 def _by_weight(picture: PlanePicture) -> list[PlaneFrame]:
-    """Sort frames by the importance of their names: the pair, then turtles, then others."""
+    """Sort frames by the importance of their names: the chosen pair, turtles, other frames."""
     return sorted(
         picture.frames,
         key=lambda one: (one.name not in picture.pair, not one.is_turtle, one.parent is None),
@@ -412,7 +412,7 @@ def _multiples(first: float, last: float, step: float) -> Iterator[float]:
 
 
 def _crossings(corners: Sequence[Point], row: float) -> tuple[float, float] | None:
-    """Return where a row enters and leaves a convex shape; None if it misses it."""
+    """Return the columns where a row enters and leaves a convex shape; None without a crossing."""
     found = []
     for (x0, y0), (x1, y1) in zip(corners, (*corners[1:], corners[0]), strict=True):
         if min(y0, y1) <= row < max(y0, y1):
@@ -435,9 +435,7 @@ _SIDES: Final = {
 
 
 def _dashes(start: Point, end: Point, dot: float) -> Iterator[tuple[float, float, float, float]]:
-    """Return every other pair of dots of a line, to distinguish it from a trail; fewer of a long
-    one.
-    """
+    """Yield the dashes of a line, which distinguish it from a trail; a long line is one dash."""
     length = math.hypot(end[0] - start[0], end[1] - start[1])
     if not dot < length <= FARTHEST:
         return

@@ -1,6 +1,6 @@
-"""Cells of a terminal as arrays: braille dots, letters, and colours, converted to rich's lines.
+"""Arrays of a terminal's cells: braille dots, letters and colours, converted to rich's lines.
 
-Colours are packed in one number each, red first; `NONE` stands for the terminal's own.
+A colour is packed in one number, red in the highest byte; `NONE` stands for the terminal's default.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,7 +24,7 @@ Mask: TypeAlias = npt.NDArray[np.bool_]
 NONE: Final = -1
 
 Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
-"""A straight piece of trail: x and y of both ends in metres, colour, width in pixels."""
+"""Straight piece of a trail: x and y of both ends in metres, colour, width in pixels."""
 
 _BITS: Final = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
 _UPPER: Final = 0x01 | 0x02 | 0x08 | 0x10
@@ -38,11 +38,11 @@ _SIGNS: Final = {
         "<U4",
     ),
 }
-"""The sign of a cell's dots, in braille or in ASCII."""
+"""Character of a cell for each mask of dots, in braille (False) and in ASCII (True)."""
 
 
 class Cell(NamedTuple):
-    """Content of one cell. No ground colour: that of the cell below."""
+    """Content of one cell; without a ground colour, that of the cell below shows."""
 
     text: str
     ink: Color | None = None
@@ -51,12 +51,12 @@ class Cell(NamedTuple):
 
 
 def packed(color: Color | None) -> int:
-    """Return a colour as one number."""
+    """Return a colour as one number, 0xRRGGBB; NONE for no colour."""
     return NONE if color is None else (color.r << 16) + (color.g << 8) + color.b
 
 
 def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
-    """Mix packed colours with another one, as `theme.blend` does; with one share, or one each."""
+    """Mix packed colours with one colour, as `theme.blend` does; one share for all, or one each."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
     mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
@@ -72,7 +72,7 @@ def _style(ink: int, ground: int, bold: bool) -> Style:
 
 
 def cells_of(text: str) -> Iterator[tuple[int, str]]:
-    """Split a text into cells; the cell after a wide character is empty."""
+    """Yield (offset, text) of each cell of a text; the second cell of a wide letter is empty."""
     offset = 0
     shown: list[tuple[int, str]] = []
     for sign in text:
@@ -90,16 +90,16 @@ def cells_of(text: str) -> Iterator[tuple[int, str]]:
 
 
 def dots_of(ends: Points, width: int, height: int) -> tuple[Numbers, Numbers, Points, Numbers]:
-    """Return the dots of straight lines within a picture; NaN ends draw nothing.
+    """Return the dots of straight lines that are inside a picture; lines with NaN have none.
 
     Args:
-        ends: Both ends of each line, to the right and down from the upper left corner in dots,
-            perhaps with a depth, shape (n, 2, 2 or 3).
-        width: Dots across.
-        height: Dots down.
+        ends: Both ends of each line in dots, right and down from the upper left corner, with or
+            without a depth, shape (n, 2, 2 or 3).
+        width: Width of the picture in dots.
+        height: Height of the picture in dots.
 
     Returns:
-        Columns, rows, positions, and the index of the line of each dot.
+        Column, row, position, and index of the line, of each dot.
 
     Source:
         Liang and Barsky, "A New Concept and Method for Line Clipping", 1984.
@@ -127,11 +127,11 @@ def dots_of(ends: Points, width: int, height: int) -> tuple[Numbers, Numbers, Po
 
 
 class Dots:
-    """Braille dots of columns × rows of cells, two across and four down in each.
+    """Braille dots of columns × rows of cells; a cell is two dots wide and four dots high.
 
     Attributes:
-        masks: Dots of each cell, by the numbers of Unicode's braille.
-        colors: Colour of each cell: that of its last dot.
+        masks: Dots of each cell, as the bits of Unicode's braille characters.
+        colors: Packed colour of each cell, that of the dot set last.
     """
 
     def __init__(self, columns: int, rows: int) -> None:
@@ -142,9 +142,9 @@ class Dots:
         """Draw straight lines.
 
         Args:
-            ends: Both ends of each, to the right and down in dots, shape (n, 2, 2).
-            colors: Packed colour of each, or of all.
-            wide: Dots that a line is wide.
+            ends: Both ends of each line in dots, right and down, shape (n, 2, 2).
+            colors: Packed colour of each line, or one for all.
+            wide: Width of the lines in dots.
         """
         rows, columns = self.masks.shape
         across, down, _, which = dots_of(ends, 2 * columns, 4 * rows)
@@ -155,23 +155,23 @@ class Dots:
             self.mark(x, y, inks)
 
     def mark(self, across: Numbers, down: Numbers, colors: Numbers | int) -> None:
-        """Set single dots."""
+        """Set single dots, given by column and row."""
         cells = down // 4, across // 2
         np.bitwise_or.at(self.masks, cells, _BITS[down % 4, across % 2])
         self.colors[cells] = colors
 
     def cover(self, above: "Dots", free: Mask | None = None) -> None:
-        """Lay other dots above these; a cell shows only the upper ones.
+        """Lay other dots above these; a cell with dots of both shows only the upper ones.
 
         Args:
-            above: The others.
-            free: Cells they may take; all if None.
+            above: Dots to lay above.
+            free: Mask of the cells that the upper dots may change; None for all.
         """
         marked = above.masks > 0 if free is None else (above.masks > 0) & free
         self.masks[marked], self.colors[marked] = above.masks[marked], above.colors[marked]
 
     def rows(self, *, ascii_only: bool = False) -> list[list[tuple[str, str]]]:
-        """Return sign and style of every cell; a blank without style where there is no dot."""
+        """Return character and style of every cell; a blank without style if it has no dot."""
         signs = np.where(self.masks > 0, _SIGNS[ascii_only][self.masks], " ").tolist()
         return [
             [
@@ -183,13 +183,13 @@ class Dots:
 
 
 class CellSheet:
-    """Signs and colours of columns × rows of cells.
+    """Characters and colours of columns × rows of cells.
 
     Attributes:
-        texts: Sign of each cell; empty behind a wide one.
-        inks: Packed colour of each sign.
-        grounds: Packed colour behind it.
-        bold: Whether it is bold.
+        texts: Character of each cell; empty behind a wide one.
+        inks: Packed colour of each character.
+        grounds: Packed background colour of each cell.
+        bold: Whether each character is bold.
     """
 
     def __init__(self, columns: int, rows: int) -> None:
@@ -201,12 +201,12 @@ class CellSheet:
         self._lines: list[Line] = []
 
     def lay(self, dots: Dots, colors: Numbers | int | None = None, *, ascii_only: bool) -> Mask:
-        """Show dots; return the cells that have some.
+        """Write the characters of some dots; return a mask of the cells that have dots.
 
         Args:
             dots: The dots.
-            colors: Colours by cell, or one for all; their own if None.
-            ascii_only: Show them as ASCII signs.
+            colors: Packed colours by cell, or one for all; None for the dots' own.
+            ascii_only: Whether to write ASCII characters instead of braille.
         """
         marked = dots.masks > 0
         self.texts[marked] = _SIGNS[ascii_only][dots.masks[marked]]
@@ -215,7 +215,7 @@ class CellSheet:
         return marked
 
     def put(self, column: int, row: int, cell: Cell) -> None:
-        """Show one cell."""
+        """Write the content of one cell."""
         place = row, column
         self.texts[place], self.inks[place] = cell.text, packed(cell.ink)
         self.bold[place] = cell.bold
@@ -232,15 +232,15 @@ class CellSheet:
         bold: bool = False,
         clears: bool = False,
     ) -> None:
-        """Write a text in one colour, or in one for each of its cells.
+        """Write a text in one colour, or in one colour per cell.
 
         Args:
-            column: The first cell.
-            row: Row.
-            text: The text; it must fit.
+            column: Column of the first cell.
+            row: Row of the cells.
+            text: Text, which must fit.
             inks: Packed colours.
-            bold: Whether it is bold.
-            clears: Whether it stands on the terminal's own ground.
+            bold: Whether to write in bold.
+            clears: Whether to reset the background to the terminal's default.
         """
         for offset, sign in cells_of(text):
             place = row, column + offset
@@ -250,10 +250,10 @@ class CellSheet:
                 self.grounds[place] = NONE
 
     def lines(self, before: "CellSheet | None" = None) -> list[Line]:
-        """Join cells of equal style into rich's segments.
+        """Return the sheet as rich's segments, one per run of cells with equal style.
 
         Args:
-            before: The last sheet of this size; its lines are kept where nothing changed.
+            before: Previous sheet of the same size, whose unchanged lines are reused.
         """
         # The ink of a blank is not seen: no new segment for it.
         self._keys = (np.where(self.texts == " ", NONE, self.inks) << 26) + (self.grounds << 1)

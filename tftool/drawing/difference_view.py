@@ -1,4 +1,4 @@
-"""Differences between two sets of frames: as text lines, as JSON, as Markdown."""
+"""Differences between two sets of frames, as text lines, JSON and Markdown."""
 
 from typing import Final
 
@@ -19,12 +19,12 @@ HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
 def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
-    """Return a line for each link that differs, and a summary.
+    """Return differences as text: a line for each link that differs, and a summary.
 
     Args:
-        found: Values to write.
-        width: Cells a line may take: the rest goes below its link. None for no limit.
-        everything: Whether to write the links that do not differ, too.
+        found: The differences.
+        width: Longest line in cells: further text goes below its link. None for no limit.
+        everything: Whether to include the links that do not differ.
     """
     told = found.links if everything else found.changed
     text = [f"A {visible(found.first)}", f"B {visible(found.second)}"]
@@ -50,7 +50,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 
 
 def summary(found: Differences) -> str:
-    """Return one sentence: how many links differ, and by which measure."""
+    """Return one sentence: how many links differ, by which tolerance."""
     count, total = len(found.changed), len(found.links)
     limit = found.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
@@ -66,7 +66,7 @@ def summary(found: Differences) -> str:
 
 
 def as_object(found: Differences) -> dict[str, object]:
-    """Return the differences for --json."""
+    """Return differences as a mapping, for --json."""
     limit = found.tolerance
     return {
         "a": found.first,
@@ -84,7 +84,7 @@ def as_object(found: Differences) -> dict[str, object]:
 
 
 def as_markdown(found: Differences) -> str:
-    """Return a Markdown table in which all names are escaped."""
+    """Return differences as a Markdown table in which all names are escaped."""
     rows = [_row(one, found.start) for one in found.changed]
     text = [f"**tftool diff** {_code(found.first)} {_code(found.second)}", ""]
     if rows:
@@ -96,7 +96,7 @@ def as_markdown(found: Differences) -> str:
 
 
 def _code(text: str) -> str:
-    """Format a text as code, without active Markdown."""
+    """Format a text as Markdown code in which no character has a special meaning."""
     shown = visible(text).replace("|", "¦").replace("`", "ˋ")
     return f"`{shown}`" if shown.strip() else ""
 
@@ -159,7 +159,7 @@ def _detail(one: LinkDifference, start: Stamp) -> str:
 
 
 def _number(value: float) -> str:
-    """Format three significant digits, at most four decimals."""
+    """Format a number with three significant digits and at most four decimals."""
     size = abs(value)
     if size < 5e-5:
         return "<0.0001" if size > 1e-9 else "0"

@@ -1,7 +1,7 @@
-"""Frames of a drawing as rows: children below parents, with guides and facts; loops too.
+"""Order of the frames in a drawing: children below parents, with the guides and facts of each row.
 
-A buffer holds a forest, but foreign data may be anything: a frame below itself must not make a
-drawing loop.
+A buffer holds a forest, but data from elsewhere may contain loops. A frame that is its own ancestor
+must not make a drawing endless.
 """
 
 from collections.abc import Iterator
@@ -13,13 +13,13 @@ from tftool.buffer.sample import FrameInfo, Snapshot
 
 @dataclass(frozen=True, slots=True)
 class Forest:
-    """The frames to draw, level by level from the roots.
+    """Frames to draw, as trees.
 
     Attributes:
-        roots: Names without a parent, and one frame of every loop.
-        loops: Roots that have a parent: the links that close a loop.
-        children: The drawn children of every drawn frame, in order of registration.
-        hidden: Number of frames left out below a drawn frame, if any.
+        roots: Frames without a parent, and one frame of every loop.
+        loops: Roots that have a parent: the link to that parent closes a loop.
+        children: Children to draw of every drawn frame, in order of registration.
+        hidden: Number of frames left out below a drawn frame, by its name.
         info: Every frame of the snapshot by its name.
     """
 
@@ -31,12 +31,12 @@ class Forest:
 
     @property
     def left_out(self) -> int:
-        """Return the number of frames not drawn."""
+        """Number of frames that are not drawn."""
         return len(self.info) - len(self.children)
 
 
 def grow(snapshot: Snapshot, *, most: int | None = None) -> Forest:
-    """Sort a snapshot into trees, and keep the `most` frames nearest to the roots."""
+    """Arrange a snapshot's frames in trees; keep the `most` frames nearest to the roots."""
     info = {frame.frame: frame for frame in snapshot.frames}
     children: dict[str, list[str]] = {name: [] for name in info}
     roots = []
@@ -85,7 +85,7 @@ def grow(snapshot: Snapshot, *, most: int | None = None) -> Forest:
 
 
 def _walk(roots: list[str], children: dict[str, list[str]]) -> list[str]:
-    """Yield every frame below the roots once, level by level; loops end."""
+    """Return every frame below the roots once, level by level, even if there are loops."""
     order = list(roots)
     for name in order:  # grows while it is walked
         order.extend(children[name])
@@ -93,12 +93,12 @@ def _walk(roots: list[str], children: dict[str, list[str]]) -> list[str]:
 
 
 DEEPEST = 64
-"""Levels that are drawn by indentation; below them a number says how deep a frame hangs."""
+"""Number of levels that are indented; a deeper frame has its level as a number."""
 
 
 @dataclass(frozen=True, slots=True)
 class Guides:
-    """The four guides of a tree drawing, equally wide, and the text before a name."""
+    """The four guide texts of a tree drawing, equally wide, and the gap before a name."""
 
     child: str
     last: str
@@ -107,11 +107,11 @@ class Guides:
     gap: str = ""
 
     def lead(self, branch: "Branch", most: int | None = None, more: str = "…") -> str:
-        """Return the text before a name: guides, or its depth as a number and one guide.
+        """Return the text before a frame's name: guides, or the depth as a number and one guide.
 
         Args:
-            branch: The frame.
-            most: Cells that guides may take; None for as many as `DEEPEST` levels take.
+            branch: Frame with its place in the tree.
+            most: Most cells for guides; None for as many as `DEEPEST` levels take.
             more: Sign for guides that are left out.
         """
         if not branch.depth:
@@ -122,7 +122,7 @@ class Guides:
         return "".join(self.blank if last else self.past for last in branch.turns[:-1]) + own
 
     def width(self, depth: int) -> int:
-        """Return the width in cells of the text before a name at a depth."""
+        """Return the width in cells of the guides before a name at a depth."""
         return len(self.child) * depth + len(self.gap) if depth else 0
 
 
@@ -132,7 +132,7 @@ UNICODE = (
     Guides("├ ", "└ ", "│ ", "  "),
     Guides("├", "└", "│", " ", " "),
 )
-"""From wide to narrow."""
+"""Guides in box-drawing characters, from wide to narrow."""
 
 ASCII = (
     Guides("|-- ", "`-- ", "|   ", "    "),
@@ -144,14 +144,14 @@ ASCII = (
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """One frame at its place in the tree.
+    """Frame with its place in the tree.
 
     Attributes:
         info: The frame.
         depth: Number of levels below the root.
-        turns: Whether each frame from the root's child down to this one is the last of its
-            siblings; of a deep one, only the last `DEEPEST` of these.
-        closes_loop: Whether the link closes a loop, which is cut there.
+        turns: For each frame from the root's child to this one, whether it is the last of its
+            siblings; for a deep frame, only the last `DEEPEST` of these.
+        closes_loop: Whether the link above this frame closes a loop, where the drawing cuts it.
     """
 
     info: FrameInfo
@@ -161,7 +161,7 @@ class Branch:
 
 
 def branches(forest: Forest) -> Iterator[Branch]:
-    """Yield every frame, parents before children, without recursion."""
+    """Yield every frame of a forest with its place, parents before children."""
     waiting: list[tuple[str, int, tuple[bool, ...]]]
     waiting = [(root, 0, ()) for root in reversed(forest.roots)]
     loops = frozenset(forest.loops)
@@ -174,7 +174,7 @@ def branches(forest: Forest) -> Iterator[Branch]:
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Facts of one link as text; trailing zeros are dropped as in rqt_tf_tree."""
+    """Facts of one link as text, without trailing zeros as in rqt_tf_tree."""
 
     broadcaster: str
     rate: str
@@ -183,7 +183,7 @@ class Facts:
     oldest: str
 
     def lines(self, *, units: bool) -> tuple[str, str, str, str, str]:
-        """Return the five lines in rqt_tf_tree's words, with units on request."""
+        """Return five lines in rqt_tf_tree's words, with units on request."""
         hertz, second = (" Hz", " s") if units else ("", "")
         return (
             f"Broadcaster: {self.broadcaster}",
@@ -195,7 +195,7 @@ class Facts:
 
 
 def facts(frame: FrameInfo) -> Facts:
-    """Format the facts of the link above `frame`."""
+    """Format the facts of the link from a frame to its parent."""
     return Facts(
         broadcaster=frame.authority or "no recorded authority",
         rate=str(float(f"{frame.rate:.3f}")),
@@ -206,6 +206,6 @@ def facts(frame: FrameInfo) -> Facts:
 
 
 def recorded_at(now: Stamp) -> str:
-    """Return the legend with the snapshot's time."""
+    """Return the line of a drawing that gives the snapshot's time."""
     whole, rest = divmod(now, NANOSECONDS)
     return f"Recorded at time: {whole + rest / 1e9}"

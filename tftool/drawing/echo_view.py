@@ -1,4 +1,4 @@
-"""One lookup as text: tf2_echo's block, a JSON object, or a sentence."""
+"""Result of one transform lookup: in tf2_echo's format, as a JSON object, as a sentence."""
 
 import math
 import re
@@ -19,7 +19,7 @@ AXES = ("x", "y", "z")
 
 
 def in_words(target: str, source: str) -> str:
-    """Describe the result of looking up `source` in `target`: "turtle1 in turtle2"."""
+    """Describe the pair of a lookup of `source` in `target`: "turtle1 in turtle2"."""
     return f"{visible(source)} in {visible(target)}"
 
 
@@ -30,7 +30,7 @@ def block(
     with_distance: bool = False,
     quaternion_tag: str = "",
 ) -> str:
-    """Format a transform as tf2_echo does, line by line.
+    """Format a transform as the lines that tf2_echo prints.
 
     As in tf2_echo, nanoseconds are not padded with zeros: 5 s and 12 ns is `5.12`. `as_object` has
     the exact stamp.
@@ -38,8 +38,8 @@ def block(
     Args:
         found: Result of a lookup.
         precision: Decimals of every number.
-        with_distance: Whether a last line gives the length of the translation.
-        quaternion_tag: Text that newer releases add after "Quaternion": " (xyzw)".
+        with_distance: Whether to add a line with the length of the translation.
+        quaternion_tag: Text after "Quaternion" in newer releases: " (xyzw)".
 
     Returns:
         Lines, each with its newline.
@@ -62,16 +62,16 @@ def block(
 
 
 AXIS_STYLES = ("red", "green", "bright_blue", "")
-"""Of the numbers of a line, in the order x, y, z and the rest."""
+"""Styles of the numbers of a line, in the order x, y, z, others."""
 
 _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w.])")
 
 
 def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
-    """Colour x, y and z of `block` like the axes, for a terminal.
+    """Return the lines of `block` for a terminal, with x, y and z in the colours of the axes.
 
-    Roll, pitch and yaw have the colours of their axes, and so have the matrix's columns, which are
-    the source's axes in the target.
+    Roll, pitch and yaw have the colours of their axes. So have the matrix's columns, which are the
+    source's axes in the target.
     """
     from rich.text import Text
 
@@ -88,12 +88,12 @@ def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool 
 
 
 def live_heading(target: str, source: str, age: Duration | None) -> "Text":
-    """Return the pair and its age, in amber, then red, when it gets old.
+    """Return a line with the pair and the age of its transform: amber, then red, for an old one.
 
     Args:
-        target: The frame looked up in.
-        source: The frame looked up.
-        age: Nanoseconds since the answer's stamp; None for static transforms.
+        target: Frame in which the pose is expressed.
+        source: Frame whose pose is shown.
+        age: Nanoseconds since the transform's stamp; None for static transforms.
     """
     from rich.text import Text
 
@@ -104,7 +104,7 @@ def live_heading(target: str, source: str, age: Duration | None) -> "Text":
 
 
 def age_style(age: Duration) -> str:
-    """Return the colour for an age, with the limits of all views."""
+    """Return the text style for an age in nanoseconds: dim, yellow or red."""
     if as_seconds(age) <= FRAME_TIMEOUT / 3:
         return "dim"
     return "yellow" if as_seconds(age) <= FRAME_TIMEOUT else "red"
@@ -114,8 +114,8 @@ def failure(now: Stamp, error: TransformException, frames: str) -> str:
     """Format tf2_echo's message for a lookup that fails after it had worked.
 
     Args:
-        now: The clock's time.
-        error: The refusal.
+        now: Current time of the clock in nanoseconds.
+        error: Exception of the lookup.
         frames: The buffer's `all_frames_as_string()`.
     """
     return (
@@ -126,7 +126,10 @@ def failure(now: Stamp, error: TransformException, frames: str) -> str:
 
 
 def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
-    """Return the transform for --json: full precision, the exact stamp, null for NaN."""
+    """Return a transform as a mapping, for --json.
+
+    Numbers have full precision, the stamp is exact, and NaN is null.
+    """
     pose = found.transform
     rpy = rpy_from_quaternion(pose.rotation)
     result: dict[str, Any] = {
@@ -143,7 +146,7 @@ def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[s
 
 
 def failure_as_object(now: Stamp, error: TransformException) -> dict[str, Any]:
-    """Return a failed lookup for --json."""
+    """Return a failed lookup as a mapping, for --json."""
     return {"failed_at_ns": now, "error": type(error).__name__, "message": str(error)}
 
 

@@ -1,4 +1,4 @@
-"""One lookup's trace for a terminal or a program."""
+"""Explanation of one transform lookup, for a terminal and for --json."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -26,7 +26,7 @@ _WORDS = {
 
 
 def render(found: Explanation) -> RenderableType:
-    """Yield the views of an explanation: lookup, tf2's answer, links, cause, remedies."""
+    """Return an explanation for a terminal: lookup, tf2's error, links, cause, remedies."""
     facts = Table.grid(padding=(0, 2), pad_edge=False)
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
@@ -53,7 +53,7 @@ def reasons(
     remedies: Sequence[tuple[str, str]],
     useless: Sequence[str] = (),
 ) -> Padding:
-    """Return tf2's words, why a lookup is refused, what helps and what does not, in a table."""
+    """Return a table of tf2's error, the causes, the remedies, and what does not help."""
     told = Table.grid(padding=(0, 2), pad_edge=False)
     told.add_column(no_wrap=True, min_width=5)
     told.add_column(overflow="fold")
@@ -71,7 +71,7 @@ def reasons(
 
 
 def so_far(found: Explanation) -> list[Text]:
-    """Return in lines whether a lookup answers, and why not, while more may follow."""
+    """Return lines on whether a lookup succeeds so far, and why not, while data still arrives."""
     line = Text(visible(f"so far: {found.source} in {found.target} "))
     line.append(*(("answers", "green") if found.available else ("is refused", "bold red")))
     return [line, *(Text(visible(f"        {why}")) for why in found.why)]
@@ -91,7 +91,7 @@ def _headline(found: Explanation) -> Text:
 
 
 def _later(found: Explanation) -> str:
-    """Whether the lookup would succeed later, or would have before."""
+    """Return the end of a sentence on when the lookup would succeed, or would have succeeded."""
     if found.answerable_from is None:
         return ", and would be at any later time"
     late = found.answerable_from - found.asked
@@ -103,7 +103,7 @@ def _later(found: Explanation) -> str:
 
 
 class _Links:
-    """A row for each link; if rows are too wide, the link's message goes below it."""
+    """Table with a row for each link; if rows are too wide, a link's message goes below it."""
 
     def __init__(self, found: Explanation) -> None:
         self._found = found
@@ -173,7 +173,7 @@ def _refusal(link: TracedLink) -> str:
 
 
 def _base(found: Explanation) -> Stamp:
-    """Return the zero of the table's times: that of --at, and 0 in simulations."""
+    """Return the time that is 0 in the table: that of --at, or the recording's start, or 0."""
     if found.stamp and found.stamp < SIMULATED_BELOW:
         return 0
     return found.epoch if found.epoch >= SIMULATED_BELOW else 0
@@ -195,7 +195,7 @@ def _exactly(stamp: Stamp) -> str:
 
 
 def as_object(found: Explanation) -> dict[str, Any]:
-    """Return the explanation for --json; whole nanoseconds, names exactly as recorded."""
+    """Return an explanation as a mapping, for --json, with whole nanoseconds and exact names."""
     return {
         "schema": SCHEMA,
         "target": found.target,

@@ -1,6 +1,6 @@
-"""Curves over time, and a path from above, as a matplotlib figure.
+"""Figures made with matplotlib: curves over time, and a path seen from above.
 
-matplotlib is an extra, and is imported when something is drawn.
+matplotlib is an extra, imported when something is drawn.
 """
 
 from collections.abc import Sequence
@@ -34,10 +34,10 @@ if TYPE_CHECKING:
 FORMATS: Final = ("svg", "pdf", "png")
 
 MOST_POINTS: Final = 20_000
-"""Of one curve; a page has fewer."""
+"""Most points drawn of one curve; a printed page shows fewer."""
 
 _CHARACTERS: Final = 125
-"""Of a line under the figure."""
+"""Longest line of text below a figure, in characters."""
 
 _LIGHT: Final = {
     "figure.facecolor": "white",
@@ -89,30 +89,30 @@ def plot(
     start: Stamp | None = None,
     dark: bool = False,
 ) -> "Figure | Axes":
-    """Draw one or several pairs over time into a matplotlib figure.
+    """Draw one or several pairs of frames over time as a matplotlib figure.
 
         tftool.plot(recording, "map", "base_link").savefig("path.svg")
         path = recording.buffer.lookup_transforms("map", "base_link", stamps, missing="nan")
         tftool.plot(path, ax=axes, what="yaw")
 
     Args:
-        frames: Opened frames, a recording, a buffer or a robot, whose pair is asked for at
-            the stamps of the fastest link between the two; or poses, or several of them.
+        frames: Opened frames, a recording, a buffer or a robot, whose pair is looked up at the
+            stamps of the fastest link between the two frames; or poses, or several of them.
         target: Frame in which the poses of a pair are expressed.
-        source: Frame whose poses they are.
-        ax: Axes for one panel; a new figure with all of them if None.
-        what: "position", "rotation", "distance", "speed", "turn rate", or a single one such
-            as "x" or "yaw"; of a new figure all if empty, of `ax` the position.
-        xy: Draw the path from above instead.
-        start: The moment that is 0 on the axis, nanoseconds; the first one if None.
-        dark: Whether a new figure has a dark ground.
+        source: Frame whose poses are drawn.
+        ax: Axes for one panel; None for a new figure with all panels.
+        what: "position", "rotation", "distance", "speed", "turn rate", or a single curve such
+            as "x" or "yaw". If empty, a new figure has all of them, `ax` the position.
+        xy: Whether to draw the path from above instead.
+        start: Time in nanoseconds that is 0 on the axis; None for the first pose.
+        dark: Whether a new figure has a dark background.
 
     Returns:
         The new figure, or `ax`.
 
     Raises:
-        TransformException: If a frame of the pair is unknown, or it is joined at no moment.
-        TypeError: If a pair is named of poses, or none of frames.
+        TransformException: If a frame of the pair is unknown, or the two are never connected.
+        TypeError: If a pair is given with poses, or frames are given without a pair.
         UsageError: If there is nothing to draw, or the extra `plot` is not installed.
     """
     found = _trajectories(frames, target, source)
@@ -143,7 +143,7 @@ def _trajectories(
     target: str | None,
     source: str | None,
 ) -> list[Trajectory]:
-    """Look up a pair of frames, or use poses as they are."""
+    """Return the poses of a pair of frames, or the given poses as trajectories."""
     if isinstance(frames, TransformArray | Trajectory | Sequence):
         if target is not None or source is not None:
             raise TypeError(
@@ -168,7 +168,7 @@ def write(
     xy: bool = False,
     dark: bool = False,
 ) -> None:
-    """Write a figure in one of `FORMATS`.
+    """Write a figure of some trajectories to a file, in one of `FORMATS`.
 
     Raises:
         UsageError: If the extra `plot` is not installed.
@@ -180,7 +180,7 @@ def write(
 def write_panels(
     drawn: Sequence[PlotPanel], title: str, file: BinaryIO, form: str, *, dark: bool = False
 ) -> None:
-    """Write panels under a title as a figure in one of `FORMATS`.
+    """Write panels below a title to a file as one figure, in one of `FORMATS`.
 
     Raises:
         UsageError: If the extra `plot` is not installed.
@@ -243,7 +243,7 @@ def _figure_of_panels(
     make: Any,
     named: bool = True,
 ) -> "Figure":
-    """Draw panels below each other; with `named`, each has its own named curves."""
+    """Return a figure with panels below each other; with `named`, each has its own legend."""
     figure = _empty_figure(1.0 + 1.7 * len(drawn), dark, make)
     with _needed("matplotlib").rc_context(_settings(dark)):
         figure.suptitle(_plain(title), fontsize=11)
@@ -302,7 +302,7 @@ def _legend(ax: "Axes", handles: Sequence[tuple[Any, str]]) -> None:
 
 
 def _plain(text: str) -> str:
-    """Escape what matplotlib reads as mathematics ($) or as a hidden label (_)."""
+    """Escape the characters that matplotlib reads as mathematics ($) or a hidden label (_)."""
     shown = visible(text).replace("$", r"\$")
     return f" {shown}" if shown.startswith("_") else shown
 

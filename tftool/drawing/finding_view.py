@@ -1,4 +1,4 @@
-"""Views of a diagnosis: for terminals, programs, issue trackers, build servers."""
+"""The doctor's diagnosis for terminals, --json, Markdown and build servers (JUnit)."""
 
 from collections.abc import Sequence
 from re import findall, sub
@@ -28,10 +28,10 @@ from tftool.drawing import report_view as judgements
 SCHEMA = "tftool.doctor/2"
 
 _CALM = Severity.NOTE
-"""What does not count as wrong."""
+"""Severity of findings that need no action."""
 
 MOST_LINES = 3
-"""Lines of evidence that are shown; all of them in a verbose report."""
+"""Lines of evidence shown per finding; a verbose report shows all."""
 
 _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
@@ -40,7 +40,7 @@ _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE
 
 
 def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
-    """Return one source's report: the input, findings, areas in order, counts."""
+    """Return the report about one source for a terminal: source, findings, areas, counts."""
     parts: list[RenderableType] = [Text(visible(head(diagnosis.model)), "bold")]
     if diagnosis.model.reference:
         parts.append(Text(visible(f"latencies: {diagnosis.model.reference}")))
@@ -63,7 +63,7 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
 
 
 def so_far(diagnosis: Diagnosis) -> list[Text]:
-    """Return a line for each finding but consequences, worst first, while more may follow."""
+    """Return a line for each finding that is a cause, worst first, while data still arrives."""
     found = [finding for finding in diagnosis.findings if finding.because_of is None]
     return [_first_line(one) for one in sorted(found, key=lambda one: one.severity.rank)]
 
@@ -110,7 +110,7 @@ def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
 
 
 def head(model: Model) -> str:
-    """Return a line about the source."""
+    """Return a line with the source's name and size: duration, frames, links, topics."""
     material = model.evidence
     facts = [material.kind]
     if material.end > material.start and material.timed:
@@ -128,14 +128,14 @@ def head(model: Model) -> str:
 
 
 def _last_arrival(model: Model) -> Stamp:
-    """Return when the last moving transform arrived; the end of the source if none moves."""
+    """Return the time when the last moving transform arrived, or the end of the source."""
     transforms = model.evidence.transforms
     arrivals = [transforms.log_times_of(edge) for edge in transforms.edges if not edge.static]
     return max((int(one.max()) for one in arrivals if len(one)), default=model.evidence.end)
 
 
 def areas(diagnosis: Diagnosis) -> str:
-    """Return a line about the areas without findings."""
+    """Return a line with the areas in which nothing was found."""
     wrong = {finding.area for finding in diagnosis.findings}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -162,7 +162,7 @@ def _latencies(model: Model, area: Area) -> str:
 
 
 def summary(diagnosis: Diagnosis) -> str:
-    """Return a line with the number of findings and where to read more."""
+    """Return a line with the number of findings and the command that explains more."""
     counts = counted(diagnosis)
     if not counts:
         skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
@@ -179,13 +179,13 @@ def summary(diagnosis: Diagnosis) -> str:
 
 
 def counted(diagnosis: Diagnosis) -> str:
-    """Count findings by severity: "1 error, 2 warnings"; empty if there are none."""
+    """Count findings by severity: "1 error, 2 warnings"; "" if there are none."""
     numbers = [(severity.value, diagnosis.count(severity)) for severity in Severity]
     return ", ".join(count(number, word) for word, number in numbers if number)
 
 
 def brief(diagnosis: Diagnosis) -> str:
-    """Return a line about findings, shown below another command's output."""
+    """Return a line about a diagnosis, to print below another command's output."""
     told = [f for f in diagnosis.findings if f.because_of is None and f.severity is not _CALM]
     if not told:
         return "Doctor: nothing is wrong."
@@ -194,7 +194,7 @@ def brief(diagnosis: Diagnosis) -> str:
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
-    """Group consequences by the check that explains them, with counts."""
+    """Group the findings that are consequences by the check that explains them, with counts."""
     counts: dict[str, dict[str, int]] = {}
     for finding in diagnosis.findings:
         if finding.because_of is not None:
@@ -207,7 +207,7 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
 
 
 def compared(rows: Sequence[tuple[str, Diagnosis | str]]) -> Table:
-    """Return several sources in a table: findings of each, or why it was unreadable."""
+    """Return a table of several sources: the findings of each, or why it could not be read."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("source", overflow="fold")
     for severity in Severity:
@@ -232,7 +232,7 @@ def compared(rows: Sequence[tuple[str, Diagnosis | str]]) -> Table:
 
 
 def statistics(model: Model) -> Table:
-    """Return every edge and topic: rate, latency, and largest gap."""
+    """Return a table of rate, latency and largest gap of every link and topic."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("transform or topic", overflow="fold")
     for column in ("kind", "count", "rate", "latency p50", "p95", "worst gap"):
@@ -267,7 +267,7 @@ def _numbers(stream: Stream, *, timed: bool) -> tuple[str, str, str, str]:
 
 
 def listing() -> Table:
-    """Return every check in a line."""
+    """Return a table of all checks: id, area, severity and summary."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     for column in ("id", "area", "severity"):
         table.add_column(column, no_wrap=True)
@@ -287,7 +287,7 @@ def explained(check: Check, width: int | None = None) -> str:
 
     Args:
         check: The check.
-        width: Cells a line may take: it goes on in the next one, between words. None for all.
+        width: Longest line in cells; longer ones are wrapped between words. None for no limit.
     """
     lines = [
         f"{check.id}: {check.summary}",
@@ -322,7 +322,7 @@ def explained(check: Check, width: int | None = None) -> str:
 
 
 def as_page() -> str:
-    """Return every check as a Markdown page, by area."""
+    """Return a Markdown page that describes every check, by area."""
     lines = [
         "# What the doctor looks for",
         "",
@@ -338,7 +338,7 @@ def as_page() -> str:
 
 
 def _paragraphs(check: Check) -> list[str]:
-    """Return one check as Markdown."""
+    """Return the lines of a Markdown page that describe one check."""
     lines = [f"### {check.id}", "", f"*{check.severity.value}*: {_marked(check.summary)}.", ""]
     lines.append(f"- **rule**: {_marked(filled(check.rule, check.limits))}.")
     if check.why:
@@ -361,12 +361,12 @@ def _paragraphs(check: Check) -> list[str]:
 
 
 def _marked(text: str) -> str:
-    """Escape a text for Markdown."""
+    """Escape the characters of a text that have a meaning in Markdown."""
     return sub(r"([\\`*_<>\[\]|])", r"\\\1", text)
 
 
 def _general(text: str) -> str:
-    """Return a check's text with the facts' names in place of their values."""
+    """Return a check's message template with the facts' names in place of their values."""
     parts = []
     for literal, name, spec, _ in Formatter().parse(text):
         parts.append(literal)
@@ -383,7 +383,7 @@ def _general(text: str) -> str:
 
 
 def as_object(diagnosis: Diagnosis) -> dict[str, Any]:
-    """Return the report for --json; whole nanoseconds, names exactly as recorded."""
+    """Return a diagnosis as a mapping, for --json, with whole nanoseconds and exact names."""
     material = diagnosis.model.evidence
     return {
         "schema": SCHEMA,
@@ -404,7 +404,7 @@ def as_object(diagnosis: Diagnosis) -> dict[str, Any]:
 
 
 def as_row(finding: Finding) -> dict[str, Any]:
-    """Return one finding for --json."""
+    """Return one finding as a mapping, for --json."""
     links = CHECKS[finding.id].links
     return {
         "id": finding.id,
@@ -434,7 +434,7 @@ def as_row(finding: Finding) -> dict[str, Any]:
 
 
 def as_markdown(diagnosis: Diagnosis) -> str:
-    """Return the report as Markdown: a table, then details; names are escaped."""
+    """Return a diagnosis as Markdown, a table and then details, with escaped names."""
     told = [finding for finding in diagnosis.findings if finding.because_of is None]
     lines = [f"**tftool doctor** {_code(head(diagnosis.model))}", ""]
     if told:
@@ -453,7 +453,7 @@ def as_markdown(diagnosis: Diagnosis) -> str:
 
 
 def _published(finding: Finding) -> str:
-    """Return who publishes what a finding is about; its link, where it names topics, too."""
+    """Return the publishers of a finding's links or topics, as the end of a sentence."""
     by = f"published by {', '.join(finding.publishers)}"
     if not finding.topics or not finding.edges:
         return by
@@ -474,13 +474,13 @@ def _plain(finding: Finding) -> list[str]:
 
 
 def _fenced(lines: list[str]) -> list[str]:
-    """Return a code block whose fence is longer than any in the text."""
+    """Return lines as a Markdown code block, with a fence longer than any in the lines."""
     fence = "`" * max(3, _longest_ticks("\n".join(lines)) + 1)
     return [f"{fence}text", *lines, fence]
 
 
 def _code(text: str, *, in_table: bool = False) -> str:
-    """Format a text as code, without active Markdown."""
+    """Format a text as Markdown code in which no character has a special meaning."""
     text = visible(text)
     if in_table:
         # A bar would end the cell, even in code.
@@ -495,11 +495,11 @@ def _longest_ticks(text: str) -> int:
 
 
 def as_junit(rows: Sequence[tuple[str, Diagnosis | str]], fails: Severity | None) -> str:
-    """Return reports of several sources as a JUnit document.
+    """Return the reports of several sources as a JUnit document.
 
     Args:
-        rows: Each source with its diagnosis, or why it could not be read.
-        fails: From which severity on a finding is a failure; None for never.
+        rows: Each source with its diagnosis, or the reason why it could not be read.
+        fails: Lowest severity at which a finding is a failure; None for no failures.
     """
     reports = []
     for name, found in rows:

@@ -1,4 +1,4 @@
-"""Trees of frames: as full text, fitted to a terminal, or as data for programs.
+"""Trees of frames: as full text, fitted to a terminal's width, or as data for --json.
 
 In a narrow terminal, parts are dropped one by one: first the least useful columns, then the middle
 of the broadcasters' names, wide guides, and the middle of the frames' names.
@@ -32,17 +32,17 @@ NOTHING = "No tf data received"
 NONE = "-"
 
 ROBOT_HEADINGS = ("", "link", "joint")
-"""Of a robot description, in which nothing is sent."""
+"""Headings of the tree of a robot description, which has no publishers or rates."""
 
 HEADINGS = ("", "link", "broadcaster", "rate", "buffer length", "oldest", "newest", "age")
 
 
 WIDEST = 80
-"""Columns that the cells of others are filled up to; one that is longer sticks out of its line."""
+"""Largest width to which a column's cells are padded; a longer cell moves the rest of its line."""
 
 
 Marks: TypeAlias = Mapping[str, Sequence[str]]
-"""Ids of the doctor's checks by frame."""
+"""Ids of the doctor's findings about each frame."""
 
 NO_MARKS: Marks = MappingProxyType({})
 
@@ -54,12 +54,12 @@ def render(
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Text:
-    """Draw every tree with all facts of each link, without a limit on width.
+    """Return every tree as text with all facts of each link, at any width.
 
-    `compact` draws it in a terminal's width. The arguments are those of `pieces`.
+    `compact` fits the trees to a terminal's width. The arguments are those of `pieces`.
 
     Returns:
-        Lines; nothing in a name acts on the terminal.
+        Lines in which control characters are replaced.
     """
     drawn = pieces(snapshot, ascii_only=ascii_only, moving=moving, marks=marks)
     return Text(no_wrap=True, overflow="ellipsis").append_tokens(drawn)
@@ -72,16 +72,16 @@ def pieces(
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Iterator[tuple[str, str]]:
-    """Yield every tree in pieces, so that a large one starts to appear at once.
+    """Yield the text of every tree in pieces, so that a large tree starts to appear at once.
 
     Args:
-        snapshot: Values to draw.
-        ascii_only: Whether to keep to ASCII for the branches.
-        moving: Frames of a robot description whose joint moves; None for other frames.
-        marks: Faults of frames: ids of the doctor's checks.
+        snapshot: Frames to draw.
+        ascii_only: Whether to draw the branches in ASCII.
+        moving: For a robot description, the frames whose joint moves; None for other frames.
+        marks: Ids of the doctor's findings about each frame.
 
     Yields:
-        Texts in a row, each with its style.
+        Successive texts, each with its style.
     """
     if moving is None:
         yield f"Recorded at time: {display(snapshot.now)}", ""
@@ -111,7 +111,7 @@ def pieces(
 
 
 def advice(marks: Marks) -> str:
-    """Return where to read more about faults of frames."""
+    """Return a sentence with the command that explains the first of the findings."""
     first = next(iter(marks.values()))[0]
     return f"'tftool doctor --explain {first}' tells more."
 
@@ -119,7 +119,7 @@ def advice(marks: Marks) -> str:
 def as_object(
     snapshot: Snapshot, moving: Collection[str] | None = None, marks: Marks = NO_MARKS
 ) -> dict[str, Any]:
-    """Return the trees for --json; stamps in nanoseconds, null for unknown facts."""
+    """Return the trees as a mapping, for --json: nanoseconds, and null for unknown facts."""
     if moving is not None:
         told = as_object(snapshot, marks=marks)
         for frame in told["frames"]:
@@ -137,8 +137,9 @@ def as_object(
 
 
 def as_yaml(snapshot: Snapshot) -> str:
-    """Return the YAML of tf2's `all_frames_as_yaml`, with names quoted where YAML would read
-    something else, and with `static` added.
+    """Return the text of tf2's `all_frames_as_yaml`, with `static` added to each frame.
+
+    Names that YAML would misread are quoted.
     """
     links = [info for info in snapshot.frames if info.parent is not None]
     return "".join(map(_yaml_entry, links)) or "{}\n"
@@ -147,7 +148,7 @@ def as_yaml(snapshot: Snapshot) -> str:
 _PLAIN = re.compile(
     r"(?!(?:yes|no|on|off|true|false|null)\Z)[a-z_/][a-z0-9_/]{,100}", re.IGNORECASE
 )
-"""Names that mean the same in YAML without quotes; of others PyYAML knows."""
+"""Names that need no quotes in YAML; PyYAML decides about other names."""
 
 
 def _yaml_entry(info: FrameInfo) -> str:
@@ -169,7 +170,7 @@ def _yaml_entry(info: FrameInfo) -> str:
 
 
 def _plain(value: object) -> str:
-    """Convert a value for YAML; empty if unknown."""
+    """Return a value as YAML text if it needs no quotes; else ""."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):
@@ -179,7 +180,7 @@ def _plain(value: object) -> str:
 
 
 def facts(info: FrameInfo) -> tuple[str, ...]:
-    """Return the facts of one link, in the order of `HEADINGS` after the name."""
+    """Return the facts of the link above a frame, in the order of `HEADINGS` after the name."""
     if info.is_static:
         always = ("static", visible(info.authority or NONE))
         return (*always, *(NONE for _ in HEADINGS[3:]))
@@ -195,7 +196,7 @@ def facts(info: FrameInfo) -> tuple[str, ...]:
 
 
 class _Row(NamedTuple):
-    """One line: guides, name, facts of the link, colour."""
+    """Line of a tree: guides, cells (name and facts of the link), style."""
 
     lead: str
     cells: tuple[str, ...]
@@ -218,7 +219,7 @@ def _row(
 
 
 def _table(rows: list[_Row], headings: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Format one line per frame, with headings if there are links, and its styles."""
+    """Yield one line per frame with its style, in aligned columns below headings."""
     if any(len(row.cells) > 1 for row in rows):
         rows = [_Row("", headings, "dim"), *rows]
     sizes = [[cell_len(cell) for cell in row.cells] for row in rows]
@@ -270,17 +271,17 @@ def _pose_object(pose: Transform | None) -> dict[str, list[float | None]] | None
 
 
 LEAST_NAME = 16
-"""Cells that names get, and the guides before them, before a column is given up for them."""
+"""Cells of guides and names for which a column of facts is dropped."""
 
 SHARE = 0.6
-"""Of the width, what names and guides may take before guides shrink and names are cut."""
+"""Share of the width that guides and names may take; beyond it guides shrink and names are cut."""
 
 BROADCASTERS = (24, 16, 11)
-"""How many cells names of broadcasters get; fewer rather than none."""
+"""Widths in cells of the column of broadcasters, tried from wide to narrow."""
 
 
 class TreeOrder(StrEnum):
-    """Return the key that sorts frames."""
+    """Order of the frames in a compact tree: as a tree, or sorted by one column."""
 
     tree = "tree"
     name = "name"
@@ -291,12 +292,12 @@ class TreeOrder(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CompactTree:
-    """Tree fitted to a terminal's lines.
+    """Text of the trees, fitted to a terminal's width.
 
     Attributes:
-        heading: Lines above the frames: the time, the number of trees, and the columns' titles.
-        rows: One a frame.
-        is_cut: Whether a name is not there in full.
+        heading: Lines above the frames: the time, the number of trees, and the column headings.
+        rows: One line per frame.
+        is_cut: Whether a name had to be shortened.
     """
 
     heading: tuple[Text, ...]
@@ -339,18 +340,18 @@ def compact(
     most: int | None = None,
     history: TrafficHistory = NO_HISTORY,
 ) -> CompactTree:
-    """Draw every tree with one line per frame.
+    """Return every tree as text with one line per frame, fitted to a width.
 
     Args:
-        snapshot: Values to draw.
-        width: Columns there are.
-        ascii_only: Whether to keep to ASCII for the guides.
-        moving: Frames of a robot description whose joint moves; None for other frames.
-        marks: Faults of frames: ids of the doctor's checks.
-        order: Sorting key; any but the tree's own leaves out guides.
-        wanted: Part of a name by which to choose frames; a tree shows their ancestors too.
-        most: Rows to draw; None for all.
-        history: Rates and delays of the last looks.
+        snapshot: Frames to draw.
+        width: Width in cells.
+        ascii_only: Whether to draw the guides in ASCII.
+        moving: For a robot description, the frames whose joint moves; None for other frames.
+        marks: Ids of the doctor's findings about each frame.
+        order: Order of the rows; guides are drawn only in the tree's own order.
+        wanted: Part of the names of frames to show; a tree shows their ancestors too.
+        most: Most rows to draw; None for all.
+        history: Earlier rates and delays, for curves.
     """
     forest = grow(snapshot)
     rows = _ordered(forest, order, wanted)[:most]
@@ -388,18 +389,18 @@ def compact(
 
 
 def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
-    """Convert a frame for a description: nothing is published, moving joints count."""
+    """Return a row of a robot description: a link counts as static unless its joint moves."""
     info = branch.info
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 
 
 def moment(stamp: Stamp) -> str:
-    """Format a stamp briefly, to the millisecond."""
+    """Format a stamp in nanoseconds as seconds with three decimals."""
     return f"{as_seconds(stamp):.3f}"
 
 
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
-    """Describe the drawing's subject in few words."""
+    """Return what is drawn in few words: the time, or how many joints move."""
     if moving is not None:
         return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
     if snapshot.at:
@@ -434,7 +435,7 @@ def _pruned(forest: Forest, kept: Collection[str]) -> Forest:
 
 
 def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
-    """Return the sort key of a frame: fast or old ones first, statics last."""
+    """Return the sort key of a frame: fast or old ones first, static ones last."""
     still = info.is_static or info.parent is None
     if order is TreeOrder.rate:
         return (still, -info.rate if info.samples > 1 else 0.0, info.frame)
@@ -460,7 +461,7 @@ def _link_columns(
     moving: Collection[str] | None,
     marks: Mapping[str, Sequence[str]],
 ) -> list[TableColumn]:
-    """Return the columns of facts beside the names."""
+    """Return the columns with the facts of each link."""
 
     def cells(told: Told, style: str = "") -> list[Cell]:
         return [
@@ -495,7 +496,7 @@ def _link_columns(
 
 
 class _Drawing:
-    """First column: guides followed by names."""
+    """First column of a compact tree: guides followed by names."""
 
     def __init__(
         self,
@@ -514,7 +515,7 @@ class _Drawing:
         self.is_cut = False
 
     def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
-        """Return guides and name of one frame in `room` cells."""
+        """Return guides and name of one frame, cut to `room` cells."""
         lead = "" if self.is_flat else self.guides.lead(branch, self.most, more)
         name = self.names[branch.info.frame]
         shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)

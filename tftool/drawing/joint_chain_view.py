@@ -1,4 +1,4 @@
-"""Joints between two links of a robot description, for a terminal or a program."""
+"""Explanation of the joints between two links of a robot description, as text and JSON."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from tftool.drawing.explanation_view import SCHEMA, reasons
 
 
 def render(found: ChainExplanation) -> RenderableType:
-    """Yield the lookup, tf2's answer, each joint, the reason, and the remedy."""
+    """Return an explanation for a terminal: lookup, tf2's error, joints, cause, remedy."""
     headline = Text(visible(f"{found.source} in {found.target}: "))
     if found.available:
         headline.append("answers", "green")
@@ -50,7 +50,7 @@ def _position(link: ChainLink) -> str:
 
 
 def as_object(found: ChainExplanation) -> dict[str, Any]:
-    """Return the `tftool explain` schema's JSON; radians and metres."""
+    """Return an explanation as a mapping in the schema of `tftool explain`; radians and metres."""
     return {
         "schema": SCHEMA,
         "target": found.target,

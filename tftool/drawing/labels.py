@@ -1,4 +1,4 @@
-"""Placement of labels beside their frames without overlaps."""
+"""Placement of labels beside frames, so that no label covers another."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -9,19 +9,19 @@ from tftool.base.fixed_width import fitted
 from tftool.drawing import theme
 
 FARTHEST_ROWS = 7
-"""How many rows away from its frame a label may stand; then a line leads to it."""
+"""Largest distance in rows between a label and its frame."""
 
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A label to place.
+    """Label to place beside a frame.
 
     Attributes:
         name: Name of the frame.
-        text: The written text.
-        column: Column of the labelled frame.
-        row: Row of the labelled frame.
-        reach: Number of cells that the frame's sign takes to either side.
+        text: Text of the label.
+        column: Column of the frame.
+        row: Row of the frame.
+        reach: Cells that the frame's symbol takes to either side.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class PlacedLabel:
-    """A label's first cell, and whether it is far from its frame."""
+    """Label with its first cell, and whether it is so far that a line must lead to its frame."""
 
     label: Label
     column: int
@@ -42,14 +42,14 @@ class PlacedLabel:
 
 
 def label_text(name: str, age: float, columns: int, least: int, *, ascii_only: bool) -> str:
-    """Return the text beside a frame: its name, cut, and how long a silent one is silent.
+    """Return the text beside a frame: its name, shortened, and the age of a stale frame.
 
     Args:
-        name: What to call it.
-        age: Seconds without news.
-        columns: Cells across of the picture.
-        least: Cells that a name gets in a narrow one.
-        ascii_only: Write in ASCII alone.
+        name: Name to show.
+        age: Seconds since the frame's newest transform.
+        columns: Width of the picture in cells.
+        least: Cells that a name may take in any case.
+        ascii_only: Whether to write in ASCII only.
     """
     more = "~" if ascii_only else "…"
     text = fitted(name, max(least, columns // 3), more=more)
@@ -60,11 +60,11 @@ def label_text(name: str, age: float, columns: int, least: int, *, ascii_only: b
 
 
 class Placer:
-    """Placer of labels that keeps good positions between pictures.
+    """Placer of labels, which keeps good positions from one picture to the next.
 
     Args:
-        columns: Cells across.
-        rows: Cells down.
+        columns: Width of the picture in cells.
+        rows: Height of the picture in cells.
     """
 
     def __init__(self, columns: int, rows: int) -> None:
@@ -74,12 +74,12 @@ class Placer:
     def placed(
         self, labels: list[Label], hard: set[tuple[int, int]], soft: set[tuple[int, int]]
     ) -> list[PlacedLabel]:
-        """Place every label; omit one for which there is no room nearby.
+        """Place every label; omit a label that has no room near its frame.
 
         Args:
-            labels: The most important ones first.
-            hard: Cells (row, column) that no text may cover; those of the labels are added.
-            soft: Cells it had better not cover.
+            labels: Labels, the most important first.
+            hard: Cells (row, column) that no label may cover; the placed labels' cells are added.
+            soft: Cells that a label covers only if it must.
         """
         found = []
         for label in labels:

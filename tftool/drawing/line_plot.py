@@ -1,4 +1,4 @@
-"""Curves over time and paths from above, drawn with braille dots."""
+"""Plots in braille dots for a terminal: curves over time, and paths seen from above."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -31,14 +31,14 @@ from tftool.frames.pair_series import (
 from tftool.geometry.rigid_arrays import Floats
 
 LABELS: Final = 10
-"""Cells left of a panel, for what its axis says."""
+"""Cells at the left of a panel for the labels of its axis."""
 
 NOISE: Final = 1e-6
-"""Share of a panel's greatest value below which a value is written as 0."""
+"""Share of a panel's largest value below which a value is shown as 0."""
 
 LEAST_ROWS: Final = 3
 ROWS: Final = 7
-"""Lines of a panel where no terminal says how many there are."""
+"""Lines of a panel if the height of the plot is not given."""
 
 _DARK: Final = (Color(255, 110, 110), Color(110, 230, 110), Color(120, 165, 255),
                 Color(255, 215, 80), Color(255, 130, 255), Color(80, 240, 240),
@@ -53,12 +53,12 @@ class PlotLook:
     """Size and style of a plot.
 
     Attributes:
-        width: Cells across.
-        height: Lines there are; as many as are good if None.
-        ascii_only: Whether to draw with plain characters.
-        light: Whether the ground is light.
-        numbered: Whether each curve has the number of the key that hides it.
-        hidden: Numbers of the curves that are not drawn.
+        width: Width in cells.
+        height: Height in lines; None to choose.
+        ascii_only: Whether to draw with ASCII characters.
+        light: Whether the background is light.
+        numbered: Whether to show the number of each curve, the key that hides it.
+        hidden: Numbers of the curves that are hidden.
     """
 
     width: int = 80
@@ -70,12 +70,12 @@ class PlotLook:
 
     @property
     def colors(self) -> tuple[Color, ...]:
-        """Return a colour for each curve."""
+        """Colours of the curves, in order."""
         return _LIGHT if self.light else _DARK
 
     @property
     def bar(self) -> str:
-        """Return the text between a label and its panel."""
+        """Character between the axis labels and a panel."""
         return "|" if self.ascii_only else "│"
 
 
@@ -87,14 +87,14 @@ def over_time(
     *,
     span: tuple[float, float] | None = None,
 ) -> Text:
-    """Draw panels below each other on one time axis; times without an answer are shaded.
+    """Draw panels below each other on one time axis; times without a pose are shaded.
 
     Args:
-        found: The pairs.
-        start: The moment that is 0 on the axis.
+        found: Trajectories of the pairs.
+        start: Time in nanoseconds that is 0 on the axis.
         quantities: Quantities to draw, of `series.QUANTITIES`.
-        look: Style of the drawing.
-        span: First and last second of the axis; those of the data if None.
+        look: Size and style of the plot.
+        span: First and last second of the axis; None for those of the data.
     """
     drawn = panels(found, start, quantities)
     shaded = shades(found, start)
@@ -124,11 +124,11 @@ def over_time(
 
 
 def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
-    """Draw each pair's path in the x-y plane at equal scale on both axes.
+    """Draw each pair's path in the x-y plane, at the same scale on both axes.
 
     Args:
-        found: The pairs.
-        look: Style of the drawing.
+        found: Trajectories of the pairs.
+        look: Size and style of the plot.
     """
     curves = path_curves(found)
     colors = look.colors
@@ -177,7 +177,7 @@ def _span(drawn: Sequence[PlotPanel], shaded: Sequence[RefusedSpan]) -> tuple[fl
 
 
 def _titled(panel: PlotPanel, look: PlotLook, number: int) -> Text:
-    """Return a panel's title, with the name and last value of each curve."""
+    """Return a panel's title line, with the name and last value of each curve."""
     line = Text(f"{panel.title}, {panel.unit}", style="bold")
     is_alone = len(panel.curves) == 1 and panel.curves[0].label == panel.title
     for place, one in enumerate(panel.curves):
@@ -235,9 +235,9 @@ def _drawn(
 
 
 def _ticks(limits: tuple[float, float], rows: int) -> list[float]:
-    """Return the most ticks that stand whole lines apart, the outer ones in the outer lines.
+    """Return as many ticks as can be whole lines apart, the outer two in the first and last line.
 
-    A value is drawn in the line of its share of the height, so that such a tick is in its own.
+    A value is drawn in the line of its share of the height, so each tick is exactly in its line.
     """
     choices = (2,) if rows < 5 else (3,) if rows < 10 else (6, 5, 4, 3)
     found = (round_ticks(*limits, most) for most in choices)
@@ -251,7 +251,7 @@ def _row(label: str, cells: Iterable[tuple[str, str]], look: PlotLook) -> Text:
 
 
 def draw_curve(dots: Dots, across: Floats, up: Floats, color: Color) -> None:
-    """Draw a curve of the unit square; a single point between gaps."""
+    """Draw a curve in the unit square, with gaps at NaN; a single value is a dot."""
     rows, columns = dots.masks.shape
     points = np.stack([across * (2 * columns), (1.0 - up) * (4 * rows)], 1)
     ends = points if len(points) == 1 else points[:-1]
@@ -259,7 +259,7 @@ def draw_curve(dots: Dots, across: Floats, up: Floats, color: Color) -> None:
 
 
 def _axis(low: float, high: float, width: int) -> str:
-    """Format the time axis: round seconds below their columns, and the unit."""
+    """Format the line below the plot: round seconds below their columns, and the unit."""
     columns = max(10, width - LABELS - 1)
     # A tick just outside of the data is written at the edge.
     slack = 0.02 * (high - low)
@@ -282,21 +282,21 @@ def _style(color: Color) -> str:
 
 
 PAIR_LABELS: Final = 7
-"""Cells left of a curve, for what its axis says."""
+"""Cells at the left of a curve of `pair_plot` for the labels of its axis."""
 
 TITLED_FROM: Final = 4
-"""Lines of one curve from which it has a title of its own."""
+"""Smallest number of lines of a curve with a title line."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlotSpan:
-    """Seconds to draw, and the time to mark in them.
+    """Span of time to draw, and the time to mark in it; all in nanoseconds.
 
     Attributes:
-        first: The first moment.
-        last: The last one.
-        start: The moment that is 0 on the axis.
-        cursor: The moment shown, where that is not the last one.
+        first: First time.
+        last: Last time.
+        start: Time that is 0 on the axis.
+        cursor: Time to mark; None for the last.
     """
 
     first: Stamp
@@ -314,15 +314,15 @@ def pair_plot(
     *,
     ascii_only: bool = False,
 ) -> list[Text]:
-    """Draw distance and yaw below each other, on scales that stay the same.
+    """Draw distance and yaw of a pair below each other, with scales that do not change.
 
     Args:
-        path: The poses, a row a moment, NaN where there is none.
-        span: Seconds to draw.
-        width: Cells across.
-        height: Lines there are.
-        palette: The screen's colours.
-        ascii_only: Whether to draw with plain characters.
+        path: Poses of the pair, NaN where there is none.
+        span: Span of time to draw.
+        width: Width in cells.
+        height: Height in lines.
+        palette: Colours of the screen.
+        ascii_only: Whether to draw with ASCII characters.
     """
     columns = width - PAIR_LABELS - 1
     with_axis = height >= 2 * TITLED_FROM + 1
@@ -396,14 +396,14 @@ def _curve(
 
 
 def _value_at(times: np.ndarray, values: np.ndarray, span: PlotSpan) -> float | None:
-    """Return the last value up to the shown time."""
+    """Return the last value at or before the marked time; None without one."""
     moment = as_seconds((span.last if span.cursor is None else span.cursor) - span.start)
     holds = np.flatnonzero(np.isfinite(values) & (times <= moment + 1e-9))
     return float(values[holds[-1]]) if len(holds) else None
 
 
 def _scale(title: str, values: np.ndarray) -> tuple[float, float]:
-    """Return the range from zero to a round number above, or a full turn."""
+    """Return the limits of a curve's scale: from zero to a round number, or a full turn for yaw."""
     if title == "yaw":
         return -180.0, 180.0
     holds = values[np.isfinite(values)]

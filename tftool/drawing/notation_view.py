@@ -1,4 +1,4 @@
-"""One transform in every notation, as lines and as JSON."""
+"""One transform in every notation, as text lines and as JSON."""
 
 import math
 from collections.abc import Sequence
@@ -16,17 +16,17 @@ from tftool.geometry.notation.text import exact, publisher_words, urdf_origin
 from tftool.geometry.rigid import Transform
 
 POSE_FORMS: Final = ("matrix4", "urdf", "static")
-"""What says where, too."""
+"""Notations that include the translation."""
 
 TARGETS: Final = (*NAMED_FORMS, *POSE_FORMS, *EULER)
-"""What a rotation can be printed as alone."""
+"""Notations that can be printed alone."""
 
 _WIDTH: Final = 18
 _POLE: Final = 1.0 - 1e-9
 
 
 def as_object(transform: Transform) -> dict[str, object]:
-    """Return every notation for --json: radians, and degrees under names that say so."""
+    """Return a transform in every notation as a mapping, for --json; names end in the unit."""
     turn = transform.rotation
     found: dict[str, object] = {"translation": list(transform.translation)}
     for notation in NOTATIONS.values():
@@ -39,12 +39,12 @@ def as_object(transform: Transform) -> dict[str, object]:
 
 
 def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
-    """Return one notation in full precision, a line per row.
+    """Return a transform in one notation with full precision, a line per row.
 
     Args:
-        transform: Values to write.
-        form: One of `TARGETS`.
-        degrees: Whether angles are written in degrees.
+        transform: Transform to write.
+        form: Notation, one of `TARGETS`.
+        degrees: Whether to write angles in degrees.
     """
     turn = transform.rotation
     if form == "matrix":
@@ -63,13 +63,13 @@ def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
 def lines(
     transform: Transform, *, with_translation: bool, precision: int = 6, all_orders: bool = False
 ) -> str:
-    """Return every notation in one or a few lines each.
+    """Return a transform in every notation, each with one or a few lines.
 
     Args:
-        transform: Values to write.
-        with_translation: Whether the translation is printed, too.
+        transform: Transform to write.
+        with_translation: Whether to write the translation as well.
         precision: Decimals.
-        all_orders: Whether to add the 24 orders of Euler angles.
+        all_orders: Whether to add all 24 orders of Euler angles.
     """
     turn = transform.rotation
 
@@ -103,12 +103,12 @@ def lines(
 
 
 def at_a_pole(transform: Transform) -> bool:
-    """Whether pitch is ±90°, where only the sum of roll and yaw is determined."""
+    """Return whether pitch is ±90°, where only the sum of roll and yaw is determined."""
     return abs(matrix_from_quaternion(transform.rotation)[2][0]) > _POLE
 
 
 def rounded(number: float, precision: int) -> str:
-    """Format a number with at most so many decimals, without trailing zeros or "-0"."""
+    """Format a number with at most `precision` decimals, without trailing zeros or "-0"."""
     text = f"{number:.{precision}f}"
     if "." in text:
         text = text.rstrip("0").rstrip(".")

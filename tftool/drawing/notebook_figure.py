@@ -1,6 +1,6 @@
-"""Figure that a notebook shows once, as a cell's value or while drawing.
+"""Figure that a notebook shows once, whether it is a cell's value or drawn in the cell.
 
-Imported when something is drawn: it needs matplotlib, an extra.
+This module needs matplotlib, an extra, and is imported when something is drawn.
 """
 
 from matplotlib import get_backend, pyplot
@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 
 
 class NotebookFigure(Figure):
-    """A pyplot figure; outside notebooks it is like any other."""
+    """Figure of pyplot that a notebook does not show twice."""
 
     def _ipython_display_(self) -> None:
-        """Show the figure, and remove it from those shown at the end of the cell."""
+        """Remove the figure from those shown at the end of the cell, and show it as usual."""
         if "inline" in get_backend():
             pyplot.close(self)
         # IPython's word for: show it as if this method were not there.

@@ -1,10 +1,10 @@
-"""PDF of a tree picture: one page of the drawing's size, in Helvetica, without a library.
+"""PDF file of a tree picture: one page of the picture's size, in Helvetica, without a library.
 
-Every PDF reader includes Helvetica, but only for Western European letters. Any other letter is
-written as its number, <U+4E16>, so that none disappears.
+Every PDF reader includes Helvetica, but only its Western European letters. Any other letter is
+written as its code, <U+4E16>, so that none disappears.
 
 Boxes are sized by the font's published widths, in thousandths of its size; browsers draw the same
-sheets with a font of similar width.
+pictures with a font of similar width.
 """
 
 import zlib
@@ -29,7 +29,7 @@ _BOLD = 1.07
 
 
 def width(text: str, size: float, *, bold: bool = False) -> float:
-    """Estimate the width of a text, in the unit of `size`."""
+    """Estimate the width of a text in Helvetica, in the unit of `size`."""
     total = sum(map(_char_width, text)) * size / 1000
     return total * _BOLD if bold else total
 
@@ -43,7 +43,7 @@ def _char_width(char: str) -> int:
 
 
 def fit(text: str, size: float, room: float, *, bold: bool = False) -> str:
-    """Shorten a text in its middle until it fits into `room`."""
+    """Shorten a text in its middle until it is at most `room` wide."""
     if width(text, size, bold=bold) <= room:
         return text
     budget = room - width("…", size, bold=bold)
@@ -90,7 +90,7 @@ _QUARTER = 0.5523
 
 
 def render(picture: "Picture") -> bytes:
-    """Write a picture as a PDF file of one page."""
+    """Return a picture as the bytes of a PDF file with one page."""
     scale = min(1.0, _LARGEST / max(picture.width, picture.height))
     wide, high = picture.width * scale, picture.height * scale
     parts = [f"{scale:.6f} 0 0 {-scale:.6f} 0 {high:.2f} cm"]
@@ -119,14 +119,14 @@ def render(picture: "Picture") -> bytes:
 
 
 def missing_letters(picture: "Picture") -> str:
-    """Return the letters of a picture that Helvetica lacks, each once, in order."""
+    """Return the letters in a picture that Helvetica lacks, each once, in order."""
     return "".join(
         dict.fromkeys(char for text in picture.texts for char in text.text if not _has_letter(char))
     )
 
 
 def _file(objects: list[bytes]) -> bytes:
-    """Number the objects, the last one describing the file, and write their offsets."""
+    """Return a PDF file of some objects, numbered in order; the last one is the catalogue."""
     out = bytearray(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n")
     offsets = []
     for number, body in enumerate(objects, start=1):
@@ -190,7 +190,7 @@ def _text(text: "Text") -> str:
 
 
 def _latin(text: str) -> str:
-    """Encode letters that Helvetica lacks as their numbers."""
+    """Replace letters that Helvetica lacks by their codes, <U+…>."""
     return "".join(char if _has_letter(char) else f"<U+{ord(char):04X}>" for char in text)
 
 
@@ -203,7 +203,7 @@ def _has_letter(char: str) -> bool:
 
 
 def _string(text: str) -> str:
-    """Return a PDF string: WinAnsi bytes, kept as Latin-1 text."""
+    """Return a text as a PDF string in WinAnsi encoding, with one character per byte."""
     quoted = text.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
     return f"({quoted.encode('cp1252').decode('latin-1')})"
 

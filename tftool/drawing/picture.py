@@ -1,8 +1,8 @@
-"""Layout of a snapshot on paper: cards, links and a legend, as plain shapes.
+"""Layout of a snapshot's trees on a sheet: cards, links and a legend, as plain shapes.
 
-One card per frame with rqt_tf_tree's five facts about the link above it; trees side by side; many
-leaves of one parent folded into a group, so that three hundred frames stay readable. `svg` and
-`pdf` draw the shapes.
+Each frame has a card with rqt_tf_tree's five facts about the link above it. Trees are side by side.
+Many leaves of one parent are drawn as a group, so that three hundred frames stay readable. `svg`
+and `pdf` write the shapes to files.
 """
 
 import math
@@ -19,10 +19,10 @@ from tftool.drawing.pdf import fit, width
 from tftool.drawing.tree_layout import Item, tidy
 
 MOST_DRAWN = 1000
-"""Frames in one picture; more could not be read."""
+"""Most frames in one picture; with more it would not be readable."""
 
 FOLD = 8
-"""More leaves than this under one parent are drawn as a group."""
+"""Most leaves of one parent that are not drawn as a group."""
 
 CARD_HEIGHT = 92.0
 ROOT_HEIGHT = 36.0
@@ -39,14 +39,14 @@ MARGIN = 28.0
 NAME_SIZE = 13.0
 FACT_SIZE = 9.5
 WIDE_ENOUGH = 1800.0
-"""A drawing that grows downwards is turned on its side when it would be wider than this."""
+"""Width in points above which trees grow to the right instead of downwards, if that fits better."""
 
 Kind = Literal["root", "dynamic", "stale", "static", "group", "more"]
 
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A rounded rectangle; `title` is the full name of its frame."""
+    """Rectangle with rounded corners; `title` is the full name of its frame."""
 
     x: float
     y: float
@@ -58,7 +58,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """One line of text, from its left end on its baseline; `room` limits its width."""
+    """Line of text, given by its left end on the baseline; `room` limits its width."""
 
     x: float
     y: float
@@ -70,7 +70,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """A link between two points; it starts and ends vertically, or horizontally."""
+    """Curve of a link between two points, which begins and ends vertically or horizontally."""
 
     x0: float
     y0: float
@@ -81,7 +81,7 @@ class Curve:
 
     @property
     def bends(self) -> tuple[float, ...]:
-        """The curve's two control points and its end, as a cubic Bézier curve."""
+        """Coordinates of both control points and the end, as a cubic Bézier curve."""
         if self.down:
             half = (self.y0 + self.y1) / 2
             return self.x0, half, self.x1, half, self.x1, self.y1
@@ -91,7 +91,7 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """Shapes on a sheet; x to the right, y down, in points."""
+    """Shapes on a sheet; x to the right and y down, in points."""
 
     width: float
     height: float
@@ -103,12 +103,12 @@ class Picture:
 
 
 def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str] = ()) -> Picture:
-    """Lay out a snapshot as a picture.
+    """Return the picture of a snapshot's trees.
 
     Args:
-        snapshot: The frames.
-        most: Frames to draw; the deepest are left out, and counted in the picture.
-        stale: Frames that are not sent any more; their cards are marked with their age.
+        snapshot: Frames to draw.
+        most: Most frames to draw; the deepest are left out, and counted in the picture.
+        stale: Frames that are not published any more; their cards show their age.
     """
     forest = grow(snapshot, most=most)
     sheet = _Sheet(forest, _cards(forest, stale), down=True)
@@ -130,7 +130,9 @@ class _Card:
 
 
 def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
-    """Return one card per drawn frame; frames left out below one get a card whose name has a
+    """Return one card per drawn frame, by its name.
+
+    Frames left out below a frame have a card with their number, under the frame's name and a
     newline.
     """
     cards = {}
@@ -157,7 +159,7 @@ def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
 
 
 def _aged(line: str, age: Duration) -> str:
-    """Add the age to the line of the newest sample; return other lines unchanged."""
+    """Add the age to the fact about the newest sample; return other facts unchanged."""
     newest = line.startswith("Most recent transform")
     return f"{line}, {short_duration(age)} old" if newest else line
 
@@ -191,7 +193,7 @@ class _Group:
 
 @dataclass
 class _Sheet:
-    """One candidate layout of the forest, growing downwards or to the right."""
+    """Layout of the trees in one direction, downwards or to the right."""
 
     forest: Forest
     cards: dict[str, _Card]
@@ -228,11 +230,11 @@ class _Sheet:
         self._items_placed = (items, corners)
 
     def squareness(self) -> float:
-        """Return how far the shape is from a screen's; 0 is the same."""
+        """Return how far the sheet's shape is from a screen's, 1.6 to 1; 0 is equal."""
         return abs(math.log(self.width / self.height / 1.6))
 
     def _items(self) -> list[Item]:
-        """Convert cards and groups to items with breadth and levels, roots first."""
+        """Return cards and groups as items of the tree layout, roots first."""
         self.subjects = [self.cards[name] for name in self.forest.roots]
         names: list[str | None] = list(self.forest.roots)
         hanging: list[tuple[int, ...]] = []
@@ -263,7 +265,7 @@ class _Sheet:
         return math.ceil((subject.width + ACROSS_GAP) / self.pitch)
 
     def _below(self, name: str) -> list[tuple[_Card | _Group, str | None]]:
-        """Return the cards below a frame, and one group if there are many leaves."""
+        """Return the cards below a frame, with many leaves joined in one group."""
         children = [*self.forest.children[name]]
         if name in self.forest.hidden:
             children.append(_rest(name))
@@ -302,7 +304,7 @@ class _Sheet:
         )
 
     def finish(self, snapshot: Snapshot) -> Picture:
-        """Draw the shapes and the legend above them."""
+        """Add all shapes and the legend to the sheet; return the picture."""
         notes = self._notes(snapshot)
         top = MARGIN + 40.0 + 14.0 * len(notes) + 18.0
         items, corners = self._items_placed
@@ -394,7 +396,7 @@ class _Sheet:
         return notes
 
     def _legend(self, snapshot: Snapshot, notes: list[str]) -> float:
-        """Write the legend; return its width."""
+        """Add the legend's text to the sheet; return the legend's width."""
         head = recorded_at(snapshot.now)
         self.texts.append(Text(MARGIN, MARGIN + 12.0, head, NAME_SIZE, "name"))
         if snapshot.at:

@@ -1,6 +1,6 @@
-"""Values for a picture of frames, seen along the z axis of one fixed frame.
+"""Values of a picture of frames, seen along the z axis of one fixed frame.
 
-Units are metres and radians in that frame. `drawing/canvas.py` draws the picture.
+Units are metres and radians in the fixed frame. `drawing/canvas.py` draws the picture.
 """
 
 import math
@@ -16,7 +16,7 @@ from tftool.drawing.cells import Stroke
 from tftool.geometry.motion.unicycle import FIELD
 
 _APART: Final = 3.4
-"""Rows of the terminal between two lines of a grid, at the least."""
+"""Smallest distance of two grid lines, in rows of the terminal."""
 
 FARTHEST: Final = 1e9
 """Metres from the fixed frame beyond which nothing is drawn."""
@@ -24,22 +24,22 @@ FARTHEST: Final = 1e9
 Point: TypeAlias = tuple[float, float]
 
 Box: TypeAlias = tuple[float, float, float, float]
-"""Left, bottom, right and top, metres."""
+"""Left, bottom, right and top of a rectangle, metres."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlaneFrame:
-    """One frame.
+    """One frame of the picture.
 
     Attributes:
         name: Name, which determines the colour.
-        x: Coordinate of its origin, metres.
-        y: Coordinate of its origin, metres.
-        axes: Ends of the unit x, y and z axes from the origin, projected on the plane.
+        x: Coordinate of the origin, metres.
+        y: Coordinate of the origin, metres.
+        axes: Ends of the unit x, y and z axes, from the origin, projected on the plane.
         parent: Origin of the parent; None for a root.
-        age: Seconds without news, for one that is not static.
+        age: Seconds since the frame's newest transform; 0 for static frames.
         is_turtle: Whether the frame is drawn as a turtle.
-        is_frame: Whether the frame is broadcast, and has axes; a turtle may have no frame.
+        is_frame: Whether the frame is broadcast and has axes; a turtle may have no frame.
     """
 
     name: str
@@ -53,20 +53,20 @@ class PlaneFrame:
 
     @property
     def theta(self) -> float:
-        """Return the direction of its x axis, radians."""
+        """Direction of the frame's x axis, radians."""
         return math.atan2(self.axes[0][1], self.axes[0][0])
 
 
 @dataclass(frozen=True, slots=True)
 class TurtleField:
-    """The turtles' square field, in the plane of its own frame.
+    """The turtles' square field, placed in the plane of the picture.
 
     Attributes:
-        x: Coordinate of its lower left corner, metres.
-        y: Coordinate of its lower left corner, metres.
+        x: Coordinate of the lower left corner, metres.
+        y: Coordinate of the lower left corner, metres.
         theta: Heading, radians.
-        color: Colour.
-        walls: The sides a turtle just ran into: "left", "right", "bottom", "top".
+        color: Background colour.
+        walls: Sides that a turtle just hit: "left", "right", "bottom", "top".
     """
 
     x: float = 0.0
@@ -76,12 +76,12 @@ class TurtleField:
     walls: frozenset[str] = frozenset()
 
     def place(self, x: float, y: float) -> Point:
-        """Convert a point of the field to the plane."""
+        """Convert a point from coordinates of the field to coordinates of the plane."""
         cosine, sine = math.cos(self.theta), math.sin(self.theta)
         return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
 
     def placed(self, lines: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
-        """Convert lines of the field, shape (n, 4), to the plane."""
+        """Convert lines, shape (n, 4), from coordinates of the field to those of the plane."""
         cosine, sine = math.cos(self.theta), math.sin(self.theta)
         x, y = lines.T.reshape(2, 2, -1).swapaxes(0, 1)
         with np.errstate(invalid="ignore", over="ignore"):
@@ -89,13 +89,13 @@ class TurtleField:
         return np.stack(placed, 1).reshape(4, -1).T
 
     def corners(self) -> tuple[Point, ...]:
-        """Corners: lower left, lower right, upper right, upper left."""
+        """Return the corners: lower left, lower right, upper right, upper left."""
         return tuple(self.place(x, y) for x, y in ((0, 0), (FIELD, 0), (FIELD, FIELD), (0, FIELD)))
 
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """Strokes that only grow in number, until they are replaced.
+    """Strokes of one drawing, which only grow in number until the drawing is replaced.
 
     Attributes:
         strokes: The newest strokes, oldest first.
@@ -110,11 +110,11 @@ class Drawn:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ColoredLines:
-    """Straight lines, each with a colour.
+    """Straight lines, each with its colour.
 
     Attributes:
-        ends: Both ends of each, metres, shape (n, 2, 3).
-        colors: Packed colours, shape (n,).
+        ends: Both ends of each line, metres, shape (n, 2, 3).
+        colors: Packed colour of each line, shape (n,).
     """
 
     ends: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2, 3)))
@@ -123,17 +123,17 @@ class ColoredLines:
 
 @dataclass(frozen=True, slots=True)
 class PlanePicture:
-    """Scene at one time in one fixed frame.
+    """Values of a picture of frames on a plane, at one time, in one fixed frame.
 
     Attributes:
-        fixed: The fixed frame; empty where there are no frames.
-        frames: All frames of its tree, first come first.
-        field: Field on which the turtles draw, if it can be placed.
-        pen: Lines of their pens, in metres of the field.
-        trails: The ways of frames that move, in metres of the fixed frame, oldest first.
-        pair: Target and source, which are joined by a line of their own.
-        apart: The other trees, which nothing joins to this one; each in its own root.
-        nowhere: Frames of this tree that have no pose at this moment.
+        fixed: Name of the fixed frame; empty if there are no frames.
+        frames: All frames of its tree, in order of registration.
+        field: Field on which the turtles draw; None if it cannot be placed.
+        pen: Lines of the turtles' pens, in metres of the field.
+        trails: Paths of moving frames, in metres of the fixed frame, oldest first.
+        pair: Target and source of the shown pair, which a line connects.
+        apart: Pictures of the other trees, each in its own root.
+        nowhere: Frames of this tree that have no pose at this time.
     """
 
     fixed: str = ""
@@ -146,7 +146,7 @@ class PlanePicture:
     nowhere: tuple[str, ...] = ()
 
     def bounds(self) -> Box:
-        """Return the box around everything, with room beside the field for what is outside it."""
+        """Return the box around everything in the picture, with a margin outside the field."""
         field = None if self.field is None else _box(self.field.corners())
         points = [(one.x, one.y) for one in self.frames]
         if len(self.trails.ends):
@@ -165,7 +165,7 @@ class PlanePicture:
 
 
 class Viewport(NamedTuple):
-    """Visible part of a plane: its lower left corner, and metres to a row of cells."""
+    """Visible part of a plane: its lower left corner, and the metres of one row of cells."""
 
     left: float
     bottom: float
@@ -173,7 +173,7 @@ class Viewport(NamedTuple):
 
 
 def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
-    """Return the viewport that shows a whole box, centred; cells are twice as high as wide."""
+    """Return the viewport that shows a whole box in its centre; cells are twice as high as wide."""
     left, bottom, right, top = box
     per_row = max((right - left) / max(1, columns) * 2.0, (top - bottom) / max(1, rows), 1e-9)
     middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)
@@ -181,7 +181,7 @@ def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
 
 
 def grid_step(per_row: float) -> float:
-    """Return a grid's step in metres: 1, 2 or 5 times a power of ten, some rows apart."""
+    """Return the step of a grid in metres: 1, 2 or 5 times a power of ten."""
     wanted = _APART * per_row
     power = 10.0 ** math.floor(math.log10(wanted))
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= wanted * 0.999)

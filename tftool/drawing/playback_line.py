@@ -1,4 +1,4 @@
-"""Position in a playing recording, and the finding of the doctor nearest to it."""
+"""Position in a recording that is being played, and the doctor's finding nearest to it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,22 +21,22 @@ KEYS = (
     ("0", "start"),
     ("q", "quit"),
 )
-"""What the keys do, the most needed first; each with a word."""
+"""Keys of the player with their meanings, the most important first."""
 
 _ASCII = {"→": "right", "↑↓": "up/down"}
 _SHORTEST_BAR, _LONGEST_BAR = 8, 30
 _LONGEST_TIMELINE = 120
-"""Cells of a bar that shows findings: their places are to be told apart."""
+"""Longest bar in cells if it shows findings, whose positions should be distinct."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlaybackMark:
-    """Finding of the doctor on the bar.
+    """Finding of the doctor, marked in the bar of a playback line.
 
     Attributes:
-        since: Begin of the finding, nanoseconds from the start.
-        until: End of the finding, nanoseconds from the start.
-        message: The finding, in one line.
+        since: Begin of the finding, nanoseconds from the recording's start.
+        until: End of the finding, nanoseconds from the recording's start.
+        message: Text of the finding, one line.
         is_error: Whether the finding is an error, not a warning.
     """
 
@@ -48,12 +48,12 @@ class PlaybackMark:
 
 @dataclass(frozen=True, slots=True)
 class Playback:
-    """Position of a player in its recording.
+    """State of a player of a recording.
 
     Attributes:
-        done: Played part, nanoseconds.
+        done: Position in the recording, nanoseconds from its start.
         total: Duration of the recording, nanoseconds.
-        rate: Seconds of the recording for each real second.
+        rate: Seconds of the recording per real second.
         is_paused: Whether the player is paused.
         laps: Number of restarts.
         marks: Findings of the doctor, the worst first.
@@ -75,14 +75,14 @@ def line(
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
 ) -> Text:
-    """Return a line of at most `width` columns: state, seconds, rate, bar, and the keys that fit.
+    """Return the position as a line of at most `width` cells: state, seconds, rate, bar, keys.
 
     Args:
         playback: State of the player.
-        width: Columns.
-        with_keys: Whether keys are taken.
+        width: Longest line in cells.
+        with_keys: Whether to show as many keys as fit.
         ascii_only: Whether to draw in ASCII.
-        palette: Colours of the findings.
+        palette: Colours of the screen, for the findings.
     """
     state = ("||" if playback.is_paused else "> ") if ascii_only else "⏸▶"[not playback.is_paused]
     seconds, total = as_seconds(playback.done), as_seconds(playback.total)
@@ -168,12 +168,12 @@ def finding_line(
 
 
 def passed(marks: Sequence[PlaybackMark], before: Duration, now: Duration) -> list[PlaybackMark]:
-    """Return the marks between one time and another."""
+    """Return the marks that begin after `before` and up to `now`."""
     return [one for one in marks if before < one.since <= now]
 
 
 def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return where the next mark begins; None after the last."""
+    """Return the begin of the next mark after a position; None if there is none."""
     return min((one.since for one in marks if one.since > now), default=None)
 
 
@@ -183,7 +183,7 @@ def before(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
 
 
 def _keys(shown: Sequence[tuple[str, str]], room: int, ascii_only: bool) -> str:
-    """Return as many keys with explanations as fit; `q` always, if there is room for one."""
+    """Return the keys with their meanings that fit in a width; at least `q`, if that fits."""
     *first, last = [f"{_ASCII.get(key, key) if ascii_only else key} {word}" for key, word in shown]
     texts = ("  ".join([*first[:count], last]) for count in range(len(first), -1, -1))
     return next((text for text in texts if len(text) <= room), "")

@@ -1,4 +1,4 @@
-"""One static pose in words, which makes a wrong order of arguments visible."""
+"""Static pose described in words, which makes a wrong order of arguments visible."""
 
 import math
 
@@ -13,7 +13,7 @@ NOTHING = 5e-7
 
 
 def lines(parent: str, child: str, pose: Transform) -> str:
-    """Return a pose as static_transform_publisher's arguments, and in a sentence."""
+    """Return a pose as static_transform_publisher prints it, and in a sentence."""
     x, y, z = pose.translation
     qx, qy, qz, qw = pose.rotation
     return (
@@ -25,7 +25,7 @@ def lines(parent: str, child: str, pose: Transform) -> str:
 
 
 def in_words(parent: str, child: str, pose: Transform) -> str:
-    """Describe where `child` is in `parent`, and its rotation by axis and angle."""
+    """Describe the position of `child` in `parent`, and its rotation by axis and angle."""
     return f"{visible(child)} in {visible(parent)}: {_place(pose.translation)}, {_turn(pose)}."
 
 

@@ -1,4 +1,4 @@
-"""Content of a recording, as text and as data."""
+"""Content of a recording, as text lines and as JSON."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -24,13 +24,13 @@ _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 
 
 def as_text(recording: Recording, width: int | None = None, name: str | None = None) -> str:
-    """Return everything about a recording as lines.
+    """Return the content of a recording as text lines.
 
     Args:
         recording: The recording.
-        width: Cells a line may take: sentences go on in the next one, columns that have no room
-            are left out. None for all.
-        name: Name to print, if other than the opened path.
+        width: Longest line in cells: sentences are wrapped, columns without room left out. None
+            for no limit.
+        name: Name to print instead of the opened path.
     """
     source = recording.source
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
@@ -82,7 +82,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
 
 
 def wrapped(sentence: str, width: int | None, indent: str = "") -> list[str]:
-    """Indent a sentence by `indent`, wrapped between words if the width is limited."""
+    """Indent a sentence, and wrap it between words if the width is limited."""
     if width is None or len(indent) + cell_len(sentence) <= width:
         return [indent + sentence]
     return wrap(
@@ -110,7 +110,7 @@ def _topics(recording: Recording, topics: Sequence[RecordedTopic]) -> list[tuple
 
 
 def _publishers(recording: Recording) -> dict[str, list[Publisher]]:
-    """Return the publishers of each topic."""
+    """Return the publishers of each topic of a recording."""
     found: dict[str, list[Publisher]] = defaultdict(list)
     for one in recording.publishers:
         found[one.topic].append(one)
@@ -135,7 +135,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
 
 
 def as_object(recording: Recording, name: str | None = None) -> dict[str, Any]:
-    """Return the contents for --json; times and durations in nanoseconds."""
+    """Return the content of a recording as a mapping, for --json; times in nanoseconds."""
     source, publishers = recording.source, _publishers(recording)
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
     return {
@@ -225,7 +225,7 @@ def _forest(forest: Sequence[TreeFacts]) -> str:
 
 _WIDEST = 120
 _NARROW = (32, 16)
-"""What a column that may go is cut to first, and then."""
+"""Widths to which a column that may be left out shrinks, one after the other."""
 
 
 def table(
@@ -236,14 +236,14 @@ def table(
     goes: tuple[str, ...] = (),
     right: tuple[str, ...] = (),
 ) -> list[str]:
-    """Format lines in columns as wide as their cells, up to a limit; the last is not padded.
+    """Format a table as lines, in columns as wide as their cells up to a limit.
 
     Args:
-        heads: Headings.
-        rows: Cells.
-        width: Cells a line may take; None for as many as it needs.
-        goes: Columns that shrink, then are left out where there is no room, in that order.
-        right: Columns of numbers, which stand at the right end.
+        heads: Headings of the columns.
+        rows: Cells of each row.
+        width: Longest line in cells; None for no limit.
+        goes: Headings of columns that shrink or are left out without room, in that order.
+        right: Headings of columns to align to the right, as numbers are.
     """
     widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
     lines = [
@@ -300,10 +300,10 @@ def _moment(stamp: Stamp) -> str:
 
 
 def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str:
-    """Return a line for each of several recordings, with its faults below.
+    """Return a line for each of several recordings, with problems in lines below.
 
     Args:
-        rows: Contents of each, or why it is unreadable.
+        rows: Facts of each recording, or the reason why it could not be read.
         width: As in `as_text`.
     """
     heads = ("recording", "kind", "length", "messages", "transforms", "frames", "trees")

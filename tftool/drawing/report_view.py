@@ -1,4 +1,4 @@
-"""Reports: as a table, as rows for programs, as a JUnit report."""
+"""Outcomes of checked scenarios (reports), as a table, as JSON and as JUnit XML."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -15,7 +15,7 @@ from tftool.base.short_numbers import count
 
 
 def render(reports: Sequence[Report]) -> Table:
-    """Return a line for each report, and all failures below it."""
+    """Return a table with a line for each report, and its failures below."""
     table = Table.grid(padding=(0, 2), pad_edge=False)
     for _ in range(3):
         table.add_column(overflow="fold")
@@ -49,7 +49,7 @@ def _told(report: Report) -> str:
 
 
 def render_all(reports: Sequence[Report]) -> Table:
-    """Return every judgement in a table, grouped by report; failures are highlighted."""
+    """Return a table of all judgements, grouped by report, with failures highlighted."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("scenario", overflow="fold")
     table.add_column("expected", overflow="fold", ratio=3)
@@ -75,7 +75,7 @@ def render_all(reports: Sequence[Report]) -> Table:
 
 
 def summary(reports: Sequence[Report], noun: str = "scenario") -> str:
-    """Summarise the reports in one sentence; `noun` names what each report is about."""
+    """Summarise the reports in one sentence; `noun` is the word for the subject of a report."""
     bad = [report for report in reports if not report.ok]
     judgements = [judgement for report in reports for judgement in report.judgements]
     held = sum(judgement.ok for judgement in judgements)
@@ -121,12 +121,12 @@ def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
 def as_junit(
     reports: Sequence[Report], command: str = "tftool check", whole: str = "plays to its end"
 ) -> str:
-    """Return a JUnit XML document; times are those of the scenarios' own clocks.
+    """Return reports as a JUnit XML document; times are those of the scenarios' own clocks.
 
     Args:
-        reports: Outcome of each.
-        command: Name of the command that judged them.
-        whole: Test case for a report without results.
+        reports: The reports.
+        command: Name of the command that made the reports.
+        whole: Name of the test case for a report without judgements.
     """
     root = ElementTree.Element("testsuites", name=command)
     for report in reports:

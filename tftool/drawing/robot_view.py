@@ -1,4 +1,4 @@
-"""Content of a robot description, as text and as data."""
+"""Content of a robot description, as text lines and as JSON."""
 
 from typing import Any
 
@@ -10,12 +10,12 @@ from tftool.robots.robot_model import Robot
 
 
 def as_text(name: str, robot: Robot, width: int | None = None) -> str:
-    """Return everything about a description as lines.
+    """Return the content of a robot description as text lines.
 
     Args:
-        name: Name as it was given.
+        name: Name of the description, as given.
         robot: The described robot.
-        width: Cells a line may take; columns that have no room are left out. None for all.
+        width: Longest line in cells; columns without room are left out. None for no limit.
     """
     links, joints = robot.links, robot.joints
     moving = sum(joint.moves for joint in joints.values())
@@ -53,7 +53,7 @@ def as_text(name: str, robot: Robot, width: int | None = None) -> str:
 
 
 def as_object(name: str, robot: Robot) -> dict[str, Any]:
-    """Return the description for --json; radians, metres, kilograms."""
+    """Return a robot description as a mapping, for --json; radians, metres, kilograms."""
     rest = robot.positions()
     return {
         "name": name,

@@ -1,4 +1,4 @@
-"""Findings in SARIF 2.1.0, the format in which code hosts import results of checkers."""
+"""The doctor's findings in SARIF 2.1.0, the format in which code hosts import check results."""
 
 import json
 import sys
@@ -19,11 +19,11 @@ SCHEMA: Final = "https://json.schemastore.org/sarif-2.1.0.json"
 def as_sarif(rows: "Sequence[tuple[str, Diagnosis | str]]") -> str:
     """Return the reports of several sources as one SARIF document.
 
-    Findings that another one explains are left out, as in every report. A source that cannot be
+    Findings that another finding explains are left out, as in every report. A source that cannot be
     read is a notification of the run, which then counts as unsuccessful.
 
     Args:
-        rows: Each source with its diagnosis, or why it could not be read.
+        rows: Each source with its diagnosis, or the reason why it could not be read.
     """
     results: list[dict[str, Any]] = []
     unreadable: list[dict[str, Any]] = []
@@ -90,7 +90,7 @@ def _message(finding: Finding) -> str:
 
 
 def _location(source: str, finding: Finding | None = None) -> dict[str, Any]:
-    """Return a SARIF location: the file's start, and the frames, edges and topics concerned."""
+    """Return a SARIF location: the start of the file, and a finding's frames, links and topics."""
     path = Path(source)
     if "://" in source:
         address = quote(source, safe=":/?#[]@!$&'()*+,;=%", errors="surrogateescape")

@@ -1,4 +1,4 @@
-"""Members of a session, in aligned columns."""
+"""Processes, nodes, topics and services of a session, as lines in aligned columns."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime
@@ -12,12 +12,12 @@ from tftool.base.fixed_width import middle_cut, wrap_words
 from tftool.drawing.table_columns import TableColumn, fit
 
 ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
-"""What a process is to the others, in words."""
+"""Role of a process in the session, in words."""
 
 INDENT = "  "
 
 _EVERY_NODES = ("rcl_interfaces/", "type_description_interfaces/")
-"""How the types of those services begin that every node of ROS 2 has."""
+"""Beginnings of the types of the services that every node of ROS 2 has."""
 
 
 def lines(
@@ -28,15 +28,14 @@ def lines(
     height: int | None = None,
     ascii_only: bool = False,
 ) -> list[Text]:
-    """Return processes, foreign nodes, topics and services as lines; names are escaped.
+    """Return a session's processes, nodes, topics and services as lines; names are escaped.
 
     Args:
         found: Output of `tftool session --json`.
         verbose: Whether to list the services that every node has.
-        width: Columns of the terminal, where long lists go on in a line of their own; None for
-            one line for each, however long.
-        height: Lines of the terminal; where all of it is longer, a topic takes one line, and
-            services share lines. None for any number.
+        width: Width of the terminal in cells, to which long lists are wrapped; None for one line
+            per list.
+        height: Lines of the terminal; if the output is longer, it is shortened. None for no limit.
         ascii_only: Whether to draw with ASCII only.
     """
     writer = _Writer(width, "~" if ascii_only else "…")
@@ -105,7 +104,7 @@ def _brief(
     *,
     ascii_only: bool,
 ) -> list[Text]:
-    """Return topics in a line each, and services in few lines."""
+    """Return topics in one line each, and services in few lines, for a small terminal."""
     shown = {name: one for name, one in topics.items() if "/_action/" not in name}
     arrow = "->" if ascii_only else "→"
     ways = [
@@ -137,7 +136,7 @@ def _brief(
 
 
 class _Writer:
-    """Writer of rows in aligned columns, or without a width as separate lines."""
+    """Writer of rows in aligned columns; without a width, each row is one line of any length."""
 
     def __init__(self, width: int | None, more: str) -> None:
         self.width = width
@@ -145,13 +144,13 @@ class _Writer:
 
     @staticmethod
     def heading(what: str, count: int) -> list[Text]:
-        """Return the kind of entity and its number."""
+        """Return a heading with the kind of the listed things and their number."""
         return [Text(f"{what} ({count})", style="bold")]
 
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
-        """Return names in a column, their details beside, and long lists at the end or below."""
+        """Return names with their columns beside them, and long lists at the end or below."""
         if not names:
             return []
         longest = max(map(cell_len, names))
@@ -183,6 +182,6 @@ def _names(nodes: Iterable[str], none: str) -> str:
 
 
 def _goes_without_saying(name: str, ros_type: str) -> bool:
-    """Whether a service exists on every node, or is hidden as in ROS 2."""
+    """Return whether a service is one that every node has, or hidden as in ROS 2."""
     hidden = any(part.startswith("_") for part in name.split("/"))
     return hidden or ros_type.startswith(_EVERY_NODES)

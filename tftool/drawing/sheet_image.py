@@ -1,4 +1,4 @@
-"""PNG of the tree, drawn by matplotlib (an extra)."""
+"""PNG file of a tree picture, drawn by matplotlib (an extra)."""
 
 import io
 from importlib import import_module
@@ -8,7 +8,7 @@ from tftool.base.errors import UsageError
 from tftool.drawing.picture import Box, Picture
 
 _MOST_POINTS: Final = 12_000
-"""Points of the picture across and down: larger ones do not open in many programs."""
+"""Largest width and height in pixels; many programs do not open larger images."""
 
 _FILLS: Final = {
     "root": ("#dbe9ff", "#4b7fd6"),
@@ -22,7 +22,7 @@ _INKS: Final = {"name": "#171c24", "fact": "#5a6472", "note": "#8a6a17"}
 
 
 def render(picture: Picture) -> bytes:
-    """Render a picture as PNG, with two pixels per point unless it is very large.
+    """Return a picture as the bytes of a PNG file, two pixels per point unless very large.
 
     Raises:
         UsageError: If the extra `plot` is not installed.

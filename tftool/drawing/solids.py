@@ -1,4 +1,4 @@
-"""Triangles of a robot's links: boxes, cylinders, spheres, and simplified meshes."""
+"""Triangles of a robot's links, from boxes, cylinders, spheres, and simplified meshes."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,24 +25,24 @@ Floats: TypeAlias = npt.NDArray[np.float32]
 Indices: TypeAlias = npt.NDArray[np.int64]
 
 MOST_TRIANGLES: Final = 12_000
-"""About as many triangles are drawn of a robot: a cell of a terminal shows no more."""
+"""Approximate number of triangles drawn of a robot; a terminal shows no finer detail."""
 
 PLAIN: Final[Rgb] = (0.78, 0.80, 0.84)
-"""Colour of shapes without one."""
+"""Colour of shapes that have none."""
 
 _AROUND: Final = 20
-"""Corners of a circle."""
+"""Number of corners of a polygon that stands for a circle."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solids:
-    """Triangles that move with frames.
+    """Triangles of shapes that move with frames.
 
     Attributes:
         frames: Names of the frames.
-        ends: For each frame, the index after its last point and its last triangle.
-        points: Corners in the frame they move with, metres, shape (n, 3).
-        triangles: Three indices of corners each, shape (m, 3).
+        ends: For each frame, the index after its last corner and after its last triangle.
+        points: Corners, in the frame they move with, metres, shape (n, 3).
+        triangles: Indices of three corners each, shape (m, 3).
         colors: Red, green and blue from 0 to 1 of each triangle, shape (m, 3).
     """
 
@@ -53,7 +53,7 @@ class Solids:
     colors: Floats
 
     def placed(self, poses: Mapping[str, Transform]) -> Floats:
-        """Return the vertices at the frames' current poses; NaN for unknown frames."""
+        """Return all corners at the frames' given poses; NaN for frames without a pose."""
         placed = np.full_like(self.points, np.nan)
         first = 0
         for frame, (end, _) in zip(self.frames, self.ends, strict=True):
@@ -65,7 +65,7 @@ class Solids:
         return placed
 
     def parts(self) -> Indices:
-        """Frame index of each triangle, shape (m,)."""
+        """Return the index of each triangle's frame, shape (m,)."""
         ends = [end for _, end in self.ends]
         return np.repeat(np.arange(len(ends)), np.diff([0, *ends]))
 
@@ -76,13 +76,13 @@ def solids_of(
     prefix: str = "",
     most: int = MOST_TRIANGLES,
 ) -> tuple[Solids, list[str]]:
-    """Make triangles of the visual shapes of links.
+    """Convert the visual shapes of links to triangles.
 
     Args:
         links: The links; those without a visual shape show their collision shapes.
         folders: Folders from which meshes may be read.
-        prefix: Prefix of a link's name in its frame's name.
-        most: About as many triangles are made.
+        prefix: Prefix of a frame's name before the link's name.
+        most: Approximate limit on the number of triangles.
 
     Returns:
         The triangles, and sentences about meshes that are not shown.
@@ -107,7 +107,7 @@ def solids_of(
 
 
 def coarse(mesh: Mesh, width: float) -> Mesh:
-    """Merge the vertices in each cube of a grid, and drop collapsed triangles.
+    """Simplify a mesh: merge the corners in each cube of a grid, and drop collapsed triangles.
 
     Source:
         Rossignac and Borrel, "Multi-resolution 3D approximations for rendering complex
@@ -159,7 +159,7 @@ def _joined(by_frame: Mapping[str, Sequence[Mesh]]) -> Solids:
 
 
 def _shape(shape: LinkShape, folders: MeshFolders) -> list[Mesh]:
-    """Return a shape's triangles in its link, in the description's colour."""
+    """Return a shape's triangles in the frame of its link, in the description's colour."""
     given = None if shape.material is None else shape.material.color
     color = None if given is None else given[:3]
     rotation, origin = _rotation(shape.origin), np.array(shape.origin.translation)
@@ -191,7 +191,7 @@ def _surface(shape: LinkShape, folders: MeshFolders) -> list[Mesh]:
 
 
 def _turned(outline: npt.NDArray[np.float64]) -> Mesh:
-    """Rotate an outline of radii and heights around the z axis."""
+    """Return the surface that an outline of radii and heights sweeps around the z axis."""
     angles = np.arange(_AROUND) * (2.0 * np.pi / _AROUND)
     radii, heights = outline[:, 0][:, None], outline[:, 1][:, None]
     rings = np.stack(

@@ -1,4 +1,4 @@
-"""Values for a 3-D picture of frames, and the orbiting camera."""
+"""Values of a 3-D picture of frames, and the camera that orbits them."""
 
 import math
 from dataclasses import dataclass, field
@@ -15,30 +15,30 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 VIEWS: Final = {"orbit": (-60.0, 25.0), "top": (-90.0, 90.0), "front": (0.0, 0.0),
                 "side": (-90.0, 0.0)}  # fmt: skip
-"""Degrees around the vertical axis and above the ground, by the name of the view."""
+"""Azimuth around the vertical axis and elevation above the ground, degrees, by name of the view."""
 
 TURN: Final = math.radians(7.5)
-"""Angle of one step around the scene."""
+"""Angle in radians of one step around the scene."""
 
 STEP: Final = 1.25
-"""Factor of one step of the zoom."""
+"""Magnification of one step of the zoom."""
 
 NEAREST, MOST_DISTANT = 1e3, 1e-3
-"""Limits of the zoom, as factors of the fitted picture."""
+"""Limits of the zoom, as magnifications of the view of the whole scene."""
 
 ROOMY: Final = 0.6
-"""The view shrinks only when the scene needs less than this share of it."""
+"""Share of the view that a scene must fill so that the view does not shrink."""
 
 
 @dataclass(frozen=True, slots=True)
 class SpaceFrame:
-    """One frame.
+    """One frame of the picture.
 
     Attributes:
-        name: Name.
+        name: Name of the frame.
         pose: Pose in the fixed frame.
         parent: Name of the parent; None for a root.
-        age: Seconds without news, for one that is not static.
+        age: Seconds since the frame's newest transform; 0 for static frames.
     """
 
     name: str
@@ -49,15 +49,15 @@ class SpaceFrame:
 
 @dataclass(frozen=True, slots=True)
 class SpacePicture:
-    """Scene at one time in one fixed frame, in 3-D.
+    """Values of a 3-D picture of frames, at one time, in one fixed frame.
 
     Attributes:
-        fixed: The fixed frame.
-        frames: Frames of its tree.
+        fixed: Name of the fixed frame.
+        frames: Frames of the fixed frame's tree.
         solids: Shapes that move with the frames.
         lines: Trails and other lines.
-        chosen: Frame under the cursor: bold name, coloured solid.
-        pair: Two frames joined by a line of their own.
+        chosen: Name of the frame under the cursor, drawn in bold with a coloured solid.
+        pair: Names of two frames that a line connects.
     """
 
     fixed: str = ""
@@ -73,8 +73,8 @@ class Viewpoint(NamedTuple):
 
     Attributes:
         axes: Unit vectors to the right, up and towards the viewer, as rows.
-        middle: The point in the middle of the picture, metres.
-        scale: Metres to a dot of braille: a cell has two across and four down.
+        middle: Point in the middle of the picture, metres.
+        scale: Metres per braille dot; a cell is two dots wide and four high.
     """
 
     axes: Floats
@@ -82,7 +82,7 @@ class Viewpoint(NamedTuple):
     scale: float
 
     def project(self, points: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
-        """Project points: dots right and up from the centre, and depth towards the viewer."""
+        """Project points to dots right and up from the centre, and depth towards the viewer."""
         axes = (self.axes / self.scale).astype(points.dtype)
         return (points - self.middle.astype(points.dtype)) @ axes.T
 
@@ -93,13 +93,13 @@ class Viewpoint(NamedTuple):
 
 
 class OrbitCamera:
-    """Camera that orbits a scene, and fits it until the user zooms or pans.
+    """Camera that orbits a scene, and shows the whole scene until the user zooms or pans.
 
-    In fitted mode the view grows at once with the scene, and shrinks only when most of it is empty.
+    The view then grows at once with the scene, and shrinks only when most of it is empty.
 
     Attributes:
-        name: The name of the view; "orbit" once it was turned.
-        follows: The frame in the middle; empty for the middle of the scene.
+        name: Name of the view; "orbit" after the camera was turned.
+        follows: Name of the frame in the middle; empty for the middle of the scene.
     """
 
     def __init__(self, name: str = "orbit") -> None:
@@ -112,43 +112,43 @@ class OrbitCamera:
         self.look_from(name)
 
     def look_from(self, name: str) -> None:
-        """Look from one of `VIEWS`."""
+        """Look from the direction of one of `VIEWS`."""
         self.name = name
         self._azimuth, self._elevation = map(math.radians, VIEWS[name])
 
     def next_view(self) -> None:
-        """Look from the next one of `VIEWS`."""
+        """Look from the direction of the next of `VIEWS`."""
         names = list(VIEWS)
         self.look_from(names[(names.index(self.name) + 1) % len(names)])
 
     def turn(self, right: float, up: float) -> None:
-        """Orbit the scene by some steps."""
+        """Orbit the scene by some steps to the right and up."""
         self.name = "orbit"
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi
         self._elevation = min(quarter, max(-quarter, self._elevation + TURN * up))
 
     def zoom(self, steps: float) -> None:
-        """Zoom in by some steps; out if negative."""
+        """Zoom in by some steps, or out if negative."""
         self._factor = min(NEAREST, max(MOST_DISTANT, self._factor * STEP**steps))
 
     def pan(self, columns: float, rows: float) -> None:
-        """Pan by some cells to the right and down."""
+        """Move the view by some cells to the right and down."""
         right, up = self._shift
         self._shift = right + 2.0 * columns * self._scale, up - 4.0 * rows * self._scale
 
     def fit(self) -> None:
-        """Fit the whole scene again."""
+        """Show the whole scene again, after zooming and panning."""
         self._factor, self._shift, self._box, self.follows = 1.0, (0.0, 0.0), None, ""
 
     def view(self, picture: SpacePicture, corners: Floats, columns: int, rows: int) -> Viewpoint:
         """Return the view for a picture of columns × rows of cells.
 
         Args:
-            picture: Content of the picture.
-            corners: Every point that should be in sight, shape (n, 3).
-            columns: Cells across.
-            rows: Cells down.
+            picture: Values of the picture.
+            corners: All points that should be visible, shape (n, 3).
+            columns: Width of the picture in cells.
+            rows: Height of the picture in cells.
         """
         if picture.fixed != self._fixed:
             self._fixed, self._box = picture.fixed, None
@@ -199,5 +199,5 @@ class OrbitCamera:
 
 
 def axis_length(view: Viewpoint, rows: int) -> float:
-    """Return the drawn length of a frame's axes, metres."""
+    """Return the length in metres with which the axes of frames are drawn."""
     return view.scale * 4.0 * max(1.2, rows / 10.0)

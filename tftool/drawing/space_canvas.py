@@ -1,7 +1,7 @@
-"""3-D picture of frames: depth buffer in numpy, shaded half blocks, braille lines.
+"""Drawing of 3-D pictures of frames: a depth buffer in numpy, shaded half blocks, braille lines.
 
-The depth buffer has a point for each braille dot. Four points make half a cell of a solid. Lines
-are dots: solids hide those of the ground, and axes are drawn through solids.
+The depth buffer has one point per braille dot; four points make half a cell of a solid. Lines are
+dots: solids hide the lines of the ground, and the axes are drawn through solids.
 """
 
 from collections.abc import Sequence
@@ -21,13 +21,13 @@ from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_lengt
 Floats: TypeAlias = npt.NDArray[np.float32]
 Indices: TypeAlias = npt.NDArray[np.int64]
 Tones = Literal["full", "few", "none"]
-"""Colours of a terminal: all of them, sixteen, or none."""
+"""Number of colours of a terminal: all, sixteen, or none."""
 
 MOST_NAMED: Final = 40
-"""Frames whose names are drawn; of more, only the first."""
+"""Largest number of frames whose names are written."""
 
 MOST_POINTS: Final = 1_000_000
-"""Points of triangles that are looked at together, as far as memory goes."""
+"""Points of triangles that are processed at once, to limit memory."""
 
 _LIGHT: Final = np.array([-0.35, 0.6, 0.72], np.float32)
 _RAMPS: Final = {True: " .:-=+*#%@", False: "  ░░▒▒▓▓██"}
@@ -37,8 +37,8 @@ class DepthBuffer(NamedTuple):
     """Nearest surface at each point of a picture, rows from the top.
 
     Attributes:
-        owners: The index of the triangle there; -1 for none. Shape (height, width).
-        depths: Distance of each cell towards the viewer, in points; minus infinity if empty.
+        owners: Index of the triangle at each point; -1 for none. Shape (height, width).
+        depths: Distance towards the viewer at each point, in points; minus infinity if empty.
     """
 
     owners: Indices
@@ -49,9 +49,9 @@ class Layer(NamedTuple):
     """Lines of one colour.
 
     Attributes:
-        color: Colour of the strokes.
-        ends: Both ends of each in dots from the middle of the picture, shape (n, 2, 3).
-        is_hidden: Whether solids in front hide the strokes.
+        color: Colour of the lines.
+        ends: Both ends of each line in dots from the middle of the picture, shape (n, 2, 3).
+        is_hidden: Whether solids in front of the lines hide them.
     """
 
     color: Color
@@ -61,13 +61,13 @@ class Layer(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnSpace:
-    """Picture before conversion to cells or a file.
+    """Picture as pixels and lines, before conversion to a terminal's cells or a file.
 
     Attributes:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
-        depth: The nearest solid of every dot, and its depth.
+        depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        names: Names of frames with their dots to the right and down from the corner.
+        names: Frames with their labels and their dots, right and down from the corner.
         grid: Metres between two lines of the grid.
     """
 
@@ -82,10 +82,11 @@ def rasterise(corners: Floats, triangles: Indices, width: int, height: int) -> D
     """Find the nearest triangle at every point of a picture.
 
     Args:
-        corners: Points to the right and up from the middle, and towards the viewer, shape (n, 3).
-        triangles: Three indices of corners each, shape (m, 3).
-        width: Points across.
-        height: Points down.
+        corners: Corners to the right and up from the middle, and towards the viewer, in points,
+            shape (n, 3).
+        triangles: Indices of three corners each, shape (m, 3).
+        width: Width of the picture in points.
+        height: Height of the picture in points.
     """
     owners = np.full(width * height, -1, np.int64)
     depths = np.full(width * height, -np.inf, np.float32)
@@ -150,11 +151,11 @@ def drawn(
     """Draw a picture in columns × rows of cells.
 
     Args:
-        picture: Content of the picture.
-        view: From where.
-        columns: Cells across; each has two dots.
-        rows: Cells down; each has four dots.
-        palette: The screen's own colours.
+        picture: Values of the picture.
+        view: Direction, centre and scale of the view.
+        columns: Width in cells of two dots.
+        rows: Height in cells of four dots.
+        palette: Colours of the screen.
         tinted: Whether the solid under the cursor takes the colour of the cursor.
     """
     width, height = 2 * columns, 4 * rows
@@ -189,7 +190,7 @@ def drawn(
 
 
 def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
-    """Return the brightness of each point from its triangle's orientation."""
+    """Return the brightness of each point from the orientation of its triangle."""
     used, where = np.unique(owners, return_inverse=True)
     first, second, third = (corners[triangles[used, corner]] for corner in range(3))
     ahead, aside = second - first, third - first
@@ -210,7 +211,7 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Find the points where one part ends in front of another or of a distant part of itself."""
+    """Return a mask of the points where a part ends in front of another, or of itself."""
     edge = np.zeros(whose.shape, bool)
     with np.errstate(invalid="ignore"):
         for here, there in (
@@ -228,7 +229,7 @@ def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
 def _named(
     picture: SpacePicture, places: Sequence[Sequence[float]]
 ) -> list[tuple[SpaceFrame, str, Sequence[float]]]:
-    """Give frames at one place a common label, beginning with the one under the cursor."""
+    """Return (frame, label, position); frames at one place share a label, the chosen one first."""
     labels: dict[tuple[int, int], list[int]] = {}
     order = sorted(range(len(places)), key=lambda n: picture.frames[n].name != picture.chosen)
     for number in order[:MOST_NAMED]:
@@ -247,7 +248,7 @@ def _named(
 def _layers(
     picture: SpacePicture, view: Viewpoint, rows: int, palette: theme.Palette
 ) -> list[Layer]:
-    """Return the layers: ground, trails, lines to parents, the pair, axes."""
+    """Return the lines in drawing order: ground, trails, lines to parents, the pair, axes."""
     paper = theme.paper(palette)
     poses = {one.name: one.pose for one in picture.frames}
     layers = [Layer(paper.grid, view.project(_ground(picture, view)), is_hidden=True)]
@@ -292,14 +293,14 @@ def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
 
 
 class SpaceCanvas:
-    """Draws pictures of frames in space as lines of a terminal.
+    """Drawer of 3-D pictures of frames as lines of a terminal.
 
     Args:
-        columns: Cells across.
-        rows: Cells down.
-        palette: The screen's own colours.
-        tones: Colours of the terminal.
-        ascii_only: Draw with ASCII characters alone.
+        columns: Width in cells.
+        rows: Height in cells.
+        palette: Colours of the screen.
+        tones: Number of colours of the terminal.
+        ascii_only: Whether to draw with ASCII characters only.
     """
 
     def __init__(
@@ -319,7 +320,7 @@ class SpaceCanvas:
         self._places: list[tuple[float, float, str]] = []
 
     def lines(self, picture: SpacePicture, view: Viewpoint) -> list[Line]:
-        """Draw a picture of exactly the requested lines and cells."""
+        """Draw a picture; return as many lines, each of as many cells, as were requested."""
         columns, rows = self.columns, self.rows
         if not columns or not rows:
             return [[] for _ in range(rows)]
@@ -340,7 +341,7 @@ class SpaceCanvas:
         return lines
 
     def frame_at(self, column: int, row: int) -> str | None:
-        """Return the frame nearest to a cell, at most three cells away."""
+        """Return the frame nearest to a cell of the last picture; None if none is near."""
         near = [
             (max(0.5 * abs(x - column - 0.5), abs(y - row - 0.5)), name)
             for x, y, name in self._places
@@ -349,7 +350,7 @@ class SpaceCanvas:
         return name if away <= 1.5 else None
 
     def _shaded(self, drawing: DrawnSpace) -> CellSheet:
-        """Return the cells of the solids."""
+        """Return the cells of the solids, as half blocks or shaded characters."""
         columns, rows = self.columns, self.rows
         found = drawing.depth.owners >= 0
         sheet = CellSheet(columns, rows)
@@ -380,7 +381,7 @@ class SpaceCanvas:
         return sheet
 
     def _dotted(self, drawing: DrawnSpace) -> Dots:
-        """Return the lines as dots; the last line of a cell wins."""
+        """Return the lines as braille dots; a cell has the colour of its last line."""
         columns, rows = self.columns, self.rows
         solid = drawing.depth.owners >= 0
         # The ground never takes the cell of a solid.
@@ -400,7 +401,7 @@ class SpaceCanvas:
     def _name(
         self, drawing: DrawnSpace, chosen: str, sheet: CellSheet, marked: npt.NDArray[np.bool_]
     ) -> None:
-        """Write frame names where they cover no other name."""
+        """Write the names of frames into a sheet, where they cover no other name."""
         named: dict[str, SpaceFrame] = {}
         labels = []
         for one, name, x, y in drawing.names:
@@ -427,14 +428,14 @@ class SpaceCanvas:
 
 
 def _few_shades(colors: npt.NDArray[np.floating]) -> Indices:
-    """Pack colours with few shades, so that styles can be cached."""
+    """Pack colours in one number each, rounded to few shades so that styles can be cached."""
     red, green, blue = np.moveaxis(np.clip(colors, 0, 255).astype(np.int64) & 0xF8, -1, 0)
     shades: Indices = (red << 16) + (green << 8) + blue
     return shades
 
 
 def corners_of(picture: SpacePicture) -> npt.NDArray[np.float64]:
-    """Return the points to keep in view, shape (n, 3)."""
+    """Return the points of a picture that should be visible, shape (n, 3)."""
     parts: list[npt.NDArray[np.floating]] = [
         np.array([one.pose.translation for one in picture.frames], float).reshape(-1, 3)
     ]

@@ -1,6 +1,6 @@
-"""Frames in space as a file: SVG, or PNG by matplotlib.
+"""3-D picture of frames as a file: SVG, or PNG by matplotlib.
 
-Solids are an image; lines and names are drawn over it.
+Solids are an image; lines and names are drawn over the image.
 """
 
 import io
@@ -21,16 +21,16 @@ from tftool.drawing.space import OrbitCamera, SpacePicture
 from tftool.drawing.space_canvas import DrawnSpace, corners_of, drawn
 
 COLUMNS, ROWS = 640, 220
-"""Cells of the picture; each has 2 × 4 points."""
+"""Width and height of the picture in cells of 2 × 4 points."""
 
 _WIDE, _HIGH = 8, 16
-"""Points of a letter."""
+"""Width and height of a letter in points."""
 
 
 def drawn_file(
     picture: SpacePicture, form: str, palette: theme.Palette = theme.DARK, *, title: str = ""
 ) -> bytes:
-    """Draw a picture as a file: "svg" or "png".
+    """Return a 3-D picture as the bytes of a file, "svg" or "png".
 
     Raises:
         UsageError: If the extra `plot`, which writes PNG, is not installed.
@@ -48,13 +48,13 @@ def drawn_file(
 
 
 def _pixels(sheet: DrawnSpace) -> npt.NDArray[np.uint8]:
-    """Return the solids as RGBA values from 0 to 255."""
+    """Return the solids as an image of RGBA values from 0 to 255, transparent elsewhere."""
     seen = sheet.depth.owners >= 0
     return np.dstack([np.clip(sheet.image, 0, 255), np.where(seen, 255, 0)]).astype(np.uint8)
 
 
 def png_bytes(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """Encode an image, shape (height, width, 4), as PNG.
+    """Return an image of RGBA values, shape (height, width, 4), as the bytes of a PNG file.
 
     Source:
         W3C, "Portable Network Graphics (PNG) Specification", 2003.

@@ -1,4 +1,4 @@
-"""Sparklines of rate and delay of each frame over the last seconds."""
+"""Small curves (sparklines) of the rate and delay of each frame over the last seconds."""
 
 from collections import deque
 from collections.abc import Iterable, Sequence
@@ -9,22 +9,22 @@ from tftool.buffer.traffic import Traffic
 from tftool.drawing.table_columns import TableColumn
 
 LOOKS: Final = 240
-"""Looks that are remembered."""
+"""Number of moments that are stored per frame."""
 
 CELLS: Final = 60
-"""Cells of the longest curve beside a tree."""
+"""Width in cells of the longest curve beside a tree."""
 
 # No full block: curves of neighbouring rows would merge.
 _SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇"}
 
 
 def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = False) -> str:
-    """Draw values from zero to their maximum, the newest on the right, over the whole width.
+    """Draw values from zero to their maximum in one line, the newest at the right.
 
     Args:
-        values: The values, oldest first; None where there is none.
-        width: Cells across; a cell of several values shows the largest.
-        ascii_only: Draw with ASCII characters alone.
+        values: Values, oldest first; None for unknown ones.
+        width: Width in cells; a cell with several values shows the largest.
+        ascii_only: Whether to draw with ASCII characters only.
     """
     kept = list(values)
     if all(one is None for one in kept):
@@ -44,7 +44,7 @@ def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = 
 
 
 class TrafficLook(NamedTuple):
-    """Rate and delay of a frame at one look; None where unknown."""
+    """Rate (Hz) and delay (s) of a frame at one moment; None if unknown."""
 
     moment: Stamp
     rate: float | None
@@ -52,19 +52,19 @@ class TrafficLook(NamedTuple):
 
 
 class TrafficHistory:
-    """Rate and delay of every repeated frame over the last looks."""
+    """Rate and delay of every frame that is published repeatedly, over the last moments."""
 
     def __init__(self) -> None:
         self._counts: dict[str, deque[tuple[Stamp, int]]] = {}
         self._looks: dict[str, deque[TrafficLook]] = {}
 
     def look(self, now: Stamp, traffic: Traffic, *, over: int = 4) -> None:
-        """Record how many messages arrived since earlier looks, and the newest delay.
+        """Store every frame's rate, from the messages since earlier calls, and its newest delay.
 
         Args:
-            now: The clock's time.
-            traffic: The received messages.
-            over: Looks that a rate counts: over one alone it would jump by a whole message.
+            now: Current time of the clock in nanoseconds.
+            traffic: Statistics of the received messages.
+            over: Number of calls over which a rate is counted; over one, it would jump by messages.
         """
         for name, link in traffic.links.items():
             if link.is_static:
@@ -79,18 +79,18 @@ class TrafficHistory:
             looks.append(TrafficLook(now, rate, delay))
 
     def looks(self, frame: str) -> Sequence[TrafficLook]:
-        """Return the remembered looks at a frame, oldest first."""
+        """Return the stored rates and delays of a frame, oldest first."""
         return tuple(self._looks.get(frame, ()))
 
     def columns(
         self, frames: Iterable[str], width: int, *, ascii_only: bool = False
     ) -> list[TableColumn]:
-        """Return a column of rates and one of delays, if a table of this width has room.
+        """Return a column of rate curves and one of delay curves; none if the table is too narrow.
 
         Args:
-            frames: The frame of each row.
-            width: Cells of the table.
-            ascii_only: Draw with ASCII characters alone.
+            frames: Frame of each row.
+            width: Width of the table in cells.
+            ascii_only: Whether to draw with ASCII characters only.
         """
         cells = max(12, min(CELLS, (width - 100) // 2))
         kept = [self.looks(name) for name in frames]
@@ -114,4 +114,4 @@ class TrafficHistory:
 
 
 NO_HISTORY: Final = TrafficHistory()
-"""The history of nothing: its columns are empty, and left out."""
+"""Empty history, whose columns are left out."""

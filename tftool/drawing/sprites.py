@@ -1,6 +1,6 @@
 """Pictures of a turtle at any size: a body if there is room, else an arrow.
 
-A body is drawn with quadrant blocks: four pixels and two colours to a cell.
+A body is drawn with quadrant blocks: four pixels and two colours per cell.
 """
 
 import math
@@ -16,20 +16,20 @@ from tftool.drawing.cells import Cell
 
 ARROWS = "→↗↑↖←↙↓↘"
 ASCII_ARROWS = ">7^F<LvJ"
-"""Heading by octant, east first, counter-clockwise; 7, F, L and J point with their corners."""
+"""Arrow for each octant, east first, counter-clockwise; 7, F, L and J point with their corners."""
 
 _QUADRANTS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
-"""By mask: 1 upper left, 2 upper right, 4 lower left, 8 lower right."""
+"""Block characters by mask: 1 upper left, 2 upper right, 4 lower left, 8 lower right."""
 
 BODY_FROM = 2.4
-"""Rows per metre from which a body is drawn; under it an arrow says more."""
+"""Smallest number of rows per metre at which a body is drawn; below, an arrow is clearer."""
 
 BADGE_FROM = 0.9
-"""Rows per metre from which the arrow gets a coloured badge of about a metre."""
+"""Smallest number of rows per metre at which an arrow has a badge, about a metre wide."""
 
 
 def octant(theta: float) -> int:
-    """Return the nearest of eight headings: 0 is east, 2 north, counter-clockwise."""
+    """Return the nearest of eight headings: 0 is east, 2 is north, counter-clockwise."""
     # Brought into one turn first: a heading near the largest float would overflow.
     return round(math.remainder(theta, math.tau) / (math.pi / 4.0)) % 8
 
@@ -54,14 +54,14 @@ _NOTHING = -1
 def body(
     x: float, y: float, theta: float, color: Color, per_metre: float
 ) -> Iterator[tuple[int, int, Cell]]:
-    """Draw a turtle about a metre across.
+    """Draw the body of a turtle, about a metre wide.
 
     Args:
         x: Column of its centre, from the left edge, in cells.
         y: Row of its centre, from the top edge, in cells.
-        theta: Heading, counter-clockwise.
+        theta: Heading in radians, counter-clockwise.
         color: Colour of the skin; the shell is darker.
-        per_metre: Rows a metre takes; twice as many columns.
+        per_metre: Rows per metre; columns per metre are twice as many.
 
     Yields:
         (column, row, cell), also outside the screen; the caller clips.
@@ -91,7 +91,7 @@ def body(
 
 @lru_cache
 def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
-    """Choose a block character for four quadrants, and the parts that colour it and its ground."""
+    """Return a block character for four quadrants, and the parts for its two colours."""
     seen = Counter(part for part in parts if part != _NOTHING).most_common()
     first = seen[0][0]
     is_edge = _NOTHING in parts
@@ -109,9 +109,9 @@ def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
 def badge(
     x: float, y: float, theta: float, color: Color, per_metre: float, *, blocks: bool = True
 ) -> Iterator[tuple[int, int, Cell]]:
-    """Draw a turtle as an arrow, on a badge if a metre is large enough.
+    """Draw a turtle as an arrow, on a coloured badge if a metre has enough rows.
 
-    Arguments and results are those of `body`; without `blocks` in ASCII.
+    Arguments and results are those of `body`; without `blocks` the arrow is in ASCII.
     """
     column, row = math.floor(x), math.floor(y)
     if not blocks:

@@ -1,7 +1,8 @@
-"""SVG of the tree, and an HTML page with it and a table.
+"""SVG file of a tree picture, and an HTML page with the picture and a table.
 
-Each is one self-contained file in the viewer's light or dark scheme, and loads nothing. The page
-has a script that fits, moves and searches the picture; without scripts, everything is still shown.
+Both are self-contained files that follow the viewer's light or dark scheme and load nothing. The
+page has a script that fits, moves and searches the picture; without scripts, everything is still
+shown.
 """
 
 import math
@@ -46,7 +47,7 @@ path.still { stroke: #b4964a; }
 
 
 def render(picture: Picture) -> str:
-    """Write a picture as SVG; names are escaped."""
+    """Return a picture as the text of an SVG file, with escaped names."""
     wide, high = _number(picture.width), _number(picture.height)
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" '
@@ -197,15 +198,15 @@ _TOOLS = """\
 
 
 def page(snapshot: Snapshot, svg: str, marks: Marks = NO_MARKS) -> str:
-    """Write the HTML page.
+    """Return the HTML page of a snapshot.
 
     Args:
-        snapshot: The frames.
-        svg: The picture of their trees.
-        marks: Faults of frames: ids of the doctor's checks.
+        snapshot: Frames for the table.
+        svg: Picture of the frames' trees.
+        marks: Ids of the doctor's findings about each frame.
 
     Returns:
-        HTML; nothing in a name acts in it.
+        Text of the page, in which names are escaped.
     """
     names = distinct(info.frame for info in snapshot.frames)
     told = f"Recorded at time: {display(snapshot.now)}"
@@ -269,7 +270,7 @@ def _table_row(info: FrameInfo, names: dict[str, str], marks: Marks) -> str:
 
 
 def _class(place: int, count: int, has_marks: bool) -> str:
-    """Return a column's CSS class: names may wrap, numbers are right-aligned."""
+    """Return a column's CSS class: names may be wrapped, numbers are aligned to the right."""
     if place < 2:
         return ' class="frame"'
     return ' class="number"' if 4 <= place < count - has_marks else ""

@@ -1,4 +1,4 @@
-"""Columns beside the first one, as many as fit a terminal."""
+"""Columns of a table after its first one, as many as fit a terminal's width."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,19 +13,19 @@ GAP = 2
 """Cells between two columns."""
 
 Cell: TypeAlias = tuple[str, str]
-"""Its text, and its style."""
+"""Text of a cell, and its style."""
 
 
 @dataclass(frozen=True, slots=True)
 class TableColumn:
-    """One column of cells.
+    """One column of a table.
 
     Attributes:
-        heading: Text above them.
-        cells: Texts, one for each row.
-        stands_right: Whether the cells are aligned to the right, as numbers are.
+        heading: Text above the cells.
+        cells: Text and style of the cell in each row.
+        stands_right: Whether to align the cells to the right, as numbers are.
         caps: Maximum widths, from wide to narrow: a column shrinks before it is dropped.
-        goes: Order in which columns are dropped from a narrow table; 0 for one that stays.
+        goes: Rank in which columns are dropped from a narrow table; 0 for one that stays.
     """
 
     heading: str
@@ -36,12 +36,12 @@ class TableColumn:
 
     @property
     def width(self) -> int:
-        """Return the column's width in cells, within its first limit."""
+        """Width of the column in cells, at most the first of `caps`."""
         longest = max(map(cell_len, [self.heading, *(text for text, _ in self.cells)]))
         return min([longest, *self.caps[:1]])
 
     def written(self, text: str, width: int, more: str) -> str:
-        """Cut or pad `text` to exactly `width` cells."""
+        """Cut or pad a text to exactly `width` cells."""
         shown = middle_cut(text, width, more=more)
         room = " " * (width - cell_len(shown))
         return room + shown if self.stands_right else shown + room
@@ -49,13 +49,13 @@ class TableColumn:
 
 @dataclass(frozen=True, slots=True)
 class FittedColumns:
-    """The columns that fit.
+    """Columns that fit a width, beside a first column.
 
     Attributes:
-        columns: From left to right.
-        widths: Width of each column.
-        room: Cells that are left for the text before them.
-        more: Sign for text that was left out.
+        columns: Columns from left to right.
+        widths: Width of each column in cells.
+        room: Width of the first column in cells.
+        more: Sign for text that was cut out.
     """
 
     columns: tuple[TableColumn, ...]
@@ -69,7 +69,7 @@ class FittedColumns:
         return self.room + sum(GAP + width for width in self.widths)
 
     def heading(self, first: str) -> Text:
-        """Return the heading line; `first` is the first column's heading."""
+        """Return the line of headings; `first` is the first column's heading."""
         shown = middle_cut(first, self.room, more=self.more)
         line = shown + " " * (self.room - cell_len(shown))
         for one, width in zip(self.columns, self.widths, strict=True):
@@ -77,7 +77,7 @@ class FittedColumns:
         return Text(line.rstrip(), style="dim")
 
     def row(self, place: int, first: Text) -> Text:
-        """Return one row, after the first column's text `first`."""
+        """Return the line of one row; `first` is the first column's text."""
         line = Text(no_wrap=True, overflow="crop").append_text(first)
         line.append(" " * (self.room - first.cell_len))
         for one, width in zip(self.columns, self.widths, strict=True):
@@ -90,14 +90,14 @@ class FittedColumns:
 def fit(
     columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
 ) -> FittedColumns:
-    """Keep as many columns as leave `wanted` cells for the first one.
+    """Return as many columns as leave `wanted` cells for the first column.
 
     Args:
-        columns: Columns from left to right; empty ones are always left out.
-        width: Cells there are.
-        wanted: Cells wanted for the first.
-        longest: Most cells that the first can use.
-        more: Sign for text that is left out.
+        columns: Columns from left to right; empty ones are left out.
+        width: Width of the table in cells.
+        wanted: Cells wanted for the first column.
+        longest: Most cells that the first column can use.
+        more: Sign for text that is cut out.
     """
     kept = [one for one in columns if any(text for text, _ in one.cells)]
     while True:

@@ -1,6 +1,6 @@
-"""Colours: turtlesim's own, a stable one per name, and those of screens and grounds.
+"""Colours: turtlesim's own, one for each name, and those of screens and backgrounds.
 
-Fading as in rviz is in the page's `screens/browser/page/model.js`.
+Colours that fade as in rviz are in the page's `screens/browser/page/model.js`.
 """
 
 import zlib
@@ -34,7 +34,7 @@ _PALETTE = (
 
 
 def blend(start: Color, end: Color, share: float) -> Color:
-    """Mix two colours: `start` at share 0, `end` at 1."""
+    """Mix two colours; share 0 gives `start`, 1 gives `end`."""
     return Color(
         round(start.r + share * (end.r - start.r)),
         round(start.g + share * (end.g - start.g)),
@@ -67,7 +67,7 @@ def ink(color: Color, *, bold: bool = False) -> Style:
 
 
 class Palette(NamedTuple):
-    """Colours of a screen outside the turtles' field, dark or light."""
+    """Colours of a dark or a light screen, except on the turtles' field."""
 
     ground: Color
     panel: Color
@@ -99,18 +99,18 @@ LIGHT = Palette(
 
 
 def is_stale(age: float) -> bool:
-    """Whether a frame was silent for a third of `FRAME_TIMEOUT`, so that its age is shown."""
+    """Return whether a frame is silent for so long that its age is shown."""
     # Asked this way round, an age that is not a number is stale.
     return not age <= FRAME_TIMEOUT / 3.0
 
 
 def of_age(color: Color, age: float, palette: Palette) -> Color:
-    """Return the colour of a silent frame: its own, then amber, then red when it counts as lost.
+    """Return a frame's colour by its age: its own, amber when silent, red when it counts as lost.
 
     Args:
-        color: The frame's own colour.
-        age: Seconds since its latest stamp last changed; 0 for static frames.
-        palette: Palette of the screen.
+        color: Colour of the frame.
+        age: Seconds since the frame's stamp last changed; 0 for static frames.
+        palette: Colours of the screen.
     """
     if not is_stale(age):
         return color
@@ -118,18 +118,18 @@ def of_age(color: Color, age: float, palette: Palette) -> Color:
 
 
 def readable(color: Color, palette: Palette) -> Color:
-    """Return a frame's colour, dark enough for a light screen."""
+    """Return a frame's colour, made darker for a light screen."""
     return blend(color, INK, 0.55) if palette is LIGHT else color
 
 
 def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool:
-    """Whether the terminal's background is light, by COLORFGBG, which some terminals set."""
+    """Return whether the variable COLORFGBG, if a terminal sets it, means a light background."""
     ground = environment.get("COLORFGBG", "").rpartition(";")[2]
     return ground in {"7", "15"}
 
 
 class PaperColors(NamedTuple):
-    """Colours of everything but frames on one background."""
+    """Colours of everything but the frames on one background."""
 
     ground: Color
     grid: Color
@@ -145,7 +145,7 @@ _DEEP: Final = (Color(205, 20, 30), Color(0, 135, 50), Color(20, 90, 230))
 
 
 def paper(palette: Palette) -> PaperColors:
-    """Return the colours on a screen's own background."""
+    """Return the colours for a screen's own background."""
     red, green, blue = _DEEP if palette is LIGHT else _BRIGHT
     return PaperColors(
         palette.panel,
@@ -159,7 +159,7 @@ def paper(palette: Palette) -> PaperColors:
 
 
 def on_field(ground: Color) -> PaperColors:
-    """Return the colours on the turtles' field, turtlesim's blue unless changed."""
+    """Return the colours for the turtles' field with a background colour."""
     return PaperColors(
         ground,
         blend(ground, WHITE, 0.13),

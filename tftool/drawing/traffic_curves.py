@@ -31,16 +31,16 @@ from tftool.geometry.rigid_arrays import Floats
 
 LONGEST: Final = seconds(60)
 SHORTEST: Final = seconds(5)
-"""Time across the curves: all of it at first, then the last minute."""
+"""Shortest time in nanoseconds that the curves show; it grows to a minute."""
 
 NUMBER: Final = 10
-"""Cells of a number with its unit."""
+"""Width in cells of a number with its unit."""
 
 GUTTER: Final = 5
-"""Cells left of a curve, for its scale."""
+"""Cells at the left of a curve for its scale."""
 
 WITH_SCALE: Final = 3
-"""Lines of a curve from which it has a scale."""
+"""Smallest number of lines of a curve with a scale."""
 
 _STEPS: Final = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
@@ -50,11 +50,11 @@ class TrafficLayout:
     """Size and style of the curves.
 
     Attributes:
-        width: Cells across.
-        height: Lines there are.
-        palette: The screen's colours.
-        ascii_only: Whether to draw with ASCII alone.
-        first: Number of rows above the first one shown.
+        width: Width in cells.
+        height: Height in lines.
+        palette: Colours of the screen.
+        ascii_only: Whether to draw with ASCII only.
+        first: Index of the first row to show.
     """
 
     width: int
@@ -65,26 +65,26 @@ class TrafficLayout:
 
     @property
     def more(self) -> str:
-        """Return the sign for omitted text."""
+        """Sign for text that is cut out."""
         return "~" if self.ascii_only else "…"
 
     @property
     def names(self) -> int:
-        """Return the cells of a frame's name."""
+        """Width in cells of the column of frame names."""
         return max(10, min(30, self.width // 4))
 
     @property
     def curve(self) -> int:
-        """Return the cells of one of two curves, with its scale; 0 if there is no room."""
+        """Width in cells of one of the two curves, with its scale; 0 without room."""
         left = self.width - self.names - 2 * NUMBER - 4
         return left // 2 if left >= 2 * (GUTTER + 6) else 0
 
     def ink(self, color: Color, *, bold: bool = False) -> Style:
-        """Return a style."""
+        """Return the style of text in a colour."""
         return theme.ink(color, bold=bold)
 
     def state(self, late: str) -> Color:
-        """Return the colour of numbers, amber or red of a late link."""
+        """Return the colour of a link's numbers: amber or red if the link is late."""
         palette = self.palette
         return {"yellow": palette.warning, "red": palette.error}.get(late, palette.text)
 
@@ -92,12 +92,12 @@ class TrafficLayout:
 def curves(
     now: Stamp, links: Sequence[FrameTraffic], history: TrafficHistory, layout: TrafficLayout
 ) -> list[Text]:
-    """Draw each link's rate and delay over the last minute; the lines are shared evenly.
+    """Draw each link's rate and delay over the last minute; the links share the lines evenly.
 
     Args:
-        now: The clock's time.
-        links: The links, from top to bottom.
-        history: Rates and delays of the last looks.
+        now: Current time of the clock in nanoseconds.
+        links: Links from top to bottom.
+        history: Earlier rates and delays of each link.
         layout: Size and style.
     """
     dim = layout.ink(layout.palette.dim)
@@ -127,11 +127,11 @@ def curves(
 
 
 def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
-    """List the publishers with their rates, as bars that take the width, and delays.
+    """Return lines about the publishers: their rates, with bars as wide as the screen, and delays.
 
     Args:
-        now: The clock's time.
-        traffic: The received messages.
+        now: Current time of the clock in nanoseconds.
+        traffic: Statistics of the received messages.
         layout: Size and style.
     """
     palette = layout.palette
@@ -194,7 +194,7 @@ def _block(
     height: int,
     layout: TrafficLayout,
 ) -> list[Text]:
-    """Return the lines of one link: words, and both curves beside their numbers."""
+    """Return the lines of one link: its name, and both curves beside their numbers."""
     palette = layout.palette
     dim = layout.ink(palette.dim)
     late = late_style(now, link.series, link.is_static)
@@ -229,7 +229,7 @@ def _block(
 
 
 def _numbers(now: Stamp, link: FrameTraffic, tall: int) -> tuple[list[str], list[str]]:
-    """Return the numbers left of both curves, a line each."""
+    """Return the numbers at the left of the rate and of the delay curve, one per line."""
     series: Series = link.series
     if link.is_static:
         return ["static"], []
@@ -253,7 +253,7 @@ def _curve(
     color: Color,
     layout: TrafficLayout,
 ) -> list[Text]:
-    """Draw one curve from 0 to a round number above its maximum, filled; a line per row."""
+    """Draw one filled curve, from 0 to a round number above its maximum; one line per row."""
     columns, rows = size
     if not columns or not looks:
         return [Text(" " * columns)] * rows
@@ -285,7 +285,7 @@ def _heights(
     window: Duration,
     count: int,
 ) -> Floats:
-    """Return the value in each of `count` columns of dots; NaN before the first look."""
+    """Return the value in each of `count` columns of dots; NaN before the first value."""
     moments = np.array([as_seconds(one.moment - now + window) for one in looks])
     known = np.array([math.nan if one is None else one for one in values])
     at = np.linspace(0.0, as_seconds(window), count)
@@ -301,7 +301,7 @@ def _filled(
     palette: theme.Palette,
     ascii_only: bool,
 ) -> list[list[tuple[str, str]]]:
-    """Return the cells of a curve, bright, above a fill that fades towards the bottom."""
+    """Return the cells of a curve: bright dots above a fill that fades towards the bottom."""
     dots = Dots(columns, rows)
     last = 4 * rows - 1
     known = np.flatnonzero(np.isfinite(heights))

@@ -1,4 +1,4 @@
-"""Rates and delays of received transforms: tf2_monitor's lines, a table, JSON."""
+"""Rates and delays of received transforms: in tf2_monitor's format, as a table, as JSON."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -21,13 +21,13 @@ NONE = "-"
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """A monitor's two frames, and the links between them.
+    """Pair of frames to monitor, with the links between them.
 
     Attributes:
-        target: The frame looked up in.
-        source: The frame looked up.
-        frames: From source to target, both included.
-        delay: Ages of the latest answers, one for each lookup.
+        target: Frame in which the pose is looked up.
+        source: Frame whose pose is looked up.
+        frames: Frames from source to target, both included.
+        delay: Statistics of the age of the pair's transform at each lookup.
     """
 
     target: str
@@ -37,12 +37,12 @@ class Chain:
 
 
 def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False) -> str:
-    """Format a report as tf2_monitor does.
+    """Format a report on received transforms as tf2_monitor does.
 
     Args:
-        traffic: The received messages.
+        traffic: Statistics of the received messages.
         chain: Pair of the report; None for all frames.
-        as_tf2: Whether to print tf2_monitor's own numbers; see `frames.traffic`.
+        as_tf2: Whether to compute the numbers as tf2_monitor does; see `frames.traffic`.
 
     Returns:
         Lines, each with its newline.
@@ -67,7 +67,7 @@ def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False)
 
 
 def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
-    """Format a frame as tf2_monitor does."""
+    """Format the line about one frame as tf2_monitor does."""
     average, maximum = _delays(link.series, as_tf2)
     return (
         f"Frame: {visible(link.frame)}, published by {visible(link.sender)}, "
@@ -76,7 +76,7 @@ def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
 
 
 def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
-    """Format a broadcaster as tf2_monitor does (without a comma, as there)."""
+    """Format the line about one broadcaster as tf2_monitor does (also without a comma)."""
     average, maximum = _delays(series, as_tf2)
     rate = series.tf2_rate if as_tf2 else series.rate
     return (
@@ -97,15 +97,15 @@ def table(
     """Return a table of frames, in the chain's order if there is one, and of publishers.
 
     Late links, by the doctor's limits, are amber: stamped long before they arrive, or silent for
-    many periods; red after a longer silence.
+    many periods. After a longer silence they are red.
 
     Args:
-        now: The clock's time.
+        now: Current time of the clock in nanoseconds.
         began: Time when listening began, nanoseconds.
-        traffic: The received messages.
+        traffic: Statistics of the received messages.
         chain: Pair of the report; None for all frames.
-        width: Columns there are.
-        height: Lines there are; the rest is counted.
+        width: Width in cells.
+        height: Height in lines; further rows are counted.
         ascii_only: Whether to draw with ASCII only.
     """
     links = links_of(traffic, chain)
@@ -167,7 +167,7 @@ def _rows(
 
 
 def _within(rows: list[Text], room: int) -> list[Text]:
-    """Return the first rows, and the number of rows left out."""
+    """Return the first rows, and a line with the number of rows left out."""
     if len(rows) <= max(2, room):
         return rows
     kept = max(1, room - 1)
@@ -177,7 +177,7 @@ def _within(rows: list[Text], room: int) -> list[Text]:
 def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
 ) -> list[TableColumn]:
-    """Return rate, delay, and silence of each repeated transform."""
+    """Return the columns of rate, delay and time since the last message."""
     rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
     late = [late_style(now, one, still) for one, still in zip(series, statics, strict=True)]
 
@@ -214,30 +214,30 @@ def _measures(
 
 
 BAR = 8
-"""Cells of the longest bar."""
+"""Width in cells of the longest bar."""
 
 
 def bar(rate: float, fastest: float, cells: int = BAR, *, ascii_only: bool) -> str:
-    """Return a bar as long as a rate is high; bars in neighbouring lines stay apart."""
+    """Return a bar whose length shows a rate; the bar is lower than a line, so bars stay apart."""
     if fastest <= 0.0 or rate <= 0.0:
         return ""
     return ("#" if ascii_only else "▇") * max(1, round(cells * rate / fastest))
 
 
 def silence(now: Stamp, series: Series) -> Duration:
-    """Return the time since the last message."""
+    """Return the nanoseconds since the last message."""
     return 0 if series.last is None else now - series.last
 
 
 def is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
-    """Whether a link is silent for many of its periods."""
+    """Return whether a link has been silent for many of its periods."""
     if is_static or series.rate is None:
         return False
     return as_seconds(silence(now, series)) > max(STOPPED_AFTER, STOPPED_PERIODS / series.rate)
 
 
 def late_style(now: Stamp, series: Series, is_static: bool) -> str:
-    """Return the style of a delayed link; "" for others."""
+    """Return the style of a link's numbers: yellow or red if the link is late, else ""."""
     if is_silent(now, series, is_static):
         return "red" if as_seconds(silence(now, series)) > FRAME_TIMEOUT else "yellow"
     delay = series.average_delay
@@ -247,7 +247,7 @@ def late_style(now: Stamp, series: Series, is_static: bool) -> str:
 
 
 def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[str, Any]:
-    """Return the report for --json: seconds and hertz, null where unknown."""
+    """Return a report as a mapping, for --json: seconds and hertz, null if unknown."""
     result: dict[str, Any] = {"at_ns": now}
     if chain is not None:
         result |= {
@@ -273,7 +273,7 @@ def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[
 
 
 def links_of(traffic: Traffic, chain: Chain | None) -> list[FrameTraffic]:
-    """Return the links of a report, by name."""
+    """Return the links of a report, sorted by name."""
     wanted: Collection[str] = traffic.links if chain is None else chain.frames
     return [link for name, link in sorted(traffic.links.items()) if name in wanted]
 
@@ -298,5 +298,5 @@ def _number(value: float | None) -> str:
 
 
 def milliseconds(value: float | None) -> str:
-    """Format seconds as milliseconds."""
+    """Format a number of seconds as milliseconds."""
     return NONE if value is None else f"{value * 1e3:.1f} ms"

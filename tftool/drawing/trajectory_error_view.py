@@ -1,4 +1,4 @@
-"""Trajectory errors as a table, as JSON, and as panels of a figure."""
+"""Errors between two trajectories, as a table, as JSON, and as panels of a figure."""
 
 from typing import Final
 
@@ -24,12 +24,12 @@ _FIGURES: Final = ("rmse", "mean", "median", "std", "min", "max")
 
 
 def lines(found: TrajectoryErrors, names: tuple[str, str], width: int | None = None) -> str:
-    """Return both sides, their matching, and a line for each kind of error.
+    """Return the errors as text: both trajectories, their matching, and a line per kind of error.
 
     Args:
         found: The errors.
-        names: Names of A and B.
-        width: Cells of a line; no limit if None.
+        names: Names of trajectories A and B.
+        width: Longest line in cells; None for no limit.
     """
     text = [
         f"{side} {visible(name)}: {visible(source)} in {visible(target)}, {total} poses"
@@ -51,7 +51,7 @@ def lines(found: TrajectoryErrors, names: tuple[str, str], width: int | None = N
 
 
 def as_object(found: TrajectoryErrors, names: tuple[str, str]) -> dict[str, object]:
-    """Return everything for --json."""
+    """Return the errors between two trajectories as a mapping, for --json."""
     kinds = dict.fromkeys(one.name for one in found.columns)
     return {
         "a": names[0],
@@ -71,7 +71,7 @@ def as_object(found: TrajectoryErrors, names: tuple[str, str]) -> dict[str, obje
 
 
 def panels(found: TrajectoryErrors) -> list[PlotPanel]:
-    """Return a panel for each kind of error, over seconds since the first matched pose."""
+    """Return a panel for each kind of error, over the seconds since the first matched pose."""
     start = min(int(one.stamps[0]) for one in found.columns)
     return [
         PlotPanel(one.name.upper(), one.unit.replace("deg", "°"), (_curve(one, start),))

@@ -1,12 +1,12 @@
-"""Tidy layout of a forest, in numbers only.
+"""Tidy layout of a forest, computed with numbers only.
 
 A parent is above the middle of its first and last child, siblings keep a gap, and subtrees are as
 close as their outlines allow (the idea of Reingold and Tilford). Packing from one side makes small
 subtrees lean on one neighbour. So the forest is packed from both sides and the results are
 averaged: both keep every distance, therefore the mean does, and it is symmetric.
 
-Time and memory are linear in the number of items. Nothing recurses, so that a chain of thousands is
-no problem.
+Time and memory are linear in the number of items. No function is recursive, so a chain of
+thousands of items is no problem.
 """
 
 from collections.abc import Sequence
@@ -15,12 +15,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """One item to place.
+    """Item of the layout, such as a card.
 
     Attributes:
         breadth: Extent across the direction of growth.
-        children: Indices of the items that hang from it, in order.
-        levels: Number of levels it fills, from its own on. An item with children fills one.
+        children: Indices of the item's children, in order.
+        levels: Number of levels that the item fills; an item with children fills one.
     """
 
     breadth: float
@@ -41,12 +41,12 @@ def tidy(items: Sequence[Item], roots: Sequence[int], *, gap: float, tree_gap: f
 
     Args:
         items: All items; each is reached from the roots exactly once.
-        roots: Indices of the trees' roots, in the order they stand side by side.
-        gap: Least distance between neighbours on one level.
-        tree_gap: Least distance between two trees.
+        roots: Indices of the trees' roots, from left to right.
+        gap: Smallest distance between neighbours on one level.
+        tree_gap: Smallest distance between two trees.
 
     Returns:
-        One place per item, in their order.
+        One place per item, in the order of the items.
     """
     order = _parents_first(items, roots)
     forward = _pack(items, roots, order, gap, tree_gap, mirrored=False)
@@ -83,7 +83,7 @@ def _pack(
     *,
     mirrored: bool,
 ) -> list[float]:
-    """Move each subtree as far to one side as its neighbours allow; return the centres."""
+    """Move each subtree to one side as far as its neighbours allow; return the items' centres."""
     offsets = [0.0] * len(items)
     outlines: dict[int, _Outline] = {}
     for index in reversed(order):
@@ -112,7 +112,7 @@ def _pack(
 def _row(
     indices: Sequence[int], outlines: dict[int, "_Outline"], offsets: list[float], gap: float
 ) -> "_Outline":
-    """Place subtrees side by side, note their positions, return their common outline."""
+    """Place subtrees side by side, store their offsets, and return their common outline."""
     together = _Outline()
     for index in indices:
         outline = outlines.pop(index)
@@ -148,7 +148,7 @@ class _Outline:
         return max(self.right) + self.right_shift
 
     def crown(self, half: float, levels: int) -> None:
-        """Put an item of half this breadth on top, as high as this many levels."""
+        """Add an item of half-breadth `half` on top, as high as `levels` levels."""
         self.left.extend([-half - self.left_shift] * levels)
         self.right.extend([half - self.right_shift] * levels)
 
@@ -163,7 +163,7 @@ class _Outline:
         return reach + self.right_shift - other.left_shift + gap
 
     def add(self, other: "_Outline", position: float) -> None:
-        """Add `other` to the outline, to the right at `position`."""
+        """Add another outline at a position to the right of this one."""
         other.shift(position)
         common = min(len(self.left), len(other.left))
         if len(other.left) > len(self.left):

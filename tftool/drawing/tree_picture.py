@@ -1,7 +1,7 @@
-"""Pictures of the tree: dot, mermaid, SVG, HTML, PDF and PNG, without Graphviz.
+"""Pictures of the frame tree as dot, Mermaid, SVG, HTML, PDF or PNG, without Graphviz.
 
-dot is the text of view_frames, so that programs for frames.gv can read it. The other formats are
-tftool's own. All of them show names unchanged.
+dot is the text of view_frames, so that programs for frames.gv can read it. The other formats have
+tftool's own layout. All of them show names unchanged.
 """
 
 import re
@@ -19,12 +19,12 @@ from tftool.drawing.picture import MOST_DRAWN, lay_out
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A drawing, ready to write to a file.
+    """Content of a picture's file.
 
     Attributes:
-        content: Text, or bytes for PDF.
-        left_out: Frames that are not in it.
-        note: A sentence about omitted or shortened text; empty when nothing is.
+        content: Text, or bytes for PDF and PNG.
+        left_out: Number of frames that are not in the picture.
+        note: Sentence about what was left out or shortened; empty if nothing was.
     """
 
     content: str | bytes
@@ -33,12 +33,12 @@ class Drawing:
 
 
 def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
-    """Draw a snapshot in one of `FORMATS`.
+    """Draw a snapshot's trees in one of `FORMATS`.
 
     Args:
-        snapshot: Values to draw.
-        form: The format.
-        marks: Faults of frames: ids of the doctor's checks.
+        snapshot: Frames to draw.
+        form: Name of the format.
+        marks: Ids of the doctor's findings about each frame.
 
     Raises:
         KeyError: If there is no such format.
@@ -47,10 +47,10 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
 
 
 def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Format view_frames' dot, byte for byte as long as no link is static.
+    """Return the text of view_frames' dot file, the same byte for byte unless a link is static.
 
     Static links are dashed. view_frames attaches its legend to one of several trees, and fails on a
-    loop; here every root has a legend line, and a loop has none. All frames are in the drawing.
+    loop; here every root has a legend line, and a loop has none. All frames are in the picture.
     """
     named = distinct(frame.frame for frame in snapshot.frames)
     known = frozenset(named)
@@ -106,7 +106,7 @@ _MERMAID_NAME = 60
 
 
 def mermaid(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Format a Mermaid flowchart, as GitHub and many wikis draw it.
+    """Return a Mermaid flowchart of the trees, which GitHub and many wikis draw.
 
     Mermaid refuses large charts. Then links show only their rate, and if that is not enough, the
     frames farthest from their root are left out; the chart says so.
@@ -152,24 +152,24 @@ def _flowchart(snapshot: Snapshot, forest: Forest, *, full: bool, note: str = ""
 
 
 def _mermaid_text(text: str) -> str:
-    """Escape every character with a meaning in Mermaid, Markdown or HTML as its number."""
+    """Escape every character that has a meaning in Mermaid, Markdown or HTML."""
     # "fa:fa-car" would become a picture, and numbers are read before that happens.
     text = text.replace(":fa-", ":\u200bfa-")
     return _ACTIVE.sub(lambda found: f"#{ord(found[0])};", text)
 
 
 _ACTIVE = re.compile(r"[^\w\s,:/.\-\u0080-\U0010ffff]|(?<![^\W_])[_.-]|[_.-](?![^\W_])")
-"""Signs that may act; those that names and numbers are full of only where they could."""
+"""Characters to escape; common ones in names and numbers only where they could have a meaning."""
 
 
 def svg(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Draw the trees as SVG in our own layout; at most `MOST_DRAWN` frames."""
+    """Draw the trees as SVG in tftool's own layout; at most `MOST_DRAWN` frames."""
     picture = lay_out(snapshot, stale=_stale(marks))
     return Drawing(svg_writer.render(picture), picture.left_out, _picture_note(picture.left_out))
 
 
 def page(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Draw the trees as one HTML file: the SVG, and below it a table of all frames."""
+    """Draw the trees as one HTML file: the SVG picture, and below it a table of all frames."""
     picture = lay_out(snapshot, stale=_stale(marks))
     content = svg_writer.page(snapshot, svg_writer.render(picture), marks)
     return Drawing(content, picture.left_out, _picture_note(picture.left_out))
@@ -178,7 +178,7 @@ def page(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
 def pdf(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Draw the trees as a PDF page; at most `MOST_DRAWN` frames.
 
-    Letters that Helvetica lacks are written as their numbers.
+    Letters that Helvetica lacks are written as their codes.
     """
     picture = lay_out(snapshot, stale=_stale(marks))
     notes = [_picture_note(picture.left_out), _letters_note(pdf_writer.missing_letters(picture))]
@@ -187,7 +187,7 @@ def pdf(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
 
 
 def png(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Draw the trees as PNG; at most `MOST_DRAWN` frames.
+    """Draw the trees as a PNG image; at most `MOST_DRAWN` frames.
 
     Raises:
         UsageError: If the extra `plot` is not installed.
@@ -243,7 +243,7 @@ FORMATS: Mapping[str, Callable[[Snapshot, Marks], Drawing]] = {
     "pdf": pdf,
     "png": png,
 }
-"""The formats by name."""
+"""Function that draws each format, by the format's name."""
 
 SUFFIXES: Mapping[str, str] = {
     ".dot": "dot",
@@ -256,4 +256,4 @@ SUFFIXES: Mapping[str, str] = {
     ".pdf": "pdf",
     ".png": "png",
 }
-"""The format a file's suffix asks for."""
+"""Name of the format for each suffix of a file."""
