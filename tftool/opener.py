@@ -155,10 +155,11 @@ def named(word: str) -> Found:
     Raises:
         InputError: If the word names nothing, or a file that cannot be read.
     """
-    if builtin.is_like_a_name(word):
-        path = builtin.path_of(word)
-        if path is not None:
-            return Found(word, Kind.SCENARIO, (path,))
+    path = Path(word)
+    if path.name == word and not path.suffix:
+        scenario = builtin.path_of(word)
+        if scenario is not None:
+            return Found(word, Kind.SCENARIO, (scenario,))
         if not names_a_path(word):
             raise InputError(builtin.unknown(word))
     return find(word)

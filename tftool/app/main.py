@@ -3,6 +3,8 @@
 Each command is a typer app of its own, made when it is named: nothing of the others is imported.
 """
 
+import codecs
+import errno
 import gc
 import os
 import sys
@@ -17,6 +19,22 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from tftool.commands.shared.connection import Providers
+
+
+_WRITTEN_PLAINLY = "tftool.plain"
+_PLAIN = {
+    **dict(zip("─━│┃├└┤●▸×−·↑↓█░²", "--|||`|*>x-|^v#:2", strict=True)),
+    "→": "->",
+    "←": "<-",
+    "…": "...",
+    "°": "deg",
+    "π": "pi",
+    "±": "+-",
+}
+"""What tftool's own signs are on a terminal, or in a file, whose encoding lacks them."""
+
+DESCRIPTORS = 32
+"""Files and sockets that a command may come to need at once."""
 
 
 def _set_up_completion(*, show: bool) -> None:
@@ -50,14 +68,10 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             gc.disable()
             _leave_on_signals()
             argv = sys.argv[1:]
-        from tftool.base import (
-            process_streams as streams,  # an interrupt in an import would be a traceback before
-        )
-
-        streams.prepare()
+        _prepare_streams()
         if "_TFTOOL_COMPLETE" in os.environ:
             return _complete(list(argv))
-        streams.require_descriptors()
+        _require_descriptors()
         status = _run(list(argv), providers)
         sys.stdout.flush()
         if is_own:
@@ -72,7 +86,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
     except BrokenPipeError:
         # The reader has seen enough (`| head -1`): that is no failure. Text still
         # buffered would be written at exit, so it goes nowhere.
-        streams.forget_output()
+        _forget_output()
         status = ExitStatus.DONE
     except MemoryError:
         _complain("tftool", "The memory that is left does not suffice for that.")
@@ -83,7 +97,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             _complain("tftool", f"{error or 'Something did not answer in time'}.")
             return ExitStatus.FAILED
         # Who opens a file answers for it; the rest is mostly stdout on a full disk.
-        streams.forget_output()
+        _forget_output()
         what = error.filename or "the output cannot be written"
         _complain("tftool", f"{what}: {error.strerror or error}.")
         status = ExitStatus.UNREADABLE
@@ -128,7 +142,6 @@ def _leave_on_signals() -> None:
 
 
 def _run(argv: list[str], providers: "Providers | None") -> int:
-    from tftool.base import process_streams as streams
     from tftool.base.errors import InputError, TftoolError, TransformException, UsageError
 
     try:
@@ -148,7 +161,7 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
         _complain("tftool", str(error))
         return ExitStatus.NO_TRANSFORM
     except TftoolError as error:
-        if isinstance(error.__cause__, BrokenPipeError) and streams.has_no_reader():
+        if isinstance(error.__cause__, BrokenPipeError) and _has_no_reader():
             # A node of one's own prints, too, and its reader may have seen enough.
             raise error.__cause__ from None
         _complain("tftool", str(error))
@@ -193,3 +206,73 @@ def _complain(who: str, sentence: str) -> None:
     from tftool.commands.shared.notices import complain
 
     complain(who, sentence)
+
+
+# The process's streams
+
+
+def _prepare_streams() -> None:
+    """Ensure that stdout and stderr exist and accept any text."""
+    codecs.register_error(_WRITTEN_PLAINLY, _written_plainly)
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by what started us
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+        elif hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors=_WRITTEN_PLAINLY)
+
+
+def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
+    """Encode characters that an encoding lacks: tftool's own signs as ASCII, others as escapes."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    char = error.object[error.start]
+    if char in _PLAIN:
+        return _PLAIN[char], error.start + 1
+    return char.encode("ascii", "backslashreplace").decode(), error.start + 1
+
+
+def _require_descriptors() -> None:
+    """Raise the limit of open files if few are left; some libraries crash at the limit.
+
+    Raises:
+        OSError: If the limit cannot be raised; the message names the remedy.
+    """
+    probes: list[int] = []
+    try:
+        while len(probes) < DESCRIPTORS:
+            probes.append(os.dup(2))
+    except OSError as error:
+        if error.errno == errno.EBADF:  # no stderr, so nothing to try it with
+            return
+        raise OSError(
+            error.errno,
+            f"tftool needs {DESCRIPTORS} files and sockets, and may open only {len(probes)} more; "
+            "ulimit -n 256 raises that",
+            "too few file descriptors",
+        ) from None
+    finally:
+        for probe in probes:
+            os.close(probe)
+
+
+def _has_no_reader() -> bool:
+    """Whether stdout is a pipe without a reader."""
+    import select
+
+    if not hasattr(select, "poll"):
+        return True
+    watched = select.poll()
+    try:
+        watched.register(sys.stdout.fileno(), 0)
+    except (OSError, ValueError):  # a stdout that is no file has no number
+        return False
+    return any(event & select.POLLERR for _, event in watched.poll(0))
+
+
+def _forget_output() -> None:
+    """Discard the text buffered for stdout."""
+    from contextlib import suppress
+
+    with suppress(OSError, ValueError):  # a stdout that is no file has no number
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -59,12 +59,6 @@ def is_shipped(path: Path) -> bool:
     return path.parent == folder()
 
 
-def is_like_a_name(word: str) -> bool:
-    """Whether a word that is not a file was probably meant as a scenario's name."""
-    path = Path(word)
-    return path.name == word and not path.suffix
-
-
 def unknown(word: str) -> str:
     """Return the sentence about a word that is neither a built-in scenario nor a file."""
     near = near_names(word, names())

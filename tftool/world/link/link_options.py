@@ -28,6 +28,8 @@ def _declared(place: str) -> type[Reach]:
 
 REACHES: Final = tuple(_declared(place) for place in MIDDLEWARES)
 
+_OWNERS: Final = {name: one for one in REACHES for name in one.OPTIONS}
+
 
 def read_reach(given: Mapping[str, Any]) -> Reach:
     """Return a link's reach from options.
@@ -40,13 +42,15 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
         InputError: If a file is missing, or not of the stated kind.
         TypeError: If an option is none of theirs.
     """
-    unknown = [name for name in given if not any(name in one.OPTIONS for one in REACHES)]
-    if unknown:
-        raise TypeError(f"no middleware has an option '{unknown[0]}'")
-    asked = [one for one in REACHES if any(given.get(name) for name in one.OPTIONS)]
+    asked: set[type[Reach]] = set()
+    for name, value in given.items():
+        if name not in _OWNERS:
+            raise TypeError(f"no middleware has an option '{name}'")
+        if value:
+            asked.add(_OWNERS[name])
     if len(asked) > 1:
-        raise UsageError(asked[-1].ALONE)
-    return (asked or REACHES)[0].read(given)
+        raise UsageError(max(asked, key=REACHES.index).ALONE)
+    return asked.pop().read(given) if asked else REACHES[0]()
 
 
 def reach_at(word: str) -> Reach | None:
@@ -55,8 +59,10 @@ def reach_at(word: str) -> Reach | None:
     Raises:
         UsageError: If the address is malformed.
     """
-    found = (one.at(word) for one in REACHES)
-    return next((one for one in found if one is not None), None)
+    for one in REACHES:
+        if word.lower().startswith(one.SCHEMES):
+            return one.at(word)
+    return None
 
 
 @dataclass(frozen=True, slots=True)

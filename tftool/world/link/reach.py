@@ -54,14 +54,17 @@ class Reach:
     only_reads: ClassVar[bool] = False
     """Whether nothing can be published by it."""
 
+    SCHEMES: ClassVar[tuple[str, ...]] = ()
+    """Beginnings of the addresses of its sessions, in lower case: "ws://"."""
+
     @classmethod
-    def at(cls, word: str) -> "Reach | None":
-        """Return the reach to the session whose address a word is; None for other words.
+    def at(cls, address: str) -> "Reach":
+        """Return the reach to a session by its address, which begins with one of `SCHEMES`.
 
         Raises:
-            UsageError: If the text begins as such an address, and is malformed.
+            UsageError: If the address is malformed.
         """
-        return None
+        raise NotImplementedError
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "Reach":

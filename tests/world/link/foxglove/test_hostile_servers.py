@@ -21,7 +21,7 @@ from tftool.messages.transforms import encode_transforms
 from tftool.world.clock import WallClock
 from tftool.world.link.foxglove.client import ClientReceiver, FoxgloveClient
 from tftool.world.link.foxglove.protocol import MOST_DEFINITIONS, ServerState
-from tftool.world.link.foxglove.reach import FoxgloveReach
+from tftool.world.link.link_options import reach_at
 from tftool.world.link.queues import Inbox
 
 INFO = json.dumps({"op": "serverInfo", "name": "stranger", "capabilities": []})
@@ -476,9 +476,9 @@ def test_certificates_are_checked(robots, tmp_path, monkeypatch):
 
 
 def test_an_address_is_checked_before_it_is_used():
-    assert FoxgloveReach.at("run.mcap") is None
-    assert FoxgloveReach.at("https://robot/run.mcap") is None
-    assert FoxgloveReach.at("WSS://[::1]:8765/x?y=1").place(0) == "wss://[::1]:8765/x"
+    assert reach_at("run.mcap") is None
+    assert reach_at("https://robot/run.mcap") is None
+    assert reach_at("WSS://[::1]:8765/x?y=1").place(0) == "wss://[::1]:8765/x"
     for wrong in ("ws://", "ws://robot:99999", "ws://robot#x", "ws://a b"):
         with pytest.raises(UsageError):
-            FoxgloveReach.at(wrong)
+            reach_at(wrong)

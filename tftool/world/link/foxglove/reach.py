@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from tftool.world.link.link_options import Options
     from tftool.world.link.seam import Middleware
 
-_SCHEME: Final = re.compile(r"wss?://", re.IGNORECASE)
 _ADDRESS: Final = re.compile(
     r"wss?://(?:[^\s/?#@]*@)?(?:\[[0-9a-f:.%]+\]|[^\s/?#@:\[\]]+)(?::([0-9]{1,5}))?(?:[/?][^\s#]*)?",
     re.IGNORECASE,
@@ -26,20 +25,19 @@ class FoxgloveReach(Reach):
         address: Address of the server, "ws://robot:8765".
     """
 
+    SCHEMES = ("ws://", "wss://")
     is_robots = True
     only_reads = True
 
     address: str = ""
 
     @classmethod
-    def at(cls, word: str) -> "FoxgloveReach | None":
-        """Return the reach to the server whose address a word is; see `Reach.at`."""
-        if _SCHEME.match(word) is None:
-            return None
-        found = _ADDRESS.fullmatch(word)
+    def at(cls, address: str) -> "FoxgloveReach":
+        """Return the reach to the server at an address; see `Reach.at`."""
+        found = _ADDRESS.fullmatch(address)
         if found is None or not 0 < int(found[1] or 1) < 65536:
-            raise UsageError(f"'{word}' is not a server address: write ws://HOST:8765.")
-        return cls(word)
+            raise UsageError(f"'{address}' is not a server address: write ws://HOST:8765.")
+        return cls(address)
 
     def awaits_others(self, *, hosts: bool) -> bool:
         """Whether the session is elsewhere: always."""
