@@ -45,6 +45,7 @@ class Robot:
     slashed: dict[tuple[str, str, bool], int] = field(default_factory=dict)
     clock: list[tuple[int, int]] = field(default_factory=list)
     damage: tuple[str, ...] = ()
+    kind: str = "columns"
     urdf: str = ""
     joints: frozenset[str] | None = None
     odometry: "Robot | None" = None
@@ -173,7 +174,7 @@ class Robot:
             mistakes=mistakes,
             odometry=None if self.odometry is None else self.odometry.evidence().transforms,
             name="made up",
-            kind="columns",
+            kind=self.kind,
             transforms=transforms,
             headers=headers,
             clock=(clock[:, 0].copy(), clock[:, 1].copy()),

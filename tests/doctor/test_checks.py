@@ -118,7 +118,7 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
     conflict = found(few, "publisher-conflict")
     assert (conflict.severity, conflict.confidence) == (Severity.WARNING, Confidence.POSSIBLE)
     assert [fix.text.split(":")[0] for fix in conflict.fixes] == ["find its publishers"]
-    assert "ros2 topic info /tf " in conflict.fixes[0].text
+    assert "ros2 topic info --verbose /tf" in conflict.fixes[0].text
 
 
 def test_publishers_of_odometry_are_looked_for_on_its_topic():
@@ -131,7 +131,7 @@ def test_publishers_of_odometry_are_looked_for_on_its_topic():
 
     conflict = found(made, "publisher-conflict")
 
-    assert "ros2 topic info /odom " in conflict.fixes[0].text
+    assert "ros2 topic info --verbose /odom" in conflict.fixes[0].text
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])

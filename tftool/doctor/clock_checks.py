@@ -45,12 +45,7 @@ CONSTANTS_AHEAD = seconds(1)
     headline="{where} {concerned:is|are} stamped with {odd_clock}, all others with {usual_clock}",
     detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
     consequence="no lookup across the two clocks can succeed",
-    fixes=(
-        Fix(
-            "use_sim_time: {setting} for the nodes that publish them; `ros2 param get NODE "
-            "use_sim_time` prints a node's setting"
-        ),
-    ),
+    fixes=(Fix("{sim_time}"),),
     causes=(
         "one node without use_sim_time",
         "simulated time set on a real robot",
@@ -449,7 +444,7 @@ def _offsets(model: Model) -> list[str]:
     headline="{where} {concerned:has|have} stamp 0",
     detail="{edge}: {count} of {of} samples",
     consequence="lookups at any other time refuse; in a query, 0 means the latest time",
-    fixes=(Fix("stamp it: t.header.stamp = self.get_clock().now().to_msg(), inside the loop"),),
+    fixes=(Fix("stamp it: t.header.stamp = {now}, inside the loop"),),
     causes=(
         "the stamp is never set",
         "use_sim_time without /clock",
@@ -521,11 +516,8 @@ def _unfreeze(model: Model, stream: "Track | Heard") -> Fix:
             "look at the scan topic and its transforms: a localiser repeats the stamp of the last "
             "scan it could use, so find out why its scans stopped; do not stamp it anew"
         )
-    now = "self.get_clock().now().to_msg()"
-    if model.evidence.kind == "ROS 1 bag":
-        now = "rospy.Time.now() (C++: ros::Time::now())"
     name = "t" if isinstance(stream, Track) else "message"
-    return Fix(f"set the stamp inside the loop: {name}.header.stamp = {now}")
+    return Fix(f"set the stamp inside the loop: {name}.header.stamp = {{now}}")
 
 
 def stands_still(stream: "Track | Heard") -> bool:
@@ -562,13 +554,12 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     "the same value",
     headline="{where} {concerned:repeats|repeat} stamps",
     detail="{edge}: {count} of {of} samples repeat a stamp",
-    consequence="ROS 1 prints TF_REPEATED_DATA for each; ROS 2 ignores equal ones and lets the "
-    "later of different ones win",
+    consequence="{repeats}",
     fixes=(
         Fix("send a transform only when its stamp is newer than the last one's"),
         Fix(
             "where two nodes send it (a simulator's wheels and robot_state_publisher), switch one "
-            "off: `ros2 topic info /tf --verbose` lists them"
+            "off: `{publishers} /tf` lists them"
         ),
     ),
     causes=(
@@ -611,14 +602,8 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="time went back by {back:span}, {count:times}",
     detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
     "streams; all that follows is about what came before",
-    consequence="C++ listeners clear their buffers, Python ones up to humble refuse all new data "
-    "as old (TF_OLD_DATA) until the old time is reached again",
-    fixes=(
-        Fix(
-            "play with --clock and set use_sim_time: true; in Python on humble restart, or "
-            "clear the buffer"
-        ),
-    ),
+    consequence="{jumped_back}",
+    fixes=(Fix("{play_again}"),),
     causes=(
         "play --loop",
         "a simulation was reset",

@@ -13,6 +13,7 @@ from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.clock_checks import stands_still
 from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import WARM_UP, Limits, Model
+from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
 from tftool.doctor.wording import ALIKE, arrival, several
 from tftool.recordings.contract import Stamps
@@ -223,7 +224,7 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
     detail="messages are in {frames}, which no transform names",
     consequence="these sensors cannot be placed",
     fixes=(
-        Fix("record with /tf and /tf_static (ROS 1: rosbag record --repeat-latched)"),
+        Fix("{record}"),
         Fix(
             "take the statics from the first part of the recording, or the robot description:",
             "tftool edit RECORDING -o WHOLE --statics-from FIRST_PART",
@@ -269,9 +270,9 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     "static-not-latched",
     Severity.ERROR,
     rule="a publisher offers a static topic with durability volatile",
-    headline="{topic} is offered volatile by {by}",
+    headline="{topic} is offered {volatile} by {by}",
     consequence="a listener that starts later never gets these statics",
-    fixes=(Fix("publish it with durability transient_local (a StaticTransformBroadcaster does)"),),
+    fixes=(Fix("publish it {latched} (a StaticTransformBroadcaster does)"),),
     causes=("a relay or bridge with default QoS",),
     links=threads("ros2/geometry2#585", "realsenseai/realsense-ros#141"),
     needs=("durability",),
@@ -359,7 +360,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
     """Statics are in several messages, and playback keeps only the last."""
     transforms = model.evidence.transforms
-    kept = 1 if model.evidence.kind == "ROS 1 bag" else int(limits["kept"])
+    kept = 1 if is_ros1(model.evidence) else int(limits["kept"])
     held: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
     for edge in transforms.edges:
         for message in np.unique(edge.messages).tolist() if edge.static else ():
@@ -648,10 +649,7 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
     "keeps {cache:span}",
     consequence='"extrapolation into the past": the transforms it needs were dropped',
     fixes=(
-        Fix(
-            "keep more (ROS 1's Python ignores this argument: ros_comm#2270)",
-            "Buffer(cache_time=Duration(seconds={needed}))",
-        ),
+        Fix("{cache}", "{buffer}"),
         Fix("or look up when the measurement arrives, and keep the result"),
     ),
     causes=(

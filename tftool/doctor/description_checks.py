@@ -15,7 +15,7 @@ from tftool.robots.robot_model import Robot
 
 check = checks_of(Area.DESCRIPTION)
 
-_STATES = "start joint_state_publisher or the controller's broadcaster; or make the joint fixed"
+_STATES = "{states}; or make the joint fixed"
 
 
 @check(
@@ -48,9 +48,7 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{joint} has no state: {child} has no frame",
     detail="{joint} ({kind}) moves {below}",
     consequence="robot_state_publisher publishes nothing below such a joint",
-    fixes=(
-        Fix("start joint_state_publisher or the controller's broadcaster; or make the joint fixed"),
-    ),
+    fixes=(Fix(_STATES),),
     causes=(
         "joint_state_publisher or the joint state broadcaster was not started",
         "a plug-in publishes the driven joints only",

@@ -247,7 +247,11 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
             f"{link.name} is stamped with {clock}: {dated(stamp)}",
             f"the question is on {other}: {dated(trace.moment)}",
         ),
-        (Remedy("clock", f"use_sim_time: {setting} for the node that publishes {link.name}"),),
+        (
+            Remedy(
+                "clock", trace.model.words["sim_time_of"].format(setting=setting, edge=link.name)
+            ),
+        ),
         ("a timeout, a larger cache: the two clocks never meet",),
     )
 
@@ -274,7 +278,7 @@ def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
             Remedy(
                 "cache",
                 f"keep more, at least {span(least)}:",
-                f"Buffer(cache_time=Duration(seconds={advised}))",
+                trace.model.words["buffer"].format(needed=advised),
                 least,
                 advised * NANOSECONDS,
             ),

@@ -25,6 +25,7 @@ from tftool.doctor.check import NEEDS, Check
 from tftool.doctor.evidence import Evidence, described_by, evidence_of
 from tftool.doctor.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
 from tftool.doctor.model import Limits, Model, Settings
+from tftool.doctor.ros_words import in_words
 from tftool.doctor.wording import evidence_lines, filled, several
 
 if TYPE_CHECKING:
@@ -107,7 +108,7 @@ def judge(
         # Numbers in a recording may be of any size; what overflows is no number, and is told.
         with np.errstate(all="ignore"):
             hits += [(check, hit) for hit in check(model, limits[name])]
-    return Diagnosis(_findings(hits, limits), tuple(skipped), ran, model)
+    return Diagnosis(_findings(hits, limits, model.words), tuple(skipped), ran, model)
 
 
 def _has(evidence: Evidence, need: str) -> bool:
@@ -174,7 +175,9 @@ def refuse_unknown(settings: Settings, select: Sequence[str], ignore: Sequence[s
                 raise UsageError(f"{name} has no threshold '{limit}': {has}")
 
 
-def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tuple[Finding, ...]:
+def _findings(
+    hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits], words: Mapping[str, str]
+) -> tuple[Finding, ...]:
     of_check: dict[str, list[int]] = defaultdict(list)
     for number, (check, _) in enumerate(hits):
         of_check[check.id].append(number)
@@ -188,7 +191,7 @@ def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tu
         grouped.setdefault(key, []).append(hit)
     findings = [
         replace(
-            _joined(CHECKS[key[0]], group, limits[key[0]]),
+            _joined(CHECKS[key[0]], group, limits[key[0]], words),
             because_of=key[2],
             severity=key[1],
         )
@@ -265,7 +268,7 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
     return bool(set(hit.edges) & set(cause.edges)) or bool(set(hit.topics) & set(cause.topics))
 
 
-def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
+def _joined(check: Check, hits: list[Hit], limits: Limits, words: Mapping[str, str]) -> Finding:
     """Merge similar hits of one check into a finding."""
     first = hits[0]
     concerned = _concerned(hits)
@@ -280,15 +283,19 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
     if changed:
         told = ", ".join(f"{name} = {value:g}" for name, value in changed.items())
         evidence.append(f"with {told}")
-    own = [Fix(fix.text, fix.command) for fix in first.fixes]
-    usual = [Fix(filled(fix.text, facts), filled(fix.command, facts)) for fix in check.fixes]
+
+    def worded(text: str) -> str:
+        return filled(in_words(text, words), facts)
+
+    own = [Fix(in_words(fix.text, words), fix.command) for fix in first.fixes]
+    usual = [Fix(worded(fix.text), worded(fix.command)) for fix in check.fixes]
     since = [hit.since for hit in hits if hit.since is not None]
     until = [hit.until for hit in hits if hit.until is not None]
     return Finding(
         id=check.id,
         severity=first.severity or check.severity,
         area=check.area,
-        message=filled(check.headline, facts),
+        message=worded(check.headline),
         confidence=max((hit.confidence for hit in hits), key=list(Confidence).index),
         edges=tuple(dict.fromkeys(edge for hit in hits for edge in hit.edges)),
         frames=tuple(dict.fromkeys(frame for hit in hits for frame in hit.frames)),
@@ -299,7 +306,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
         count=sum(hit.count for hit in hits),
         facts=MappingProxyType(dict(first.facts)),
         evidence=tuple(line for line in evidence if line),
-        consequence=filled(check.consequence, facts),
+        consequence=worded(check.consequence),
         fixes=(*own, *usual),
     )
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from tftool.doctor.findings import Edge, Fix
 from tftool.doctor.model import Model, Tree
+from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import Track, last_part
 from tftool.geometry.rigid import Transform
 
@@ -153,7 +154,7 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
 def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | None = None) -> Fix:
     """Return the remedy for a missing mount: its publisher, unless no statics were recorded."""
     if not model.lacks_statics or not model.evidence.recorded:
-        return Fix(text, static_publisher(parent, child, pose))
+        return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
     # The robot sends it already: a second publisher would contradict the first one.
     return Fix(
         f"the statics are missing from the recording, {child} in {parent} probably among them: "
@@ -194,8 +195,16 @@ def base_of(tree: Tree) -> str:
     return ""
 
 
-def static_publisher(parent: str, child: str, pose: Transform | None = None) -> str:
+def static_publisher(
+    parent: str, child: str, pose: Transform | None = None, *, ros1: bool = False
+) -> str:
     """Return the command that publishes a mount, with letters in place of unknown numbers."""
+    if ros1:
+        known = () if pose is None else (*pose.translation, *pose.rotation)
+        numbers = " ".join(f"{one:.9g}" for one in known) or "X Y Z YAW PITCH ROLL"
+        return (
+            f"rosrun tf2_ros static_transform_publisher {numbers} {quoted(parent)} {quoted(child)}"
+        )
     numbers = "--x X --y Y --z Z --yaw A"
     if pose is not None:
         names = ("x", "y", "z", "qx", "qy", "qz", "qw")

@@ -12,6 +12,7 @@ import numpy as np
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
 from tftool.doctor.evidence import Evidence
+from tftool.doctor.ros_words import ros_words
 from tftool.doctor.stamp_stream import WILD, Heard, Stream, Track, last_part
 from tftool.recordings.contract import (
     Stamps,
@@ -149,6 +150,11 @@ class Model:
     def statics(self) -> tuple[Track, ...]:
         """Edges recorded on a static topic."""
         return tuple(track for track in self.tracks if track.static)
+
+    @cached_property
+    def words(self) -> Mapping[str, str]:
+        """Commands and settings in the words of the recording's ROS."""
+        return ros_words(self.evidence)
 
     @cached_property
     def lacks_statics(self) -> bool:

@@ -62,7 +62,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         hint = f"; in tf, {' and '.join(alike)} fits and no message uses it" if alike else ""
         if near and not alike:
             hint = f"; near: {', '.join(near)}"
-        if name.count("/") >= 2:
+        if _is_scoped(model, name):
             hint += "; this is a simulator's scoped name"
         first = min(int(heard.logs[0]) for heard in heards)
         yield Hit(
@@ -80,6 +80,12 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             fixes=_renames(model, name, alike, [heard.type for heard in heards]),
             alone=True,
         )
+
+
+def _is_scoped(model: Model, name: str) -> bool:
+    """Whether a simulator composed a name: robot/base_link/gpu_lidar."""
+    simulated = len(model.evidence.clock[0]) or any(one.families[0] for one in model.heard)
+    return bool(simulated) and name.strip("/").count("/") >= 2
 
 
 def _slashed(heard: Heard, model: Model) -> Iterable[str]:
@@ -115,10 +121,8 @@ _KINDS = {
 
 def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tuple[Fix, ...]:
     fixes = [Fix(f"set frame_id of the driver to {alike[0]}")] if alike else []
-    if name.count("/") >= 2:
-        fixes.append(
-            Fix("in Gazebo, give the sensor the name in tf: <gz_frame_id>NAME</gz_frame_id>")
-        )
+    if _is_scoped(model, name):
+        fixes.append(Fix("{scoped}"))
     join = proposed_frame(model, name.removeprefix("/"), kinds)
     if name.startswith("/"):
         fixes.insert(0, Fix(f'set frame_id to "{name[1:]}": no frame of tf2 begins with a slash'))
@@ -418,7 +422,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
         fixes=(
             Fix(
                 "let listeners and rviz hear them:",
-                f"--ros-args -r /tf:={odd[0]} -r /tf_static:={prefix}/tf_static",
+                model.words["remap"].format(moving=odd[0], static=f"{prefix}/tf_static"),
             ),
             Fix(f"here, --tf-topic {quoted(odd[0])} examines only these"),
         ),

@@ -219,9 +219,7 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     hit = replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
     if sure is Confidence.POSSIBLE:
         topic = track.topics[0] if track.topics else "/tf"
-        hit = replace(
-            hit, fixes=(Fix(f"find its publishers: `ros2 topic info {topic} --verbose`"),)
-        )
+        hit = replace(hit, fixes=(Fix(f"find its publishers: `{{publishers}} {topic}`"),))
     return hit
 
 
@@ -564,12 +562,7 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
     consequence="if it is a mount, {so}",
-    fixes=(
-        Fix(
-            "if it cannot move, send it once on /tf_static: tf2's static_transform_publisher, "
-            "use_tf_static: true"
-        ),
-    ),
+    fixes=(Fix("if it cannot move, send it once on /tf_static: {mount_node}"),),
     causes=("the static publisher of the old tf package",),
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},
@@ -743,11 +736,7 @@ def _switches_off(track: Track) -> Fix:
             f"tftool edit RECORDING -o CLEAN --drop {quoted(f'{track.parent}:{track.child}')}",
         )
     if _is_odometry(track):
-        return Fix(
-            "switch one of the odometry transforms off: publish_odom_tf: false (Gazebo), "
-            "enable_odom_tf: false (diff_drive_controller), publish_odom_tfs: false (Create 3), "
-            "publish_tf: false (robot_localization, RTAB-Map odometry)"
-        )
+        return Fix("switch one of the odometry transforms off: {odometry_off}")
     return Fix(
         "stop one of the two publishers, or give the frames of one another name; for a joint, look "
         "also for two publishers of its state"

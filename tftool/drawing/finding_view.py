@@ -21,6 +21,7 @@ from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
+from tftool.doctor.ros_words import in_words
 from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
 from tftool.doctor.wording import MOST_IN_LINE, filled, several, span
 from tftool.drawing import report_view as judgements
@@ -368,7 +369,7 @@ def _marked(text: str) -> str:
 def _general(text: str) -> str:
     """Return a check's message template with the facts' names in place of their values."""
     parts = []
-    for literal, name, spec, _ in Formatter().parse(text):
+    for literal, name, spec, _ in Formatter().parse(in_words(text)):
         parts.append(literal)
         if spec and "|" in spec:
             parts.append(spec.partition("|")[0])

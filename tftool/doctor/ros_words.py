@@ -1,0 +1,72 @@
+"""Commands and settings of remedies in the words of the recording's ROS: 1 or 2."""
+
+from collections.abc import Mapping
+
+from tftool.doctor.evidence import Evidence
+
+_ROS2 = {
+    "now": "self.get_clock().now().to_msg()",
+    "publishers": "ros2 topic info --verbose",
+    "sim_time": "set use_sim_time: {setting} for the nodes that publish them; `ros2 param get NODE "
+    "use_sim_time` prints a node's setting",
+    "sim_time_of": "use_sim_time: {setting} for the node that publishes {edge}",
+    "play_again": "play with --clock and set use_sim_time: true; in Python on humble restart, or "
+    "clear the buffer",
+    "jumped_back": "C++ listeners clear their buffers, Python ones up to humble refuse all new "
+    "data as old (TF_OLD_DATA) until the old time is reached again",
+    "repeats": "ROS 2 ignores equal ones and lets the later of different ones win",
+    "record": "record /tf and /tf_static",
+    "buffer": "Buffer(cache_time=Duration(seconds={needed}))",
+    "cache": "keep more",
+    "odometry_off": "publish_odom_tf: false (Gazebo), enable_odom_tf: false "
+    "(diff_drive_controller), publish_odom_tfs: false (Create 3), publish_tf: false "
+    "(robot_localization, RTAB-Map odometry)",
+    "remap": "--ros-args -r /tf:={moving} -r /tf_static:={static}",
+    "scoped": "in Gazebo, give the sensor the name in tf: <gz_frame_id>NAME</gz_frame_id>",
+    "states": "start joint_state_publisher or the joint state broadcaster",
+    "latched": "with durability transient_local",
+    "volatile": "volatile",
+    "mount_node": "tf2_ros's static_transform_publisher, robot_state_publisher",
+}
+_ROS1 = {
+    "now": "rospy.Time.now() (C++: ros::Time::now())",
+    "publishers": "rostopic info",
+    "sim_time": "`rosparam set use_sim_time {setting}`, then start the nodes that publish them "
+    "again: a node reads it only at its start",
+    "sim_time_of": "`rosparam set use_sim_time {setting}` before the publisher of {edge} starts",
+    "play_again": "`rosparam set use_sim_time true` before any node starts, and play with --clock; "
+    "restart listeners that keep the old data",
+    "jumped_back": "listeners on simulated time clear their buffers, others refuse all new data as "
+    "old (TF_OLD_DATA) until the old time is reached again",
+    "repeats": "tf2 of noetic drops them and prints TF_REPEATED_DATA for each",
+    "record": "record /tf and /tf_static (split recordings: rosbag record --repeat-latched)",
+    "buffer": "tf2_ros.Buffer(rospy.Duration({needed}))",
+    "cache": "keep more (Python ignores the argument if it is named cache_time: ros_comm#2270)",
+    "odometry_off": "publishOdomTF: false (Gazebo), enable_odom_tf: false "
+    "(diff_drive_controller), publish_tf: false (robot_localization, RTAB-Map odometry)",
+    "remap": "/tf:={moving} /tf_static:={static}",
+    "scoped": "in Gazebo, give the sensor the name in tf: <frameName>NAME</frameName>",
+    "states": "start joint_state_publisher or joint_state_controller",
+    "latched": "latched",
+    "volatile": "without latching",
+    "mount_node": "static_transform_publisher of tf2_ros, not of tf; robot_state_publisher with "
+    "use_tf_static: true",
+}
+_BOTH = {name: f"{text} (ROS 1: {_ROS1[name]})" for name, text in _ROS2.items()}
+
+
+def is_ros1(evidence: Evidence) -> bool:
+    """Whether a recording is of ROS 1: a bag, or messages in ROS 1's encoding."""
+    return evidence.kind == "ROS 1 bag" or any(one.encoding == "ros1" for one in evidence.topics)
+
+
+def ros_words(evidence: Evidence) -> Mapping[str, str]:
+    """Return the words of the ROS of a recording; those of ROS 2 where it is not known."""
+    return _ROS1 if is_ros1(evidence) else _ROS2
+
+
+def in_words(text: str, words: Mapping[str, str] = _BOTH) -> str:
+    """Return a check's text with these words; by default with those of both ROS."""
+    for name, word in words.items():
+        text = text.replace(f"{{{name}}}", word)
+    return text
