@@ -134,6 +134,21 @@ def test_publishers_of_odometry_are_looked_for_on_its_topic():
     assert "ros2 topic info --verbose /odom" in conflict.fixes[0].text
 
 
+def test_one_node_with_two_values_on_tf_and_in_its_odometry_is_one_finding():
+    made = robot()
+    made.odometry = Robot()
+    made.odometry.moving("odom", "base_link", topic="/odom")
+    for at in (2.0, 5.0):
+        shifted = (0.5 * at + 0.04, 0.0, 0.0, *NO_TURN)
+        made.sent("odom", "base_link", at, shifted)
+        made.odometry.sent("odom", "base_link", at, shifted, topic="/odom")
+
+    assert ids(made) == ["publisher-conflict"]
+    conflict = found(made, "publisher-conflict")
+    assert conflict.topics == ("/odom",)
+    assert "2 stamps carry two values (and on /odom)" in conflict.evidence[0]
+
+
 @pytest.mark.parametrize("speed", [15.0, 40.0])
 def test_what_is_merely_fast_has_one_publisher(speed):
     made = robot(odometry=False)

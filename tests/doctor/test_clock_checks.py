@@ -317,6 +317,7 @@ def test_stamps_that_repeat_while_a_slow_simulation_stands_are_not_frozen():
         for tick in range(100):
             at = 2.0 * step + tick / 50
             made.sent("map", "odom", at, stamp=seconds(12.0 + 0.06 * step))
+    made.kind = "ROS 1 bag"
     told = ids(made, notes=True)
     assert "frozen-stamp" not in told
     assert "repeated-stamp" in told
@@ -338,3 +339,22 @@ def test_a_map_in_odometry_may_jump_as_odometry_in_a_map():
     made = robot()
     made.moving("odom", "map", 20.0, lambda t: (0.5 * (t > 4), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
     assert "teleport" not in ids(made)
+
+
+def test_what_is_sent_again_late_repeats_stamps_and_is_not_also_out_of_order():
+    made = robot()
+    for tick in range(160):
+        made.sent("base_link", "arm", tick * 0.05, drives(tick * 0.05))
+        if tick > 2 and tick % 4 == 0:
+            made.sent("base_link", "arm", (tick - 2) * 0.05, drives((tick - 2) * 0.05), latency=0.2)
+    assert ids(made, notes=True) == ["repeated-stamp"]
+    assert found(made, "out-of-order").because_of == "repeated-stamp"
+
+
+def test_a_localiser_of_ros_2_may_repeat_the_pose_of_its_last_scan():
+    made = robot()
+    for tick in range(100):
+        made.sent("map", "odom", tick * 0.05, drives(tick // 5 * 0.25), stamp=made.log(tick // 5))
+    assert "repeated-stamp" not in ids(made, notes=True)
+    made.kind = "ROS 1 bag"
+    assert "repeated-stamp" in ids(made, notes=True)

@@ -198,12 +198,14 @@ def late_odometry() -> Robot:
     return made
 
 
-def test_an_imu_is_not_placed_sample_by_sample():
+@pytest.mark.parametrize("kind", ["Imu", "MagneticField", "NavSatFix"])
+def test_what_a_filter_takes_in_is_not_placed_sample_by_sample(kind):
     made = late_odometry()
-    made.hears("/imu", "laser", hz=100, kind="sensor_msgs/Imu")
+    made.moving("map", "odom", hz=20, pose=stands, begin=4.0)
+    made.hears("/imu", "laser", hz=100, kind=f"sensor_msgs/{kind}")
     assert ids(made, notes=True) == []
     made.hears("/scan", "laser")
-    assert ids(made, notes=True) == ["sensor-outruns-tf"]
+    assert ids(made, notes=True) == ["sensor-outruns-tf", "late-start"]
 
 
 def test_relays_of_one_scan_that_wait_alike_are_one_finding():

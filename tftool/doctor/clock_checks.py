@@ -9,6 +9,7 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, unsorted_share
 from tftool.doctor.wording import several, span
 from tftool.recordings.contract import Stamps
@@ -551,7 +552,7 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     "repeated-stamp",
     Severity.WARNING,
     rule="more than {samples:g} samples, and a share above {share:g}, repeat a stamp with "
-    "the same value",
+    "the same value. In ROS 2 not reported for a transform from map to odometry",
     headline="{where} {concerned:repeats|repeat} stamps",
     detail="{edge}: {count} of {of} samples repeat a stamp",
     consequence="{repeats}",
@@ -578,8 +579,8 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Stamps are sent twice: TF_REPEATED_DATA in ROS 1."""
     for track in model.dynamic:
         places = track.by_stamp
-        if track.is_orderly:
-            continue
+        if track.is_orderly or (track.is_localisation and not is_ros1(model.evidence)):
+            continue  # a localiser of ROS 2 repeats the pose of the last scan on purpose
         again = np.flatnonzero(np.diff(track.sorted_stamps) == 0)
         if len(again) <= limits["samples"] or stands_still(track):
             continue
@@ -705,7 +706,7 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
         ("anything", "time-jump-back"),
         ("stream", "clock-mixture"),
         ("child", "publisher-conflict two-parents"),
-        ("edge", "wild-stamp"),
+        ("edge", "wild-stamp repeated-stamp"),
     ),
 )
 def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:

@@ -446,7 +446,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     rule="the 95 % quantile of the waits for the last transform that a message on the robot needs "
     "is {seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
     " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
-    "{messages:g} messages, which are not an IMU's",
+    "{messages:g} messages, which are not those of an IMU, a compass or a satellite receiver",
     headline="{topics} {topics:arrives|arrive} before the transforms {topics:it needs|they need}",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
@@ -470,7 +470,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         "headers",
     ),
     why="0.1 s is the usual tolerance of consumers, and a healthy robot at 50 Hz needs 20 "
-    "ms for some scans; the samples of an IMU are filtered, not placed in odometry one by one",
+    "ms for some scans; the samples of an IMU or of GNSS are filtered, not placed one by one",
     because_of=(
         ("stream", "clock-mixture"),
         (
@@ -505,8 +505,8 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
     for heard in model.heard:
         if not heard.is_spatial or len(heard.stamps) < limits["messages"]:
             continue
-        if last_part(heard.type) == "Imu":
-            continue  # a filter integrates its samples
+        if last_part(heard.type) in _NOT_PLACED:
+            continue
         if heard.frame in around or last_part(heard.frame) in _WORLDS:
             continue  # where it is in the world is known without the robot
         waits = waits_of(model, heard, fixed)
@@ -574,6 +574,9 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
 
 _RELAYED = 5_000_000
 """Nanoseconds by which waits of a relayed topic may differ from the first one's."""
+
+_NOT_PLACED = frozenset({"Imu", "MagneticField", "NavSatFix"})
+"""Messages that a filter takes in as they come; none is placed in odometry by its stamp."""
 
 _WORLDS = frozenset({"map", "world", "earth"})
 
@@ -717,7 +720,7 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
     """Lookups cannot succeed at first: an edge begins late or is stamped ahead."""
     fixed = model.fixed_frame
     for heard in model.heard:
-        if not heard.is_spatial or not len(heard.stamps):
+        if not heard.is_spatial or last_part(heard.type) in _NOT_PLACED:
             continue
         links = [
             t for t in model.path(heard.frame, fixed) or () if not t.static and len(t.by_stamp)

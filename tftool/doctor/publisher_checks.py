@@ -144,22 +144,28 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
     # Where fewer than two are known by name, no edge has two that are.
     named = len({one.node for one in model.evidence.transforms.publishers if one.node}) > 1
+    told_of: dict[tuple[str, str], Hit] = {}
     for track in model.dynamic:
         hit = _named_conflict(model, track, limits) if named else None
         hit = hit or _values_at_one_stamp(track, limits) or _unnamed_conflict(track, limits)
         if hit is not None:
-            yield hit
+            told_of[track.edge] = hit
     odometry = model.evidence.odometry
-    if odometry is None:
-        return
-    for edge in odometry.edges:
-        told = Track(edge, odometry)
+    for told in () if odometry is None else [Track(edge, odometry) for edge in odometry.edges]:
         told.arrivals = told.logs
         # Odometry of two topics may differ: wheels and a filter.
         hit = _values_at_one_stamp(told, limits) if len(told.topics) == 1 else None
-        if hit is not None:
+        if hit is None:
+            continue
+        if told.edge in told_of:  # one cause: the node that sends both
+            first = told_of[told.edge]
+            also = f"{first.facts['told']} (and on {told.topics[0]})"
+            hit = replace(first, topics=told.topics, facts={**first.facts, "told": also})
+        else:
             seen = f" (two values at one stamp, on {told.topics[0]})"
-            yield replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
+            hit = replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
+        told_of[told.edge] = hit
+    yield from told_of.values()
 
 
 def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
