@@ -412,3 +412,31 @@ def test_names_are_darker_on_a_light_panel():
 def test_a_word_wider_than_the_panel_is_cut_into_pieces():
     assert words(wrapped("ab🐢🐢cd", 3)) == ["ab", "🐢", "🐢c", "d"]
     assert words(wrapped("🐢", 1)) == ["🐢", ""]
+
+
+REFUSED = (
+    "Could not transform turtle2 to turtle1: Lookup would require extrapolation into the past.  "
+    "Requested time {}.250000 but the earliest data is at time {}.500000"
+)
+
+
+def test_a_refusal_repeated_with_other_stamps_is_one_line_in_seconds_since_the_start():
+    journal = Journal([record(n, REFUSED.format(1000 + n, 1002 + n)) for n in range(5)])
+
+    lines = log(journal, width=90)
+
+    text = " ".join(" ".join(lines).split())
+    assert "Requested time 4.25 s but the earliest data is at time 6.50 s ×5" in text
+    far = log(Journal([record(1, REFUSED.format(1750000000, 5))]), width=90)
+    assert "1750000000.250000" in "".join(far)
+
+
+def test_a_strip_with_room_has_the_line_before_the_newest_above_it():
+    journal = Journal([record(1, "early"), record(5, "late")])
+
+    lines = journal.strip(seconds(1009), seconds(1000), 40, PLAIN, most=2)
+
+    assert [line.plain.split() for line in lines] == [
+        ["1.0", "sim:", "early", "L", "log"],
+        ["5.0", "sim:", "late"],
+    ]

@@ -2,7 +2,7 @@
 
 import re
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from rich.text import Text
@@ -13,6 +13,9 @@ from tftool.world.log import PROBLEMS, LogRecord
 
 MOST_LINES = 4
 """Lines that one entry takes."""
+
+FAR = 3600.0
+"""Seconds from the start beyond which a stamp may be of another clock, and is left as it is."""
 
 
 @dataclass(slots=True)
@@ -41,6 +44,8 @@ class Journal:
     STAMPS = 400
     # What a node warns of again and again differs in its numbers.
     _NUMBERS = re.compile(r"-?\d+(\.\d+)?")
+    # A stamp of a lookup's refusal, which is another one every time.
+    _STAMP = re.compile(r"\b(\d+)\.(\d{6})\b")
 
     def __init__(self, records: Iterable[LogRecord] = ()) -> None:
         self.revision = 0
@@ -52,7 +57,7 @@ class Journal:
         """Add a line of the world's log."""
         self.revision += 1
         warns = record.level in PROBLEMS
-        text = self._NUMBERS.sub("#", record.text) if warns else record.text
+        text = (self._NUMBERS if warns else self._STAMP).sub("#", record.text)
         kind = f"{record.level}\n{record.node}\n{text}"
         # Those that repeat themselves take turns: the last few lines are looked at.
         for entry in list(self._entries)[-4:]:
@@ -95,6 +100,8 @@ class Journal:
     ) -> list[Text]:
         """Return the newest line up to a time, wrapped, with a hint how to see more.
 
+        If it leaves room, the line before it is above.
+
         Args:
             until: The moment shown.
             start: The moment that counts as 0.
@@ -113,6 +120,9 @@ class Journal:
         if len(lines) > most:
             shown[-1].truncate(max(0, (room if most == 1 else width) - 1))
             shown[-1].append(look.more)
+        elif len(lines) < most and len(told) > 1:
+            older = self._entry(told[-2], until, start, max(width - 2, 1), look, first=room - 1)
+            shown.insert(0, Text.assemble(" ", older[0], look.more if len(older) > 1 else ""))
         shown[0].append(" " * max(0, room - shown[0].cell_len))
         shown[0].append_text(more)
         for line in shown:
@@ -144,7 +154,7 @@ class Journal:
         when = when.rjust(indent)
         count = entry.times(until)
         times = f" {'x' if look.ascii_only else '×'}{count}" if count > 1 else ""
-        words = f"{record.node}: {record.text}"
+        words = f"{record.node}: {self._STAMP.sub(_seconds_since(start), record.text)}"
         # The first line shares its place with the time, the others stand a little in.
         room = max(8, (width if first is None else first) - len(when))
         lines = wrapped(words, max(8, width - indent), look.ink(color), first=room)
@@ -158,3 +168,13 @@ class Journal:
             lines[-1].truncate(max(0, width - len(times)))
             lines[-1].append(times, look.ink(palette.accent, bold=True))
         return lines
+
+
+def _seconds_since(start: Stamp) -> Callable[[re.Match[str]], str]:
+    """Return a replacement of stamps by seconds since the start, of those not far from it."""
+
+    def told(found: re.Match[str]) -> str:
+        since = int(found[1]) + int(found[2]) / 1e6 - as_seconds(start)
+        return f"{since:.2f} s" if abs(since) < FAR else found[0]
+
+    return told

@@ -20,7 +20,7 @@ from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.screens.terminal import panel_text as keys
 from tftool.screens.terminal import panel_text as panels
-from tftool.screens.terminal.log_lines import MOST_LINES, Journal
+from tftool.screens.terminal.log_lines import Journal
 from tftool.screens.terminal.panel_text import PairPlot
 from tftool.screens.terminal.plane_view import PlaneView
 from tftool.screens.terminal.question import SceneQuestion
@@ -36,7 +36,7 @@ LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
 """At every how many looks the text beside the field is rewritten."""
 
-WITH_WRAPPED_LOG = 20
+WITH_WRAPPED_LOG = 36
 """Rows from which the newest line of the log is wrapped rather than cut."""
 
 REST = 6.0
@@ -174,7 +174,7 @@ class TurtleApp(PanelApp):
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit the panels into the new size."""
-        self._strip = 1
+        self._strip = 2 if event.size.height >= WITH_WRAPPED_LOG else 1
         self._arrange(event.size.width, event.size.height)
         self.call_after_refresh(self.redraw)
 
@@ -337,14 +337,9 @@ class TurtleApp(PanelApp):
                 moment.stamp, self.scene.start, *log.size, look, back=self._back
             )
         else:
-            most = MOST_LINES if self.size.height >= WITH_WRAPPED_LOG else 1
             lines = self._journal.strip(
-                moment.stamp, self.scene.start, log.size.width, look, most=most
+                moment.stamp, self.scene.start, log.size.width, look, most=self._strip
             )
-            if len(lines) > self._strip:
-                # It stays so high: a picture that changes its size with every line is restless.
-                self._strip = len(lines)
-                self._arrange(*self.size)
         log.show(lines)
 
     # The mouse
