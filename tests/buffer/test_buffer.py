@@ -432,7 +432,7 @@ def test_a_cache_time_that_looks_like_seconds_is_warned_of_with_the_remedy(said)
     Buffer(seconds(0.001), log=lambda level, text: said.append((level, text)))
 
     assert [level for level, _ in said] == ["WARN"]
-    assert "a cache_time of 10 ns forgets nearly everything at once" in said[0][1]
+    assert "with a cache_time of 10 ns nearly all samples are dropped at once" in said[0][1]
     assert "seconds(10) makes one of 10 s" in said[0][1]
 
 

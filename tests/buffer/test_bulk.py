@@ -249,7 +249,7 @@ def test_what_cannot_be_written_to_can_be_asked_for(buffer):
         (["now"], TypeError, "whole nanoseconds"),
         (np.array(["2026-01-01"], dtype="M8[s]"), TypeError, r"datetime64\[ns\]"),
         (np.array([1.5], dtype=object), TypeError, r"seconds\(2.5\)"),
-        (3, ValueError, r"have the shape \(n,\), not \(\): write a single one as a list, \[3\]"),
+        (3, ValueError, r"have the shape \(n,\), not \(\): write a single time as a list, \[3\]"),
         ([[1, 2]], ValueError, r"have the shape \(n,\), not \(1, 2\)"),
         (np.array([2**63], dtype=np.uint64), ValueError, "does not fit 64 bits"),
         (np.array([-(2**70)], dtype=object), ValueError, "does not fit 64 bits"),

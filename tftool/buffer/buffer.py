@@ -1,4 +1,4 @@
-"""Buffer of transforms over time, which answers lookups between any two frames."""
+"""Buffer of transforms over time, which looks up the pose of any frame in any other."""
 
 import struct
 from collections.abc import Callable, Iterable
@@ -39,24 +39,24 @@ if TYPE_CHECKING:
 __all__ = ["NEVER", "NO_LIMIT", "Buffer"]
 
 NO_LIMIT: Final[Duration] = 2**63 - 1
-"""A cache time with which nothing is ever pruned, as for a recording."""
+"""A cache time with which nothing is ever pruned; used for recordings."""
 
 MAX_FRAMES = 16_384
-"""How many names a buffer takes unless `max_frames` says otherwise."""
+"""Default maximum number of frame names in a buffer."""
 
 MAX_NAME = 4_096
-"""How many bytes a name may have, in UTF-8, unless `max_name` says otherwise; tf2 has no limit."""
+"""Default maximum length of a frame name, bytes in UTF-8; tf2 has no limit."""
 
 Listener: TypeAlias = Callable[[TransformStamped, bool, str], object]
-"""Called with each accepted sample, whether it is static, and its authority."""
+"""Function called with each accepted sample, whether the sample is static, and its authority."""
 
 # A cache time below this many nanoseconds was probably meant in seconds.
 _LIKELY_SECONDS: Final = 1_000_000
 
-# Raised by an argument that is no sample, by an unknown frame, or by a stamp beyond 64 bits.
+# Errors of the fast insertion if the frame is new or the argument unusual; then `_set_slowly`.
 _NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
 
-# How many of the newest samples are searched for rival senders.
+# Number of the newest samples that `rivals` searches for alternating senders.
 _TURNS: Final = 4096
 
 _NO_PATHS: dict[str, Path] = {}
@@ -80,7 +80,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """Return the number of samples each link may keep so that all links fit; at least two."""
+    """Return how many samples each link may keep so that all fit into `room`; at least two."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:
@@ -149,7 +149,7 @@ class Buffer(Door):
         self._listeners: Listeners[TransformStamped, bool, str] = Listeners(self._report)
         self._listening = self._listeners.registered
 
-    # Setting
+    # Inserting samples
 
     def __repr__(self) -> str:
         kept = "all" if self.cache_time == NO_LIMIT else f"{as_seconds(self.cache_time):g} s"
@@ -220,7 +220,7 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Insert a new, unusual or static sample, with every check and its log message."""
+        """Insert a sample that is new, unusual or static, with every check and log message."""
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
@@ -243,8 +243,8 @@ class Buffer(Door):
         pose = rigid.transform(pose.translation, rotation)
         origin = trees.origin(parent, authority)
         outcome = link.insert(stamp, origin, pose, True)
-        # A new name wakes requests even if the sample is refused; a parent that was
-        # known is none, or each new child would wake every request below its parent.
+        # A new name wakes the requests that wait for it, even if the sample is refused. A parent
+        # that was known wakes none: else each new child would wake all requests below its parent.
         named = [new.name for new in trees.frames[known:]]
         if outcome == TOO_OLD:
             self._log("WARN", refusals.old_data(child, stamp, authority))
@@ -265,7 +265,7 @@ class Buffer(Door):
         authority: str,
         changed: Iterable[str],
     ) -> None:
-        """Call the listeners, then answer the requests that wait for one of these frames."""
+        """Call the listeners for each sample, then the requests that wait for a changed frame."""
         for sample in samples:
             self._listeners.call(sample, static, authority)
         if self._pending:
@@ -284,8 +284,7 @@ class Buffer(Door):
         rotations: "npt.ArrayLike",
         authority: str = "",
     ) -> "Insertion":
-        """Insert many samples of one moving link, with the same result as one by one in their
-        order.
+        """Insert many samples of one moving link, as repeated calls of `set_transform` would.
 
         After all samples are stored, listeners are called with each of them, and pending requests
         are tried again.
@@ -407,7 +406,7 @@ class Buffer(Door):
 
         return stop
 
-    # Looking up
+    # Lookups
 
     @native_first
     def lookup_transform(
@@ -445,7 +444,7 @@ class Buffer(Door):
         if pose is None:
             moment, path, kept = self._solver.way(target_frame, source_frame, time)
             if kept and not known:
-                # By a path that is known now, which the kernel does in half the time.
+                # The path is cached now, and with it the native kernel takes half the time.
                 return Buffer.lookup_transform(self, target_frame, source_frame, moment)
             pose = path.solve(moment)
             assert pose is not None, "a link that answers for its parent answers for its pose"
@@ -474,7 +473,7 @@ class Buffer(Door):
         fixed_frame = tree.plain(fixed_frame)
         paths = self._paths
         if not (
-            # Whose names were found good before.
+            # Names of cached paths were checked before.
             source_frame in paths.get(fixed_frame, _NO_PATHS)
             and fixed_frame in paths.get(target_frame, _NO_PATHS)
         ):
@@ -517,7 +516,7 @@ class Buffer(Door):
             TypeError: If the times are not whole numbers.
             ValueError: If the shape is not (n,).
         """
-        # The single lookup does without numpy.
+        # Imported here because single lookups need no numpy.
         from tftool.buffer.batch import lookup
 
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
@@ -644,11 +643,11 @@ class Buffer(Door):
         """
         return velocity.twist(self, tracking_frame, observation_frame, time, interval)
 
-    # Asking whether
+    # Whether a lookup would succeed
 
     @native_first
     def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
-        """Whether `lookup_transform` would succeed; never raises for a name or a time."""
+        """Whether `lookup_transform` would succeed; never raises for a name or a missing time."""
         if type(time) is not int:
             time = whole(time)
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
@@ -671,7 +670,7 @@ class Buffer(Door):
         )
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
-        """Return why `can_transform` is false, in tf2's words; empty if it is true."""
+        """Return tf2's reason why `can_transform` is false; empty if it is true."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         reason = self._solver.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
@@ -684,7 +683,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> str:
-        """Return why `can_transform_full` is false, in tf2's words; empty if it is true."""
+        """Return tf2's reason why `can_transform_full` is false; empty if it is true."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         fixed_frame = tree.plain(fixed_frame)
         for frame, argument in (
@@ -694,12 +693,12 @@ class Buffer(Door):
         ):
             if why := self._solver.fault(frame):
                 return refusals.invalid_frame(frame, argument, why)
-        # The other way round than in the lookup, as in tf2.
+        # tf2 checks the target's half first here, but the source's half first in the lookup.
         return self.why_not(target_frame, fixed_frame, target_time) or self.why_not(
             fixed_frame, source_frame, source_time
         )
 
-    # Waiting
+    # Requests
 
     def request(
         self, callback: Callback, target_frame: str, source_frame: str, time: Stamp = 0
@@ -727,10 +726,10 @@ class Buffer(Door):
         """Cancel a request; its callback is not called any more."""
         self._requests.cancel(handle)
 
-    # Looking at the whole
+    # All frames
 
     def snapshot(self, now: Stamp, at: Stamp = 0) -> Snapshot:
-        """Return all frames at one time.
+        """Return the poses of all frames at one time, with counts and ages of their samples.
 
         Args:
             now: The clock's time, from which ages are computed, nanoseconds.
@@ -755,7 +754,7 @@ class Buffer(Door):
         return columns.samples(self._tree, self._tree.frames[number])
 
     def frames(self) -> list[str]:
-        """Return every frame name ever seen, in order; the child of a sample before its parent."""
+        """Return every frame name ever seen, in the order of arrival; a child before its parent."""
         return [frame.name for frame in self._tree.frames]
 
     def frame_exists(self, frame: str) -> bool:
@@ -779,7 +778,7 @@ class Buffer(Door):
         return None if above < 0 else self._tree.frames[above].name
 
     def parents(self, frame: str) -> set[str]:
-        """Return every parent in a frame's samples; empty for a root."""
+        """Return all parents that a frame has in its stored samples; empty for a root."""
         frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)
         above = () if number is None else self._tree.parents(number)
@@ -804,7 +803,7 @@ class Buffer(Door):
         return tuple(self._tree.authorities[one] for one in dict.fromkeys(turns))
 
     def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
-        """Return the frames from source to target, both included; empty if they are the same.
+        """Return the names of the frames from source to target, both included; empty if equal.
 
         Raises:
             TransformException: As `lookup_transform`.
@@ -813,15 +812,15 @@ class Buffer(Door):
         return self._solver.chain(target_frame, source_frame, whole(time))
 
     def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:
-        """Return all frames as tf2's YAML; see `snapshot.as_yaml`."""
+        """Return all frames as text, in tf2's YAML form; see `snapshot.as_yaml`."""
         return snapshot.as_yaml(self._infos(), current_time)
 
     def all_frames_as_string(self) -> str:
-        """Return all frames as tf2's sentences; see `snapshot.as_string`."""
+        """Return all frames as text, in tf2's sentences; see `snapshot.as_string`."""
         return snapshot.as_string(self._infos())
 
     def all_frames_as_dot(self, current_time: Stamp = 0) -> str:
-        """Return all frames as tf2's dot graph; see `snapshot.as_dot`."""
+        """Return all frames as text, in tf2's form for Graphviz; see `snapshot.as_dot`."""
         return snapshot.as_dot(self._infos(), current_time)
 
     def _infos(self) -> tuple[FrameInfo, ...]:
@@ -829,7 +828,7 @@ class Buffer(Door):
 
 
 def _parts(transform: TransformStamped) -> tuple[Stamp, str, str, Transform]:
-    """Return stamp, parent, child and transform of a sample.
+    """Return the stamp, parent, child and pose of a `TransformStamped` given by a user.
 
     Raises:
         TypeError: If the argument is not a stamped transform.
@@ -893,7 +892,7 @@ def lend(buffer: Buffer, child: str, other: Buffer, until: Stamp) -> bool:
     """Share one frame's samples up to a stamp with another buffer, without a copy.
 
     Args:
-        buffer: The lender.
+        buffer: The buffer whose samples are shared.
         child: The child frame of the link.
         other: A buffer that does not know the link yet.
         until: The last stamp to share, nanoseconds.

@@ -3,8 +3,8 @@
 This module uses parents only: it finds the links between two frames at a time, and the latest time
 at which all of these links have data. `path` computes poses.
 
-As in tf2, an insertion removes one leading slash of a name, but a query refuses the slash. So old
-publishers are accepted, and the querying program learns of its mistake.
+As in tf2, an insertion removes one leading slash of a name, but a query refuses the slash. Old
+publishers still send the slash; a query with a slash is a mistake in the program.
 """
 
 from collections.abc import Iterable
@@ -20,9 +20,9 @@ EMPTY = "in tf2 frame_ids cannot be empty"
 SLASHED = "in tf2 frame_ids cannot start with a '/'"
 
 MAX_DEPTH = 1000
-"""How many links one side of a walk may have; beyond it, tf2 takes the tree for a loop."""
+"""Maximum number of links on one side of a walk; for a longer walk tf2 reports a loop."""
 
-# How a walk ended.
+# Outcomes of a walk.
 ARRIVED = 0
 UNCONNECTED = 1
 REFUSED = 2
@@ -30,11 +30,11 @@ LOOP = 3
 
 
 MAX_AUTHORITIES = 65_536
-"""How many names of authorities are kept; samples of later ones count as of an unnamed one."""
+"""Maximum number of stored authorities; samples of later ones have no sender's name."""
 
 
 def stripped(name: str) -> str:
-    """Return a name as stored: a plain `str` without one leading slash.
+    """Return a frame name as the buffer stores it: a plain `str` without one leading slash.
 
     Raises:
         TypeError: If the name is not a string.
@@ -44,10 +44,10 @@ def stripped(name: str) -> str:
 
 
 def plain(name: str) -> str:
-    """Return a name as an object of exactly the class `str`.
+    """Return a frame name as an object of exactly the class `str`.
 
-    A subclass of `str` may define comparison and hash. As a key it would run this code during a
-    lookup, and the code could change the data being read.
+    A subclass of `str` may define comparison and hash. As a dictionary key it would run them
+    during a lookup, and they could change the data being read.
 
     Raises:
         TypeError: If the name is not a string.
@@ -73,7 +73,7 @@ def fault(name: str) -> str:
 
 
 def require_text(*names: object) -> None:
-    """Raise an error unless all frame names are strings.
+    """Raise an error unless all given frame names are strings.
 
     Raises:
         TypeError: If a name is not a string.
@@ -88,7 +88,7 @@ class Frame:
 
     Attributes:
         name: Name of the frame.
-        number: Place of the frame in the order of first registration.
+        number: Index of the frame in `FrameTree.frames`.
         link: Link to the parent; None if no sample was ever set.
         authority: Sender of the newest sample; None if there was no sample.
     """
@@ -103,23 +103,22 @@ class Frame:
 
 
 Sender: TypeAlias = tuple[str, str | None, int, History]
-"""Where the newest sample of a link that moves came from, and the link; for the next one.
+"""Parent, authority, origin and history of the newest sample of a moving link.
 
-The parent it was sent with, who sent it, the numbers of both as `history` packs them, and what
-the child hangs by. A plain tuple, which takes half the time of a named one to take apart, and
-which the native kernel reads as well: see `native`.
+The next sample usually has the same parent and authority, and needs no search. The value is a plain
+tuple, which is unpacked in half the time of a named one, and which the native kernel also reads.
 """
 
 
 class Walk:
-    """Path between two frames as found by following parents.
+    """Path between two frames, found by following links from child to parent.
 
     Attributes:
         ended: ARRIVED, UNCONNECTED, REFUSED or LOOP.
         up: Child frames of the links from the source up to the common ancestor.
         down: Child frames of the links from the target up to the common ancestor.
-        top: Last frame reached from the source.
-        end: Last frame reached from the target.
+        top: Last frame reached by going up from the source.
+        end: Last frame reached by going up from the target.
         refused: Child frame of the link without data at that time, if REFUSED.
         timeless: Whether the path is the same at every time: no link lacked data, and no visited
             link ever changes its parent.
@@ -139,7 +138,7 @@ class Walk:
         self.above: list[int] = []
 
     def close(self, ended: int) -> "Walk":
-        """Finish the walk: record its outcome, and cut the edges above the common ancestor."""
+        """Finish the walk: record its outcome, and remove the links above the common ancestor."""
         self.ended = ended
         if ended == ARRIVED:
             up, down = self.up, self.down
@@ -149,7 +148,7 @@ class Walk:
         return self
 
     def visited(self) -> list[int]:
-        """Return every visited frame except those above the common ancestor."""
+        """Return the numbers of all visited frames except those above the common ancestor."""
         return [*self.up, *self.down, self.top, self.end]
 
 
@@ -158,8 +157,9 @@ class FrameTree:
 
     Attributes:
         frames: Frames in the order of their first registration.
-        numbers: Each frame's place in that order.
-        senders: Child frames of moving links by name, to find them quickly for the next sample.
+        numbers: Index in `frames` of each frame name.
+        senders: For the child of each moving link, the parent, sender, origin and history of its
+            newest sample, so that the next sample needs one lookup.
         authorities: Every authority (name of a sender), in the order of their numbers.
         limit: Age up to which samples are kept, nanoseconds.
         max_name: Maximum length of a name, bytes.
@@ -184,10 +184,10 @@ class FrameTree:
         self.authorities: list[str] = [""]
         self._authority_numbers: dict[str, int] = {"": 0}
 
-    # Growing
+    # Frames and links are added
 
     def register(self, name: str) -> Frame:
-        """Return the frame with that name; create the frame if the name is new."""
+        """Return the frame named `name`; create the frame if the name is new."""
         # A frame is never removed, so that its number stays valid, also in a cached path.
         number = self.numbers.get(name)
         if number is not None:
@@ -198,12 +198,12 @@ class FrameTree:
         return frame
 
     def has_room(self, child: str, parent: str, limit: int) -> bool:
-        """Whether both names are known, or can be added without exceeding `limit`."""
+        """Whether both frame names are known, or can be added without exceeding `limit` names."""
         new = (child not in self.numbers) + (parent not in self.numbers)
         return new == 0 or len(self.frames) + new <= limit
 
     def hang(self, child: str, parent: str, static: bool) -> tuple[Frame, Link, bool]:
-        """Register both names, and give the child a link of this kind (static or moving).
+        """Register both frame names, and return the child's link of this kind (static or moving).
 
         A link of the other kind is replaced by an empty link, and its samples are dropped.
 
@@ -216,34 +216,34 @@ class FrameTree:
         if link is None or fresh:
             if static:
                 link = StaticLink()
-                # Else the next sample would be put into the history that has just been replaced.
+                # Else the next sample would be inserted into the history that was just replaced.
                 self.senders.pop(child, None)
             else:
                 link = History(self.limit)
-                # No sample has this sender, so the first one is checked and noted in full.
+                # No sample has this sender, so the first sample goes through all checks.
                 self.senders[child] = ("", None, NO_PARENT, link)
             frame.link = link
         self.register(parent)
         return frame, link, fresh
 
     def note(self, frame: Frame, parent: str, authority: str, origin: int) -> None:
-        """Record the parent and authority of an accepted sample."""
+        """Record the parent and authority of a sample that was accepted for this frame."""
         frame.authority = authority
         if isinstance(frame.link, History):
             self.senders[frame.name] = (parent, authority, origin, frame.link)
 
     def origin(self, parent: str, authority: str) -> int:
-        """Pack the numbers of a parent and an authority into one word; see `history`."""
+        """Return the numbers of a parent and an authority in one word, an origin; see `history`."""
         number = self._authority_numbers.get(authority)
         if number is None:
             number = 0
-            # Beyond the limit samples stay, and only lose the name of their sender (number 0).
+            # Beyond the limit, samples are stored without the name of their sender (number 0).
             if len(self.authorities) < MAX_AUTHORITIES:
                 number = self._authority_numbers[authority] = len(self.authorities)
                 self.authorities.append(authority)
         return number << AUTHORITY_SHIFT | self.numbers[parent]
 
-    # Asking
+    # Queries
 
     def newest_stamp(self, number: int) -> Stamp:
         """Return the stamp of a frame's newest sample; 0 without samples or for a static link."""
@@ -273,7 +273,7 @@ class FrameTree:
                 parent = link.parent_at(time)
                 walk.timeless = walk.timeless and not link.mixed
             if parent < 0:
-                # No error yet: the target may hang from a frame that was passed below this one.
+                # No error yet: the target may be below a frame that was passed before this one.
                 refused = frame
                 walk.timeless = False
                 break
@@ -288,7 +288,7 @@ class FrameTree:
         walk.top = top = frame
 
         frame = target
-        # Up from the target: here a link without data lies on the way to any common ancestor.
+        # Up from the target: here every link is below the common ancestor, and needs data.
         while frame != top:
             link = frames[frame].link
             if link is None:
@@ -301,7 +301,7 @@ class FrameTree:
                 walk.end = walk.refused = frame
                 return walk.close(REFUSED)
             if frame == source:
-                # The source is the common ancestor: links passed above it do not count.
+                # The source is the common ancestor: links passed above it do not matter.
                 walk.above = up[:]
                 up.clear()
                 walk.end = frame
@@ -314,7 +314,7 @@ class FrameTree:
         walk.end = frame
         if frame == walk.top:
             return walk.close(ARRIVED)
-        # The sides did not meet, and above the source data was missing: that is the reason.
+        # The sides did not meet because data was missing above the source.
         if refused >= 0:
             walk.refused = refused
             return walk.close(REFUSED)
@@ -332,23 +332,23 @@ class FrameTree:
             if link is not None and link.mixed:
                 return False
         reached: dict[int, None] = dict.fromkeys((*walk.above, walk.top))
-        # Where the target was met on the way up, nothing above it was looked at.
+        # If the walk up from the source met the target, nothing above the target was used.
         if not walk.down or not any(self.parents(number)[1:] for number in reached):
             return True
-        # Every frame that may ever be passed above.
+        # Every frame that a path may pass above, at any time.
         waiting = list(reached)
         while waiting:
             for parent in self.parents(waiting.pop()):
                 if parent not in reached:
                     reached[parent] = None
                     waiting.append(parent)
-        # Frames are counted, not the longest path: better walk again than cache a loop.
+        # The number of frames is a safe limit for the longest path: a loop must not be cached.
         if len(reached) + len(walk.up) + len(walk.down) > MAX_DEPTH:
             return False
         return not self._may_circle(reached)
 
     def parents(self, number: int) -> list[int]:
-        """Return every parent in a frame's samples."""
+        """Return the numbers of all parents that a frame has in its stored samples."""
         link = self.frames[number].link
         if link is None:
             return []
@@ -360,7 +360,7 @@ class FrameTree:
         """Whether the parents of these frames, at any times, form a cycle."""
         above = {number: self.parents(number) for number in numbers}
         while above:
-            # Those that only lead to frames that lead nowhere any more.
+            # Frames without a remaining parent are on no cycle: remove them, again and again.
             ends = [number for number, up in above.items() if not any(p in above for p in up)]
             if not ends:
                 return True
@@ -379,7 +379,7 @@ class FrameTree:
         if target == source:
             return ARRIVED, self.newest_stamp(target)
         frames = self.frames
-        # Up from the source, by each newest sample: stamps, and where each link leads.
+        # Up from the source by newest parents: collect each link's newest stamp and its parent.
         stamps: list[Stamp] = []
         parents: dict[int, int] = {}
         frame = source
@@ -393,9 +393,9 @@ class FrameTree:
                 return ARRIVED, _oldest(stamps)
             if len(stamps) > MAX_DEPTH:
                 return LOOP, 0
-            # Links below this frame: those above do not count if the target joins here.
+            # Number of links below this frame: only these count if the target's side joins here.
             parents[frame] = len(stamps)
-        # Then up from the target, until something the source hangs from.
+        # Then up from the target, until a frame that was passed from the source.
         ours: list[Stamp] = []
         frame = target
         while True:
@@ -413,5 +413,5 @@ class FrameTree:
 
 
 def _oldest(stamps: list[Stamp]) -> Stamp:
-    # 0 is the stamp of links that hold at all times, not the oldest moment.
+    # 0 is the stamp of links that are valid at all times, not the oldest time.
     return min((stamp for stamp in stamps if stamp), default=0)

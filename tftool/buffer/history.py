@@ -27,46 +27,46 @@ from tftool.buffer.native_kernel import IS_NATIVE
 from tftool.geometry import poses, quaternions
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
+"""A pose: x, y, z in metres and a unit quaternion x, y, z, w with the sign that tf2 chooses."""
 
 IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 NO_POSE: Sample = (nan, nan, nan, nan, nan, nan, nan)
-"""Stands for "no pose": NaN throughout, and so is every product with it."""
+"""Result without a pose: all numbers are NaN, and so is every product with it."""
 
 Refusal: TypeAlias = tuple[int, Stamp]
-"""Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
+"""Reason why a link has no pose at a time (NO_DATA, FORWARD or BACKWARD), and its nearest stamp."""
 
 Columns: TypeAlias = "tuple[memoryview[int], array[int] | None, int]"
-"""A view of the records, oldest first; an origin for each (None: all alike); the newest origin."""
+"""View of the records, oldest first; an origin per record, or None if all equal; newest origin."""
 
 Words: TypeAlias = "array[int] | memoryview[int]"
-"""Records, one behind the other."""
+"""Records in one flat array."""
 
 MOST_ALIKE: Final = 32
-"""How many samples of equal stamp are compared with a new one to find a duplicate."""
+"""Maximum number of samples with equal stamps that a new sample is compared with."""
 
 NO_PARENT: Final = -1
-"""Stands for "no parent" or "no origin"."""
+"""Number that means "no parent" or "no origin"."""
 
 WORDS: Final = 8
-"""How many 64-bit words a record takes."""
+"""Number of 64-bit words in a record."""
 
 RECORD: Final = 8 * WORDS
-"""How many bytes that is."""
+"""Size of a record, bytes."""
 
 AUTHORITY_SHIFT: Final = 32
-"""Where the authority's number begins in an origin."""
+"""Number of the lowest bit of the authority's number in an origin."""
 
 PARENT_MASK: Final = (1 << AUTHORITY_SHIFT) - 1
-"""The bits of an origin that are the parent's number."""
+"""Bits of an origin that contain the parent's number."""
 
-# Why a link has no pose at some moment.
+# Reasons why a link has no pose at a time.
 NO_DATA: Final = 1
 FORWARD: Final = 2
 BACKWARD: Final = 3
 
-# What became of an insert.
+# Results of an insertion.
 TOO_OLD: Final = 0
 KNOWN: Final = 1
 STORED: Final = 2
@@ -78,20 +78,20 @@ _pack: Final = struct.Struct("q7d").pack
 _unpack_pose: Final = struct.Struct("7d").unpack_from
 _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 
-# Pruned samples, and room in front for ones that arrive backwards, take at most one part in eight.
+# At most an eighth of the records are pruned samples, or free space before the oldest sample.
 _SLACK: Final = 3
 _LEAST_SLACK: Final = 32
 
-# Room for samples to come is as much again as there is, at least so much, and so much at most or
-# that part of all (a shift to the right): each time it is made, everything may have to be copied.
+# Free space after the newest sample: as many records as there are, but within these limits, or
+# that part of all (a shift to the right). Making space may copy all records, so it must be rare.
 _LEAST_ROOM: Final = 8
 _MOST_ROOM: Final = 256
 _ROOM: Final = 4
 
-# So many records lie in two large pages of memory.
+# Number of records that fit into two large pages of memory.
 _MANY: Final = 2 * PAGE // RECORD
 
-# A quaternion whose square lies between these is of length one but for rounding.
+# A quaternion whose squared length is between these has unit length except for rounding.
 SHORTEST: Final = 1.0 - quaternions.ROUNDING
 LONGEST: Final = 1.0 + quaternions.ROUNDING
 
@@ -120,14 +120,14 @@ else:
 
 
 class StaticLink(Fields):
-    """A static link: one sample, overwritten by the next.
+    """A static link to a parent: one sample, overwritten by the next.
 
     Attributes:
         is_static: Always true.
         newest_stamp: Always 0, as in tf2.
         oldest_stamp: Always 0.
         parent: Number of the parent; NO_PARENT before there is one.
-        origin: Numbers of the parent and the authority in one word.
+        origin: Numbers of the parent and the authority in one word; see the head of this module.
         mixed: Always false: a static link has one parent.
     """
 
@@ -148,19 +148,19 @@ class StaticLink(Fields):
 
     @property
     def newest(self) -> Sample | None:
-        """The newest sample; None if there is none."""
+        """The only sample; None if there is no sample."""
         return self._newest
 
     def at(self, time: Stamp) -> Sample:
-        """Return the pose, the same for every time; NO_POSE if there is none."""
+        """Return the link's pose, the same for every time; NO_POSE if there is no sample."""
         return self._newest or NO_POSE
 
     def parent_at(self, time: Stamp) -> int:
-        """Return the parent, the same for every time."""
+        """Return the parent's number, the same for every time."""
         return self.parent
 
     def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = True) -> int:
-        """Replace the sample; return KNOWN or PARENT_CHANGED."""
+        """Replace the sample; return KNOWN if an equal sample was stored, else PARENT_CHANGED."""
         parent = origin & PARENT_MASK
         sample = (*pose[0], *pose[1])
         known = parent == self.parent and sample == self._newest
@@ -170,7 +170,7 @@ class StaticLink(Fields):
         return KNOWN if known else PARENT_CHANGED
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
-        """Return the one sample at stamp 0: stamp, parent's number, pose."""
+        """Return the only sample, with stamp 0, as (stamp, parent's number, pose) in a list."""
         return [] if self._newest is None else [(0, self.parent, self._newest)]
 
 
@@ -201,7 +201,7 @@ class History(Fields):
     is_static: Literal[False] = False
 
     def __init__(self, limit: Duration) -> None:
-        # More than any two stamps can be apart.
+        # A limit above the last stamp has the same effect as the last stamp.
         self.limit: Duration = min(limit, LAST_STAMP)
         self.period: Duration = 1
         self.clear()
@@ -213,34 +213,34 @@ class History(Fields):
         self.count: int = 0
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
-        # The newest sample, read when it is first asked for.
+        # The newest sample; read from `records` when first needed.
         self._newest: Sample | None = None
-        # The last two samples as they lie in `records`; read when they are first asked for.
+        # The last two samples as in `records`; read when first needed.
         self._newest_pair: poses.Pair | None = None
         self.parent: int = NO_PARENT
         self.origin: int = NO_PARENT
         self.origins: array[int] | None = None
         self.mixed: bool = False
-        # At this many pruned records the array is compacted.
+        # The array is compacted when this many records are pruned.
         self._compact_at: int = _LEAST_SLACK
-        # Where the newest samples that share a parent begin; of use while mixed.
+        # Index of the first of the newest samples that share a parent; used only while `mixed`.
         self._newest_parent_start: int = 0
         self.large_from: int = _MANY
 
     def __len__(self) -> int:
         return self.count - self.start
 
-    # Asking
+    # Queries
 
     @property
     def newest(self) -> Sample | None:
-        """The newest sample; None if there is none."""
+        """The newest sample; None if there is no sample."""
         if self._newest is None and self.count:
             self._newest = self._sample(self.count - 1)
         return self._newest
 
     def at(self, time: Stamp) -> Sample:
-        """Return the pose at that time (0: the newest), interpolated; NO_POSE if there is none.
+        """Return the interpolated pose at a time (0: the newest); NO_POSE without data.
 
         Between two samples with different parents, return the older one unchanged.
         """
@@ -251,18 +251,18 @@ class History(Fields):
             if time == self.oldest_stamp and self.count:
                 return self._sample(self.start)
             return NO_POSE
-        # Most questions fall between the last two: without them at hand, latest and recent
-        # lookups are an eighth slower.
+        # Most lookups are between the last two samples. Without this cached pair, latest and
+        # recent lookups are an eighth slower.
         pair = self._newest_pair
         if pair is None:
             pair = self._newest_pair = _unpack_pair(self.records, RECORD * (self.count - 2))
         if time < pair[0]:
-            # Samples come almost periodically: guess first, search if that is wrong.
+            # Samples arrive almost periodically: guess the index, and search if the guess is wrong.
             try:
                 guess = self.start + (time - self.oldest_stamp) // self.period
                 pair = _unpack_pair(self.records, RECORD * guess)
             except (struct.error, OverflowError):
-                # Beyond the last record; there may be room behind it, whose stamps are 0.
+                # The guess is after the last record, where records are missing or free (stamp 0).
                 pair = _unpack_pair(self.records, RECORD * self.index(time))
             if not pair[0] <= time < pair[8]:
                 pair = _unpack_pair(self.records, RECORD * self.index(time))
@@ -271,10 +271,9 @@ class History(Fields):
         return poses.interpolate(pair, time)
 
     def parent_at(self, time: Stamp) -> int:
-        """Return the parent's number at that time, from the older neighbour; NO_PARENT without
-        data.
+        """Return the number of the parent at a time; NO_PARENT without data.
 
-        For time 0, return the newest sample's parent.
+        It is the parent in the last sample at or before the time; for time 0 in the newest sample.
         """
         if time == self.newest_stamp or time == 0:
             return self.parent
@@ -285,13 +284,13 @@ class History(Fields):
         return self._parent(self.start if time == self.oldest_stamp else self.index(time))
 
     def stamp_at(self, time: Stamp) -> Stamp:
-        """Return the stamp of the older of the two samples used for that time."""
+        """Return the stamp of the older of the two samples that are interpolated at a time."""
         if time == self.newest_stamp or time == 0:
             return self.newest_stamp
         return self._stamp(self.index(time)) if time > self.oldest_stamp else self.oldest_stamp
 
     def refusal(self, time: Stamp) -> Refusal:
-        """Return why there is no pose at that time, and the stamp nearest to it."""
+        """Return why the link has no pose at a time, and the stamp nearest to the time."""
         if len(self) <= 1:
             return NO_DATA, self.newest_stamp
         if time > self.newest_stamp:
@@ -299,14 +298,14 @@ class History(Fields):
         return BACKWARD, self.oldest_stamp
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
-        """Return every sample, newest first: stamp, parent's number, pose."""
+        """Return every sample, newest first, as (stamp, parent's number, pose)."""
         return [
             (self._stamp(index), self._parent(index), self._sample(index))
             for index in range(self.count - 1, self.start - 1, -1)
         ]
 
     def columns(self) -> "Columns":
-        """Return records and origins, oldest first; see `Columns`.
+        """Return the records and origins of all samples, oldest first; see `Columns`.
 
         The records are not copied, and do not change while the view exists: the array grows only as
         a copy. The records show one state, even if another thread inserts or prunes meanwhile:
@@ -329,7 +328,7 @@ class History(Fields):
                 return view, origins, origin
 
     def parents(self) -> set[int]:
-        """Return the numbers of all parents in the samples."""
+        """Return the numbers of all parents in the stored samples."""
         if not self.mixed or self.origins is None:
             return {self.parent} if self.count else set()
         return {origin & PARENT_MASK for origin in set(self.origins[self.start :])}
@@ -365,7 +364,7 @@ class History(Fields):
         Guess by the mean rate, correct the guess once, and search only when that fails.
         """
         records = self.records
-        # The sample at `low` is not later than the moment, the one at `high` is.
+        # The stamp at `low` is not after the time; the stamp at `high` is after it.
         low, high = self.start, self.count - 1
         self.period = period = max(1, (self.newest_stamp - self.oldest_stamp) // (high - low))
         guess = low + (time - self.oldest_stamp) // period
@@ -387,7 +386,7 @@ class History(Fields):
                 high = guess
         return low
 
-    # Inserting
+    # Insertion
 
     def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = False) -> int:
         """Insert one sample, and prune those that are now too old.
@@ -411,7 +410,7 @@ class History(Fields):
         """
         (x, y, z), (qx, qy, qz, qw) = pose
         if not validated:
-            # NaN is not below anything; nor is a place so far off that it cannot be told from it.
+            # Comparisons with NaN are false, so this also excludes NaN and sums that overflow.
             if not (
                 type(stamp) is int
                 and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST
@@ -430,7 +429,7 @@ class History(Fields):
         record = _pack(stamp, x, y, z, qx, qy, qz, qw)
         oldest_kept = newest - self.limit
         if self.oldest_stamp < oldest_kept:
-            # As a rule every sample that comes prunes one.
+            # Usually each new sample prunes one old sample.
             start = self.start + 1
             oldest = self.records[WORDS * start]
             if oldest < oldest_kept or self.mixed or start >= self._compact_at:
@@ -445,7 +444,7 @@ class History(Fields):
             try:
                 self.records.frombytes(record)
             except (AttributeError, BufferError):
-                # Borrowed, or read by a batch.
+                # The array cannot grow: it is borrowed, or a batch reads it.
                 self._splice(self.count, self.count, array("q", record))
         self.count += 1
         self.newest_stamp = stamp
@@ -463,7 +462,7 @@ class History(Fields):
         return self.insert(stamp, origin, ((x, y, z), turn), True)
 
     def _append_origin(self, origin: int) -> int:
-        """Record the origin of the sample just appended."""
+        """Record the origin of the sample just appended; return PARENT_CHANGED or STORED."""
         if origin == self.origin and self.origins is None:
             return STORED
         count = self.count
@@ -484,7 +483,7 @@ class History(Fields):
         return PARENT_CHANGED
 
     def _note_origins(self, count: int) -> "array[int]":
-        """Return the origin of each record; the first `count` shared one until now."""
+        """Return the array of origins; create it if the first `count` records shared one."""
         origins = self.origins
         if origins is None:
             origins = self.origins = array("q", [self.origin]) * count
@@ -512,7 +511,7 @@ class History(Fields):
         place = self._after(stamp)
         behind = place - 1
         sample = _unpack_pose(record, 8)
-        # Bounded: a publisher that never sets a stamp would make every insert scan all before it.
+        # Limited: else, if a publisher never sets stamps, each insertion would scan all samples.
         last = max(self.start, place - MOST_ALIKE)
         while behind >= last and self._stamp(behind) == stamp:
             if self._sample(behind) == sample and self._parent(behind) == parent:
@@ -541,7 +540,7 @@ class History(Fields):
                 self._newest_parent_start += 1
         self._newest_pair = None
         if place == self.count - 1:
-            # Equal to the newest stamp: the one that came last is in front.
+            # Among samples with the newest stamp, the one inserted last is the newest.
             self._newest = sample
             self.origin = origin
             if changes:
@@ -562,24 +561,24 @@ class History(Fields):
             self.count += room
             self._newest_parent_start += room
         elif self._is_read():
-            # That place may hold a sample which was pruned after the batch began.
+            # A batch may still read the record there: a sample pruned after the batch began.
             self.records = _copied(self.records, 0, len(self.records) // WORDS)
         return self.start - 1
 
     def _splice(self, start: int, stop: int, words: "array[int]") -> None:
-        """Replace the records from `start` up to, but not including, `stop`."""
+        """Replace the records from `start` up to, but not including, `stop` by other records."""
         where = slice(WORDS * start, WORDS * stop)
         try:
             self.records[where] = words
         except (BufferError, TypeError, ValueError):
-            # A batch reads them, which keeps the array as it is; or they are borrowed. To let go
-            # of those may let another thread in, which has the new ones in large pages.
+            # A batch reads the records, or they are borrowed: change a copy. Releasing the old
+            # array may run another thread, which may move the new array to large pages.
             copy = _copied(self.records, 0, len(self.records) // WORDS)
             copy[where] = words
             self.records = copy
 
     def _is_read(self) -> bool:
-        """Whether the array must not change: a batch reads it, or it is borrowed."""
+        """Whether the array of records must not change: a batch reads it, or it is borrowed."""
         try:
             self.records.append(0)
             self.records.pop()
@@ -593,7 +592,7 @@ class History(Fields):
             room = max(_LEAST_ROOM, min(self.count, _MOST_ROOM), self.count >> _ROOM)
             self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
 
-    # Many at once
+    # Insertion of many samples
 
     def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
         """Append records with increasing stamps, and prune those before a stamp.
@@ -604,7 +603,7 @@ class History(Fields):
         if self.newest_stamp < oldest_kept:
             self.replace(records, array("q", [self.origin]) * (len(records) // WORDS))
             return
-        # In place of the room behind the newest one.
+        # The new records replace the free space after the newest sample.
         self._splice(self.count, len(self.records) // WORDS, records)
         self.count += len(records) // WORDS
         self._note_newest()
@@ -612,8 +611,9 @@ class History(Fields):
             self._prune(oldest_kept)
 
     def replace(self, records: "Words", origins: "array[int]") -> None:
-        """Replace all samples by at least one sample, oldest first; of equal stamps the newest
-        last.
+        """Replace all samples by at least one sample, oldest first.
+
+        Samples with equal stamps are in the order of insertion.
         """
         # Borrowed records are only used in ways that a read-only view supports.
         self.records = cast("array[int]", records)
@@ -657,7 +657,7 @@ class History(Fields):
             else:
                 last = middle
         if first:
-            # Neither may write into what both have.
+            # Both histories share the array: neither may write into it.
             shared = memoryview(self.records).toreadonly()
             self.records = cast("array[int]", shared[: WORDS * self.count])
             other.borrow(shared[: WORDS * first], origin)
@@ -673,7 +673,7 @@ class History(Fields):
         return first
 
     def _note_newest(self) -> None:
-        """Update the cached newest sample."""
+        """Update the newest stamp, and drop the cached newest samples."""
         last = self.count - 1
         self.newest_stamp = self._stamp(last)
         self._newest = self._newest_pair = None
@@ -698,9 +698,9 @@ class History(Fields):
         with memoryview(records) as view:
             if len(view) != len(words):
                 return
-            # While a view of it is held, no other thread has the array grow, but one may have put
-            # another in its place. From here on nothing is called, nor is there an object made,
-            # for which the collector might run: no thread comes in between.
+            # While a view of the array exists, no other thread can resize it, but one may have
+            # replaced it. From here on nothing is called or allocated that could run the garbage
+            # collector, so no other thread can interrupt.
             if records is self.records:
                 words[every] = view
                 self.records = words
@@ -713,10 +713,10 @@ class History(Fields):
             self._let_go(self.count - number)
 
     def _prune(self, oldest_kept: Stamp) -> None:
-        """Drop the samples before that stamp; the newest sample always stays."""
+        """Drop the samples before a stamp; the newest sample always stays."""
         start = self.start + 1
         if self._stamp(start) < oldest_kept:
-            # Where equal stamps are the oldest, all of them stay.
+            # All samples with the oldest kept stamp stay.
             start = self._after(oldest_kept - 1)
         self._let_go(start)
 
@@ -728,7 +728,7 @@ class History(Fields):
             if isinstance(self.records, array):
                 self._splice(0, start, array("q"))
             else:
-                # Released samples are not to be copied first.
+                # Copy only the samples that stay.
                 self.records = _copied(self.records, start, self.count)
             self.count -= start
             if self.origins is not None:
@@ -737,7 +737,7 @@ class History(Fields):
                     self.origins = None
             self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
             if IS_NATIVE:
-                # Pruned samples make room for as many, until as many are pruned again.
+                # The space of pruned samples is used for as many new ones.
                 room = array("q", bytes(RECORD * min(start, self._compact_at)))
                 self._splice(self.count, len(self.records) // WORDS, room)
             self._newest_parent_start -= start
@@ -745,13 +745,13 @@ class History(Fields):
         self._begin(start)
 
     def _begin(self, start: int) -> None:
-        """Make the samples begin at the record with index `start`."""
+        """Make the record with index `start` the oldest sample."""
         self.start = start
         self.oldest_stamp = self._stamp(start)
 
 
 def _copied(records: Words, start: int, stop: int) -> "array[int]":
-    """Copy some of the records into a new array."""
+    """Copy the records from `start` up to, but not including, `stop` into a new array."""
     words = records[WORDS * start : WORDS * stop]
     if isinstance(words, array):
         return words
@@ -761,4 +761,4 @@ def _copied(records: Words, start: int, stop: int) -> "array[int]":
 
 
 Link: TypeAlias = StaticLink | History
-"""What joins a child to its parent."""
+"""Link of a child to its parent."""

@@ -1,4 +1,4 @@
-"""The native kernel, if it was built: one C file that implements the usual cases."""
+"""The native kernel, if it was built: one C file that implements the most frequent cases."""
 
 from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
 
@@ -12,16 +12,16 @@ if TYPE_CHECKING:
 _Method = TypeVar("_Method")
 
 IS_NATIVE: Final[bool] = built("tftool.buffer._kernel", 7) is not None
-"""Whether the kernel is used."""
+"""Whether the native kernel is used."""
 
 BUILD: Final = "native" if IS_NATIVE else "pure Python"
-"""What `tftool --version` says."""
+"""The kind of build, as printed by `tftool --version`."""
 
 
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Door:
-        """Fields that a buffer's methods read first; a native base class where the kernel is built.
+        """Fields of a buffer that its methods read first; a native base class where built.
 
         Attributes:
             _paths: Paths of the solver.
@@ -46,7 +46,7 @@ else:
 
 
 class _NativeFirst:
-    """Result of the decorator; the class replaces it by the kernel's method of the same name."""
+    """Marker of a decorated method; on creation of the class the kernel's method replaces it."""
 
     def __init__(self, plain: Any) -> None:
         self._plain = plain

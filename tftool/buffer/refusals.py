@@ -15,17 +15,17 @@ from tftool.base.errors import (
 from tftool.base.stamps import Duration, Stamp, display
 from tftool.buffer.history import BACKWARD, FORWARD, NO_DATA, Refusal
 
-# Stamps are kept in 64 bits.
+# Stamps must fit into 64 bits.
 _LONGEST = 2**63
 
-# How much of a name that is too long is told.
+# Number of letters of a too long name that are shown.
 _NAME_SHOWN: Final = 32
 
 
 def unknown(
     frame: str, argument: str, call: str, known: Collection[str], *, target: str, source: str
 ) -> LookupException:
-    """Return the error for an unknown frame; `known` is read only when the remedy is read."""
+    """Return the error for an unknown frame; `known`, all names, is used for the remedy only."""
     return LookupException(
         f'"{frame}" passed to {call} argument {argument} does not exist. ',
         frame=frame,
@@ -48,7 +48,7 @@ def invalid(
 
 
 def invalid_frame(frame: str, argument: str, why: str) -> str:
-    """Return `can_transform`'s sentence about an invalid name."""
+    """Return `can_transform`'s sentence about an invalid frame name."""
     return f'Invalid frame ID "{frame}" passed to canTransform argument {argument} - {why}'
 
 
@@ -73,7 +73,7 @@ def loop(frames: str, target: str, source: str) -> LookupException:
 
 
 def shortfall(refusal: Refusal, time: Stamp) -> str:
-    """Return the sentence about a link without data for a time."""
+    """Return the sentence that a link has no data at a time, with the data it has."""
     kind, available = refusal
     asked, has = display(time), display(available)
     if kind == NO_DATA:
@@ -102,7 +102,7 @@ _EXTRAPOLATIONS: dict[int, type[ExtrapolationException]] = {
 def extrapolation(
     refusal: Refusal, frame: str, time: Stamp, target: str, source: str
 ) -> ExtrapolationException:
-    """Return the error for the link of `frame`, which has no data at the time."""
+    """Return the error for a lookup at a time at which the link of `frame` has no data."""
     kind, available = refusal
     return _EXTRAPOLATIONS[kind](
         f"{shortfall(refusal, time)}, when looking up transform from frame [{source}] "
@@ -120,7 +120,7 @@ def fits(stamp: Stamp) -> bool:
     return -_LONGEST <= stamp < _LONGEST
 
 
-# What a rejected sample is logged as. Numbers as C's %f writes them.
+# Log lines for rejected samples, with numbers as in C's %f.
 
 
 def objections(
@@ -131,7 +131,7 @@ def objections(
     rotation: tuple[float, float, float, float],
     authority: str,
 ) -> list[str]:
-    """Return everything wrong with a sample, one line per fault; empty if the sample is valid.
+    """Return the log lines about a sample, one per fault; empty if the sample is valid.
 
     Args:
         child: Child frame, without its leading slash.
@@ -158,7 +158,7 @@ def objections(
 
 
 def self_transform(child: str, authority: str) -> str:
-    """Return the line for a child that is its own parent."""
+    """Return the log line for a child that is its own parent."""
     return (
         f'TF_SELF_TRANSFORM: Ignoring transform from authority "{authority}" with frame_id and  '
         f'child_frame_id "{child}" because they are the same'
@@ -166,7 +166,7 @@ def self_transform(child: str, authority: str) -> str:
 
 
 def no_child(authority: str) -> str:
-    """Return the line for an empty child name."""
+    """Return the log line for an empty child name."""
     return (
         f'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "{authority}" because '
         "child_frame_id not set "
@@ -174,7 +174,7 @@ def no_child(authority: str) -> str:
 
 
 def no_parent(child: str, authority: str) -> str:
-    """Return the line for an empty parent name."""
+    """Return the log line for an empty parent name."""
     return (
         f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  from authority '
         f'"{authority}" because frame_id not set'
@@ -184,7 +184,7 @@ def no_parent(child: str, authority: str) -> str:
 def nan_input(
     child: str, authority: str, translation: Iterable[float], rotation: Iterable[float]
 ) -> str:
-    """Return the line for a number that is NaN."""
+    """Return the log line for a sample with a number that is NaN."""
     return (
         f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority '
         f'"{authority}" because of a nan value in the transform ({_plain(translation)}) '
@@ -193,7 +193,7 @@ def nan_input(
 
 
 def denormalized(child: str, authority: str, rotation: Iterable[float]) -> str:
-    """Return the line for a quaternion that is not of unit length."""
+    """Return the log line for a quaternion that cannot be scaled to unit length."""
     return (
         f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from '
         f'authority "{authority}" because of an invalid quaternion in the transform '
@@ -202,7 +202,7 @@ def denormalized(child: str, authority: str, rotation: Iterable[float]) -> str:
 
 
 def old_data(child: str, stamp: Stamp, authority: str) -> str:
-    """Return the line for a sample older than the oldest stamp that the buffer keeps."""
+    """Return the log line for a sample older than every sample the buffer keeps."""
     return (
         f"TF_OLD_DATA ignoring data from the past for frame {child} at time {display(stamp)} "
         f"according to authority {authority}\nPossible reasons are listed at "
@@ -211,16 +211,16 @@ def old_data(child: str, stamp: Stamp, authority: str) -> str:
 
 
 def and_more(child: str, count: int, authority: str) -> str:
-    """Return the line that counts the further rejected samples of a bulk insertion."""
+    """Return the log line that counts the further rejected samples of a bulk insertion."""
     samples, were = ("sample", "was") if count == 1 else ("samples", "were")
     return (
         f"and {count} more {samples} for frame {child} according to authority {authority} {were} "
-        "refused; what set_transforms gave back says which"
+        "refused; the result of set_transforms says which"
     )
 
 
 def bad_stamp(child: str, stamp: Stamp, authority: str) -> str:
-    """Return the line for a stamp beyond 64 bits."""
+    """Return the log line for a stamp that does not fit into 64 bits."""
     return (
         f'TF_BAD_STAMP: Ignoring transform for child_frame_id "{child}" from authority '
         f'"{authority}" because its stamp, {stamp} ns, does not fit 64 bits'
@@ -228,18 +228,18 @@ def bad_stamp(child: str, stamp: Stamp, authority: str) -> str:
 
 
 def too_many_frames(child: str, authority: str, limit: int) -> str:
-    """Return the line for more names than the buffer allows."""
+    """Return the log line for a frame name that would exceed the buffer's maximum number."""
     return (
         f'TF_TOO_MANY_FRAMES: Ignoring transform for child_frame_id "{child}" from authority '
-        f'"{authority}" because the buffer holds {limit} frame names, as many as it takes; '
-        "Buffer(max_frames=…) raises that"
+        f'"{authority}" because the buffer holds {limit} frame names, its maximum; '
+        "Buffer(max_frames=…) raises it"
     )
 
 
 def long_name(child: str, parent: str, authority: str, limit: int) -> str:
-    """Return the line for a frame name longer than the buffer allows; empty if both names fit."""
+    """Return the log line for a frame name longer than `limit` bytes; empty if both names fit."""
     for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
-        # In UTF-8 no character takes more than four bytes: a short name is not written out.
+        # A character in UTF-8 has at most four bytes, so a short name needs no encoding.
         if 4 * len(name) <= limit:
             continue
         size = len(name.encode("utf-8", "surrogatepass"))
@@ -255,8 +255,8 @@ def long_name(child: str, parent: str, authority: str, limit: int) -> str:
 def short_cache(cache_time: Duration) -> str:
     """Return the warning for a cache so short that the unit is probably wrong."""
     return (
-        f"a cache_time of {cache_time} ns forgets nearly everything at once: it is given in "
-        f"nanoseconds, and seconds({cache_time}) makes one of {cache_time} s"
+        f"with a cache_time of {cache_time} ns nearly all samples are dropped at once: the unit is "
+        f"nanoseconds; for {cache_time} s write seconds({cache_time})"
     )
 
 
@@ -265,12 +265,12 @@ def _plain(numbers: Iterable[float]) -> str:
 
 
 Log = Callable[[str, str], None]
-"""Takes a level ("WARN", "ERROR") and a sentence."""
+"""Function called with a level ("WARN", "ERROR") and a sentence."""
 
 
 def log_to_logging(level: str, text: str) -> None:
-    """Log a rejection to `logging`, for a buffer without a log of its own."""
-    # Costs 10 ms at start-up, and most programs never get here.
+    """Log a line about a rejected sample with `logging`; the default of a buffer's `log`."""
+    # Imported here because it takes 10 ms at start-up, and most programs never log.
     import logging
 
     logging.getLogger("tftool.buffer").log(

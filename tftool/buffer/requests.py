@@ -1,4 +1,4 @@
-"""Pending requests, checked again only when a frame they depend on changes."""
+"""Pending requests for a transform, tried again only when a frame they depend on changes."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -6,31 +6,32 @@ from typing import TypeAlias
 from tftool.base.stamps import Stamp
 
 NEVER = 2**64 - 1
-"""The handle of a request that can no longer be met."""
+"""Handle of a request that can no longer succeed."""
 
 NOW = 0
-"""The handle of a request that is met already."""
+"""Handle of a request whose transform is available at once."""
 
 PENDING = 0
 AVAILABLE = 1
 EXPIRED = 2
 
 Callback: TypeAlias = Callable[[int, bool], object]
-"""Is called with the handle, and whether the transform is available now or never will be."""
+"""Function called with the handle, and whether the transform is available or never will be."""
 
 Lookup: TypeAlias = tuple[str, str, Stamp]
-"""Target, source and time."""
+"""Target frame, source frame and time."""
 
 Examine: TypeAlias = Callable[[Lookup, bool], tuple[int, tuple[str, ...]]]
-"""Says PENDING, AVAILABLE or EXPIRED, and which frames must change before that can.
+"""Function that returns PENDING, AVAILABLE or EXPIRED, and the frames that must change before
+the lookup can succeed.
 
-Asked the first time (the flag), a lookup that has an answer is never taken for expired;
-later, as in tf2, expiry is looked at first.
+With the flag (the first attempt), a lookup that succeeds has never expired. Without the flag,
+expiry is checked first, as in tf2.
 """
 
 
 class Request:
-    """One pending request."""
+    """A request to call a function once a transform is available."""
 
     __slots__ = ("callback", "handle", "lookup", "watched")
 
@@ -42,12 +43,12 @@ class Request:
 
 
 class Requests:
-    """Pending requests, indexed by the frames they wait for.
+    """Pending requests for transforms, indexed by the frames they wait for.
 
-    A change of a frame costs no time for requests that wait for other frames.
+    After a change of a frame, only the requests that wait for this frame are tried again.
 
     Attributes:
-        pending: Waiting requests by handle.
+        pending: Pending requests by handle.
     """
 
     __slots__ = ("_examine", "_last", "_watchers", "pending")
@@ -56,11 +57,11 @@ class Requests:
         self._examine = examine
         self._last = 0
         self.pending: dict[int, Request] = {}
-        # Handles by frame; a dictionary keeps them in the order they were made.
+        # Handles by frame; the inner dictionary keeps the order of the requests.
         self._watchers: dict[str, dict[int, None]] = {}
 
     def add(self, callback: Callback, lookup: Lookup) -> int:
-        """Try the lookup at once; keep the request pending if the lookup may succeed later.
+        """Try the lookup at once; store the request if the lookup may succeed later.
 
         Returns:
             NOW if the lookup succeeds, NEVER if it cannot succeed any more, else a handle.
@@ -76,23 +77,23 @@ class Requests:
         return request.handle
 
     def cancel(self, handle: int) -> None:
-        """Cancel a request; ignore a handle that is not pending."""
+        """Remove a pending request; ignore an unknown handle."""
         request = self.pending.pop(handle, None)
         if request is not None:
             self._unwatch(request)
 
     def changed(self, *frames: str) -> list[Exception]:
-        """Check every request that waits for one of these frames again, oldest first.
+        """Try again every request that waits for one of these frames, oldest first.
 
         Returns:
-            The exceptions that callbacks raised; all other callbacks were called nevertheless.
+            The exceptions that callbacks raised; the other callbacks were called nevertheless.
         """
         due: set[int] = set()
         for frame in frames:
             due.update(self._watchers.get(frame, ()))
         failures: list[Exception] = []
         for handle in sorted(due):
-            # A callback may have cancelled it.
+            # An earlier callback may have cancelled this request.
             request = self.pending.get(handle)
             if request is None:
                 continue
@@ -107,7 +108,7 @@ class Requests:
         return failures
 
     def _ask(self, request: Request, first: bool) -> int:
-        """Try the lookup; if it fails, wait for the frames that prevent it."""
+        """Try a request's lookup; if it may succeed later, watch the frames that prevent it."""
         status, blocked = self._examine(request.lookup, first)
         if status == PENDING:
             self._watch(request, blocked)

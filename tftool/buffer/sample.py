@@ -1,4 +1,4 @@
-"""Values the buffer accepts and returns: samples, and snapshots of all frames."""
+"""Values that a buffer accepts or returns: stamped transforms, and snapshots of all frames."""
 
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -9,7 +9,7 @@ from tftool.geometry.rigid import Transform, refuses_arithmetic
 
 @refuses_arithmetic
 class TransformStamped(NamedTuple):
-    """Pose of `child_frame_id` in `frame_id` at one time.
+    """Pose of `child_frame_id` in `frame_id` at the time `stamp`.
 
     `lookup_transform(target, source)` also returns a `TransformStamped`: the pose of the source
     (`child_frame_id`) in the target (`frame_id`).
@@ -29,7 +29,7 @@ class TransformStamped(NamedTuple):
 
 @refuses_arithmetic
 class FrameInfo(NamedTuple):
-    """One frame and its link to its parent.
+    """State of one frame in a snapshot: its link to its parent, and its poses.
 
     Attributes:
         frame: Name of the frame.
@@ -66,11 +66,11 @@ class FrameInfo(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """All frames at one time, immutable.
+    """State of all frames of a buffer at one time, immutable.
 
     Attributes:
-        now: The clock's time.
-        at: The moment shown; 0 for the latest data of every chain.
+        now: The clock's time, nanoseconds; ages are relative to it.
+        at: The time of the poses, nanoseconds; 0 for the latest data of each chain.
         frames: All frames including roots, in the order in which their names were first seen.
     """
 
@@ -92,15 +92,15 @@ class Snapshot:
         return frame in self._by_name
 
     def roots(self) -> tuple[str, ...]:
-        """Return every frame without a parent: one frame for each tree."""
+        """Return the names of all frames without a parent: one frame for each tree."""
         return tuple(info.frame for info in self.frames if info.parent is None)
 
     def children(self, name: str) -> tuple[str, ...]:
-        """Return the direct children of `name`."""
+        """Return the names of the direct children of a frame."""
         return tuple(self._children.get(name, ()))
 
     def frame(self, name: str) -> FrameInfo:
-        """Return the entry of one frame.
+        """Return the state of one frame.
 
         Raises:
             KeyError: If there is no frame with that name.
@@ -108,5 +108,5 @@ class Snapshot:
         return self._by_name[name]
 
     def loops(self) -> tuple[str, ...]:
-        """Return the frames in or below a loop, from which no root is reached."""
+        """Return the names of the frames in or below a loop, from which no root is reached."""
         return tuple(info.frame for info in self.frames if info.root is None)

@@ -1,4 +1,4 @@
-"""All frames at one time, computed in one sweep; also as tf2's YAML, sentences and dot."""
+"""State of all frames of a buffer at one time; also as tf2's YAML, sentences and dot."""
 
 from collections.abc import Iterable
 from typing import TypeAlias
@@ -10,31 +10,31 @@ from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.geometry import poses, quaternions, rigid
 from tftool.geometry.rigid import Transform
 
-# tf2 divides by no less than this when it tells a rate.
+# The shortest span, nanoseconds, by which tf2 divides to compute a rate.
 _SHORTEST: Duration = 100_000
 
 _Located: TypeAlias = tuple[int, Sample | None, Sample | None]
-"""A root's number (below 0: a loop), the pose in the parent, and the pose in the root."""
+"""Root's number (negative for a loop), pose in the parent, and pose in the root."""
 
 
 def snapshot(tree: FrameTree, now: Stamp, at: Stamp) -> Snapshot:
-    """Return every frame at one time; for 0, at the latest time at which its chain has data."""
+    """Return the state of all frames at one time; 0 is the latest time of each frame's chain."""
     sweep = _Sweep(tree, at)
     return Snapshot(now, at, tuple(sweep.info(frame, now) for frame in tree.frames))
 
 
 def rate(link: Link) -> float:
-    """Return hertz by tf2's formula; 10000 for a single sample and for static links."""
+    """Return a link's rate in hertz by tf2's formula; 10000 for one sample or a static link."""
     return rate_of(len(link), link.newest_stamp - link.oldest_stamp)
 
 
 def rate_of(samples: int, span: Duration) -> float:
-    """Return hertz by tf2's formula, for some samples that span this many nanoseconds."""
+    """Return the rate, hertz, of samples that span some nanoseconds, by tf2's formula."""
     return samples * 1e9 / max(span, _SHORTEST)
 
 
 class _Sweep:
-    """Poses computed so far; each chain is walked once per time needed."""
+    """Computation of all frames' poses, which walks each chain once per time needed."""
 
     def __init__(self, tree: FrameTree, at: Stamp) -> None:
         self.frames = tree.frames
@@ -48,7 +48,7 @@ class _Sweep:
             latest, newest_root = self.latest_of(number)
             root, _, pose = self.locate(number, latest)
             if root != newest_root:
-                # At the latest moment of the whole chain it still hung from another tree.
+                # At the latest time of the whole chain, the frame was still in another tree.
                 root, pose = newest_root, None
             own = None if frame.link is None else frame.link.newest
         else:
@@ -58,7 +58,7 @@ class _Sweep:
         parent = self.parent(number, at)
         link = frame.link
         if link is None or parent < 0:
-            # By place, which takes a third of the time that names take.
+            # Arguments by position take a third of the time of arguments by name.
             return FrameInfo(
                 frame.name, None, False, frame.authority,
                 0, 0.0, 0, 0, 0, 0,
@@ -73,7 +73,7 @@ class _Sweep:
         )  # fmt: skip
 
     def parent(self, number: int, time: Stamp) -> int:
-        """Return the parent at that time; outside the history, the newest parent."""
+        """Return a frame's parent at a time; outside the samples' span, the newest parent."""
         link = self.frames[number].link
         if link is None or link.newest is None:
             return NO_PARENT
@@ -83,9 +83,7 @@ class _Sweep:
         return link.parent if parent < 0 else parent
 
     def latest_of(self, number: int) -> tuple[Stamp, int]:
-        """Return the newest time for which the whole chain has data, and its root, by newest
-        parents.
-        """
+        """Return the newest time with data for a frame's chain of newest parents, and its root."""
         chain: list[int] = []
         while True:
             known = self.latest.get(number)
@@ -110,7 +108,7 @@ class _Sweep:
         return latest, root
 
     def locate(self, number: int, time: Stamp) -> _Located:
-        """Return a frame's root, its pose in its parent and its pose in the root at that time."""
+        """Return a frame's root, and its poses in its parent and in the root, at a time."""
         located = self.located.get(time)
         if located is None:
             located = self.located[time] = {}
@@ -145,11 +143,11 @@ def _transform(sample: Sample) -> Transform:
     return rigid.transform((x, y, z), quaternions.canonical((qx, qy, qz, qw)))
 
 
-# As text
+# Snapshots as text
 
 
 def as_yaml(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
-    """Format the frames as tf2's YAML.
+    """Format all frames as tf2's YAML.
 
     Args:
         frames: Frames in the order to be written; frames without a parent are left out.

@@ -12,8 +12,9 @@ from tftool.buffer.path import Path, path_of
 from tftool.buffer.requests import AVAILABLE, EXPIRED, PENDING, Lookup
 
 MOST_PATHS: Final = 20_000
-"""How many paths are cached; a program that cycles through more pairs of frames than this
-recomputes each path, and memory stays bounded."""
+"""Maximum number of cached paths, which limits memory; with more pairs of frames in turn, each
+path is computed again.
+"""
 
 _LOOKUP = "lookupTransform"
 
@@ -21,7 +22,7 @@ _HERE: Final = Path((), (), ())
 
 
 class Solver:
-    """Solver of lookups between two frames.
+    """Solver of lookups between two frames of one tree; it caches the paths it finds.
 
     Attributes:
         paths: Cached paths by target and then by source; cleared when a frame gets another parent.
@@ -36,21 +37,20 @@ class Solver:
         self._kept = 0
 
     def pose(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Sample]:
-        """Return the pose of source in target and its time, by walking the trees.
+        """Return the time of a lookup and the pose of source in target, by walking the trees.
 
         Raises:
             TransformException: As in `Buffer.lookup_transform`.
         """
         time, path, _ = self.way(target, source, time)
         pose = path.solve(time)
-        assert pose is not None, "a link that answers for its parent answers for its pose"
+        assert pose is not None, "a link with a parent at a time has a pose at that time"
         return time, (*pose.translation, *pose.rotation)
 
     def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
         """Return the effective time and the path at that time, by walking the trees.
 
-        The path is cached for the next lookup if possible; the last value returned says whether the
-        path was cached.
+        The third value returned says whether the path was cached for the next lookup.
 
         Raises:
             TransformException: As in `Buffer.lookup_transform`.
@@ -63,7 +63,7 @@ class Solver:
             return time, _HERE, False
         target_number = self.number(target, "target_frame", _LOOKUP, target, source)
         source_number = self.number(source, "source_frame", _LOOKUP, target, source)
-        # 0 asks for the latest moment for which the whole chain has data.
+        # 0 means the latest time at which the whole chain has data.
         time = time or self.latest_common(target_number, source_number)
         walk = trees.walk(target_number, source_number, time)
         if walk.ended != ARRIVED:
@@ -77,7 +77,7 @@ class Solver:
         Raises:
             TransformException: If no chain joins the frames, or a chain contains a loop.
         """
-        # tf2 looks for the latest common time before it walks, so its refusals come first.
+        # Like tf2, find the latest common time before the walk: its errors come first.
         ended, latest = self._tree.latest_common(target, source)
         if ended == ARRIVED:
             return latest
@@ -88,9 +88,7 @@ class Solver:
         raise refusals.unconnected(target_name, source_name)
 
     def why_not(self, target: str, source: str, time: Stamp) -> str | TransformException | None:
-        """Return why a lookup would fail, in the words of `can_transform`; None if it would
-        succeed.
-        """
+        """Return tf2's reason why a lookup would fail; None if the lookup would succeed."""
         if target == source:
             return None
         for frame, argument in ((target, "target_frame"), (source, "source_frame")):
@@ -109,33 +107,31 @@ class Solver:
         return self._refusal(walk, time, target, source)
 
     def chain(self, target: str, source: str, time: Stamp) -> list[str]:
-        """Return the frames from source to target, both included; empty if they are the same."""
+        """Return the names of the frames from source to target, both included; empty if equal."""
         if target == source:
             return []
         time, _, _ = self.way(target, source, time)
         trees = self._tree
         walk = trees.walk(trees.numbers[target], trees.numbers[source], time)
-        # The two sides meet above the last link of either.
+        # The two sides meet in the parent of the last link of each side.
         link = trees.frames[(walk.up or walk.down)[-1]].link
         meeting = -1 if link is None else link.parent_at(time)
         return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
 
     def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
-        """Return the state of a pending request, and the frames that must change before it
-        succeeds.
-        """
+        """Return a request's state, and the frames that must change before it succeeds."""
         target, source, time = lookup
         if target == source:
             return AVAILABLE, ()
         trees = self._tree
         for name in (target, source):
             if name not in trees.numbers:
-                # Nothing but this name's coming up can help.
+                # The lookup cannot succeed before a frame with this name appears.
                 return PENDING, (name,)
         target_number, source_number = trees.numbers[target], trees.numbers[source]
-        # A question fails for good only when the chain's own data has moved past it.
+        # A request fails finally only when the chain's data is newer by more than the cache time.
         ended, latest = trees.latest_common(target_number, source_number)
-        # A question for the latest never becomes too old.
+        # A request for the latest transform never becomes too old.
         expired = latest != 0 and time != 0 and time + self._cache_time < latest
         if expired and not first:
             return EXPIRED, ()
@@ -144,14 +140,13 @@ class Solver:
             return AVAILABLE, ()
         if expired:
             return EXPIRED, ()
-        # Both walks: the missing link may hang elsewhere at the newest moment than at the asked
-        # one.
+        # Both walks, because the missing link may have another parent at the newest time.
         newest = trees.walk(target_number, source_number, 0)
         seen = dict.fromkeys([*walk.visited(), *newest.visited()])
         return PENDING, tuple(trees.frames[number].name for number in seen)
 
     def number(self, frame: str, argument: str, call: str, target: str, source: str) -> int:
-        """Return a frame's number.
+        """Return the number of a frame in the tree.
 
         Raises:
             TransformException: If the frame name is invalid, or unknown.
@@ -166,14 +161,14 @@ class Solver:
         return number
 
     def fault(self, frame: str) -> str:
-        """Return the fault of a frame name, in the words of `can_transform`; empty if valid."""
+        """Return `can_transform`'s sentence on what is wrong with a frame name; empty if valid."""
         if why := tree.fault(frame):
             return why
         return "" if frame in self._tree.numbers else "frame does not exist"
 
     def drop_paths(self) -> None:
-        """Drop every cached path."""
-        # Called at every change of the tree; as a rule there is nothing to drop.
+        """Remove every path from the cache."""
+        # Called at every change of the tree, usually with an empty cache.
         if self._kept:
             self.paths.clear()
             self._kept = 0
@@ -186,16 +181,16 @@ class Solver:
         """
         trees = self._tree
         if not walk.timeless:
-            # What leads elsewhere, or has no data, may lie above the way.
+            # Links with other parents or without data may be above the common ancestor.
             walk = trees.walk(target, source, 0)
             if walk.ended != ARRIVED or not trees.is_steady(walk):
                 return False
             path = path_of(trees, walk)
         for link in path.moving:
-            # A pair that was looked up once is looked up again.
+            # A pair of frames that was looked up once will probably be looked up again.
             if link.count >= link.large_from:
                 link.use_large_pages()
-        # All at once: choosing a victim would cost more than the paths are worth.
+        # Drop all paths at once: finding the least used one would cost more than it saves.
         if self._kept >= MOST_PATHS:
             self.drop_paths()
         self.paths.setdefault(trees.frames[target].name, {})[trees.frames[source].name] = path
@@ -203,7 +198,7 @@ class Solver:
         return True
 
     def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
-        """Return the exception for a lookup without a path through the tree."""
+        """Return the exception that explains why a walk found no path from source to target."""
         if walk.ended == LOOP:
             return self._looped(target, source)
         if walk.ended == REFUSED:

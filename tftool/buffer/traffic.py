@@ -1,7 +1,7 @@
-"""Rate and delay of arriving transforms: the figures of `tf2_monitor`.
+"""Rates and delays of arriving transforms, by the formulas of `tf2_monitor` and exactly.
 
-There are two sets of numbers. The plain properties are exact. The properties that begin with `tf2_`
-repeat the formulas of `tf2_monitor`, for comparison with its output: its rates are too high by one
+Properties that begin with `tf2_` repeat the formulas of `tf2_monitor`, for comparison with its
+output; the other properties are exact. Known errors of `tf2_monitor`: its rates are too high by one
 message, its net delay starts at zero and rises for minutes, and it counts a static transform as
 very late.
 """
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     Floats = npt.NDArray[np.float64]
 
 KEEP = 1000
-"""How many of the newest messages count."""
+"""Number of the newest messages from which rates and delays are computed."""
 
 
 class Series:
-    """Recent messages of one frame or one publisher.
+    """Arrival times and delays of the recent messages of one frame or one publisher.
 
     Attributes:
         total: Number of messages received, including messages that are no longer kept.
@@ -39,7 +39,7 @@ class Series:
         self._tf2_maximum = 0.0
 
     def add(self, now: Stamp, tf2_delay: float, *, dated: bool = True) -> None:
-        """Record a message.
+        """Record the arrival of a message.
 
         Args:
             now: Arrival time, nanoseconds.
@@ -54,7 +54,7 @@ class Series:
             self._delays.append(tf2_delay)
 
     def add_many(self, arrivals: "Stamps", delays: "Floats") -> None:
-        """Record many messages whose stamps are times of measurement, as if one by one.
+        """Record the arrivals of many messages whose stamps are times of measurement.
 
         Args:
             arrivals: Arrival times, nanoseconds, ascending, shape (n,).
@@ -69,18 +69,18 @@ class Series:
 
     @property
     def rate(self) -> float | None:
-        """Messages per second, hertz; None until two have arrived at different times."""
+        """Message rate, hertz; None until two messages have arrived at different times."""
         span = self._span()
         return (len(self._arrivals) - 1) / span if span > 0.0 else None
 
     @property
     def last(self) -> Stamp | None:
-        """Return the arrival time of the newest message; None before the first."""
+        """Return the arrival time of the newest message; None before the first message."""
         return self._arrivals[-1] if self._arrivals else None
 
     @property
     def average_delay(self) -> float | None:
-        """Mean delay from stamp to arrival, seconds; None if no message has a stamp."""
+        """Mean delay of the messages from stamp to arrival, seconds; None if none has a stamp."""
         return sum(self._delays) / len(self._delays) if self._delays else None
 
     @property
@@ -97,17 +97,17 @@ class Series:
 
     @property
     def tf2_rate(self) -> float:
-        """Rate in hertz by tf2_monitor's formula: 1e8 for a single message."""
+        """Message rate in hertz by tf2_monitor's formula; 1e8 for a single message."""
         return len(self._arrivals) / max(1e-8, self._span())
 
     @property
     def tf2_average_delay(self) -> float:
-        """Mean delay in seconds, static transforms included."""
+        """Mean delay of all messages in seconds, static transforms included, as in tf2_monitor."""
         return sum(self._tf2_delays) / len(self._tf2_delays) if self._tf2_delays else 0.0
 
     @property
     def tf2_maximum_delay(self) -> float:
-        """Greatest delay in seconds, never below zero."""
+        """Greatest delay of a message in seconds, at least 0, as in tf2_monitor."""
         return self._tf2_maximum
 
     def _span(self) -> float:
@@ -117,7 +117,7 @@ class Series:
 
 
 class FrameTraffic:
-    """Traffic of one frame.
+    """Recent messages about one frame.
 
     Attributes:
         frame: Name of the frame.
@@ -136,11 +136,11 @@ class FrameTraffic:
 
 
 class Traffic:
-    """Traffic of all received transforms, by frame and by publisher.
+    """Rates and delays of all received transforms, by frame and by publisher.
 
     Attributes:
-        links: Links by frame, in the order of arrival.
-        senders: Senders by authority, in the order of arrival.
+        links: Traffic of each frame, in the order of arrival.
+        senders: Recent messages of each publisher, by authority, in the order of arrival.
     """
 
     def __init__(self) -> None:
@@ -148,7 +148,7 @@ class Traffic:
         self.senders: dict[str, Series] = {}
 
     def link(self, frame: str) -> FrameTraffic:
-        """Return the traffic of a frame, created if it is new."""
+        """Return the recent messages about a frame; add the frame if it is new."""
         return self.links.setdefault(frame, FrameTraffic(frame))
 
     def receive(
@@ -159,7 +159,7 @@ class Traffic:
         *,
         is_static: bool = False,
     ) -> None:
-        """Record the arrival of one message of one publisher."""
+        """Record the arrival of one publisher's message, which may have many transforms."""
         delays = []
         for sample in transforms:
             delay = as_seconds(now - sample.stamp)
@@ -175,7 +175,7 @@ class Traffic:
 
 
 class NetDelay:
-    """Age of the newest answer to one repeated lookup."""
+    """Age of the newest result of a repeated lookup, with its mean."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -184,7 +184,7 @@ class NetDelay:
         self._sum = 0.0
 
     def add(self, delay: float) -> None:
-        """Record the age of an answer in seconds."""
+        """Record the age of a lookup's result, seconds."""
         self.count += 1
         self._sum += delay
         self.maximum = max(self.maximum, delay)
@@ -192,5 +192,5 @@ class NetDelay:
 
     @property
     def average(self) -> float | None:
-        """Mean age of all answers, seconds; None before the first."""
+        """Mean age of all results, seconds; None before the first result."""
         return self._sum / self.count if self.count else None

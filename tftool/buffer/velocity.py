@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Velocity:
-    """A linear and an angular velocity.
+    """Linear and angular velocity of one frame relative to another.
 
     Attributes:
         stamp: Middle of the averaging interval, nanoseconds.
-        frame: The frame in which the two vectors are expressed.
+        frame: The frame in which both vectors are expressed.
         body: The frame that moves.
         linear: Metres per second.
         angular: Radians per second.
@@ -42,7 +42,7 @@ def full(
     time: Stamp,
     interval: Duration,
 ) -> Velocity:
-    """Return tf2's `lookup_velocity_full`, including its known errors.
+    """Return the velocity that tf2's `lookup_velocity_full` computes, with its known errors.
 
     The result is a spatial twist if the reference does not rotate relative to the tracked frame.
     Otherwise tf2 applies the wrong rotation to the vectors, and moves the reference point with an
@@ -52,7 +52,7 @@ def full(
         TransformException: If one of the lookups fails.
         TypeError: If the time or the interval is not a whole number.
     """
-    # Times run through float seconds as they do in tf2, which rounds them the same way.
+    # As in tf2, times are converted to float seconds, which rounds them.
     at, over = as_seconds(whole(time)), as_seconds(whole(interval))
     end = min(at + over * 0.5, as_seconds(buffer.newest_common(observation, tracking)))
     start = max(0.00001 + over, end) - over
@@ -98,7 +98,7 @@ def twist(
 
 
 def _difference(first: Transform, last: Transform, duration: float) -> tuple[Vector3, Vector3]:
-    """Return the mean velocities between two poses, in the frame of the poses."""
+    """Return the mean linear and angular velocity between two poses of a frame."""
     if duration == 0.0:
         unknown = Vector3(math.nan, math.nan, math.nan)
         return unknown, unknown

@@ -1,4 +1,4 @@
-"""Arithmetic of a batch lookup: one chain of links at many times.
+"""Arithmetic of a batch lookup: multiplies the poses of one chain of links at many times.
 
 The arithmetic works on blocks of a few thousand times. Its arrays are allocated once and stay in
 the processor's cache.
@@ -26,19 +26,20 @@ from tftool.geometry.rigid_arrays import Floats
 from tftool.geometry.soa import QuaternionRows, VectorRows, chain, rotate, tan_ratio
 
 BLOCK = 1 << 15
-"""Moments worked on together: with more the cache is too small, with fewer threads get in
-each other's way, for between two operations of numpy only one of them can run."""
+"""Times solved together, as a block. Larger blocks do not fit into the processor's cache; with
+smaller blocks threads wait for each other, because only one can run Python between two operations.
+"""
 
 GROUP = 6
-"""Links whose shares of the way are worked out together, in fewer and longer operations."""
+"""Links whose fractions are computed together, in fewer and longer operations."""
 
-# The intervals of so long a history are still worked out as one: 136 bytes each.
+# Histories up to this length get one table of all intervals, which needs 136 bytes each.
 MOST_INTERVALS = 1 << 16
 
 
 T = TypeVar("T", np.int64, np.float64)
 
-# Where w, x, y and z lie in a sample.
+# Columns of w, x, y and z in a sample.
 _WXYZ = [6, 3, 4, 5]
 
 
@@ -47,7 +48,7 @@ class Intervals:
     interpolation.
 
     At the fraction f of an interval the position is P + f·D, and the rotation is computed as in
-    `soa.Arcs`. Quaternions are in wxyz order. Four numbers share a row because loading 32 bytes
+    `soa.Arcs`. Quaternions are in wxyz order. Each row has four numbers because loading 32 bytes
     costs as much as loading 8.
 
     Attributes:
@@ -55,12 +56,12 @@ class Intervals:
         lengths: Length of each interval, nanoseconds, shape (k,); infinite where the link does not
             move.
         half_angle_squared: θ² of the arcs, shape (k,).
-        places: P in metres, shape (k, 4); the last column is unused, as in `paths`.
-        paths: D in metres, shape (k, 4).
+        places: P in metres, shape (k, 4); column 3 is unused.
+        paths: D in metres, shape (k, 4); column 3 is unused.
         starts: A of the arcs, shape (k, 4).
         directions: C of the arcs, shape (k, 4).
-        endless: Whether an interval begins or ends at infinity.
-        row_by_row: Whether there is one interval for each requested time.
+        endless: Whether some interval begins or ends at a position with an infinite number.
+        row_by_row: Whether interval i belongs to the requested time i.
         terms: Number of series terms that the largest turn needs; 0 if too many.
     """
 
@@ -88,7 +89,7 @@ class Intervals:
         last = len(column.stamps) - 1
         self.row_by_row = not isinstance(first, slice)
         if isinstance(first, slice):
-            # All intervals of a column: made once, fetched by index for each moment.
+            # All intervals of the column: computed once, then gathered by index for each time.
             first = np.arange(first.start, first.stop)
         second = np.minimum(first + 1, last)
         begin, end = column.samples.take(first, axis=0), column.samples.take(second, axis=0)
@@ -96,13 +97,13 @@ class Intervals:
         length = (column.stamps[second] - self.stamps).astype(np.float64)
         still = length == 0.0
         if column.parents is not None:
-            # Between two parents nothing is interpolated: the older sample stays as it is.
+            # Samples with different parents are not interpolated: the older one is valid.
             still |= column.parents[first] != column.parents[second]
         k = len(first)
         self.places: Floats = np.zeros((k, 4))
         self.paths: Floats = np.zeros((k, 4))
         self.places[:, :3] = begin[:, :3]
-        # An infinite length makes every share 0: the older sample is taken as it is.
+        # An infinite length makes every fraction 0, which returns the older sample itself.
         self.lengths: Floats = np.where(still, np.inf, length)
         np.subtract(end[:, :3], begin[:, :3], out=self.paths[:, :3])
         self.paths[still] = 0.0
@@ -130,12 +131,12 @@ class Intervals:
 
 
 class MovingEdge:
-    """A moving link prepared for a batch."""
+    """A moving link, with tables precomputed for a batch lookup."""
 
     __slots__ = ("_buckets", "column", "intervals")
 
     def __init__(self, column: Column, count: int) -> None:
-        """Prepare a link for a batch of `count` times."""
+        """Precompute the tables of a link that are worth it for `count` times."""
         self.column = column
         k = len(column.stamps)
         self.intervals = (
@@ -145,14 +146,14 @@ class MovingEdge:
 
     @property
     def buckets(self) -> Buckets:
-        """Buckets of the samples, built when unsorted times first occur."""
+        """Search index over the samples' stamps, built when unsorted times first occur."""
         if self._buckets is None:
             self._buckets = Buckets(self.column.stamps)
         return self._buckets
 
 
 class StaticEdge:
-    """A static link prepared for a batch: one column, valid at every time."""
+    """A static link for a batch lookup: one pose as a column, valid at every time."""
 
     __slots__ = ("place", "turn")
 
@@ -166,43 +167,43 @@ Edge: TypeAlias = "MovingEdge | StaticEdge"
 
 
 class _RowAllocator:
-    """Allocator of consecutive rows of one block of memory."""
+    """Allocator that returns consecutive rows of one array of working memory."""
 
     def __init__(self, room: Floats, count: int) -> None:
         self._rows = room[: ROWS * count].reshape(ROWS, count)
         self._taken = 0
 
     def __call__(self, number: int) -> Floats:
-        """Return the next `number` rows, with one column per time."""
+        """Return the next `number` unused rows, with one column for each time."""
         self._taken += number
         return self._rows[self._taken - number : self._taken]
 
 
 class _Side:
-    """Product of the links on one side of the chain: from source or target up to the ancestor."""
+    """Product of the poses on one side of a chain: from source or target up to their ancestor."""
 
     __slots__ = ("empty", "place", "turn", "unused")
 
     def __init__(self, rows: _RowAllocator) -> None:
         self.empty = True
         self.place = VectorRows(rows(5))
-        # The quaternions are as long as they come out.
+        # Quaternions that are not scaled to unit length yet.
         self.turn, self.unused = QuaternionRows(rows(6)), QuaternionRows(rows(6))
 
 
 ROWS = 54 + 4 * GROUP
-"""How many numbers are kept for each moment of a block."""
+"""Number of doubles of working memory for each time of a block."""
 
 
-# Doubles in one line of the processor's cache.
+# Doubles in one cache line of the processor.
 _LINE = 8
 
 
 def blocks(count: int, most: int) -> Iterator[slice]:
-    """Split `count` times into equal blocks of at most `most`; the last may be shorter."""
-    # Equal blocks: a short last one would cost as many numpy calls as a full one.
+    """Yield slices that split `count` times into equal blocks of at most `most`."""
+    # Equal blocks, because a short last block costs as many numpy calls as a full one.
     size = -(-count // -(-count // most))
-    # Rows of whole lines: an operation that crosses them at each step takes longer.
+    # Rows of whole cache lines: loads that cross two lines are slower.
     size += -size % _LINE
     for start in range(0, count, size):
         yield slice(start, min(start + size, count))
@@ -211,8 +212,7 @@ def blocks(count: int, most: int) -> Iterator[slice]:
 def room(count: int) -> Floats:
     """Allocate working memory for blocks of at most `count` times.
 
-    The memory is one piece, because the system puts a large piece on large pages, which are faster
-    than many small pieces.
+    The memory is one array, because the system puts a large array on large pages, which are faster.
     """
     numbers = np.empty(ROWS * (count + _LINE) + _LINE)
     address: int = numbers.__array_interface__["data"][0]
@@ -220,20 +220,20 @@ def room(count: int) -> Floats:
 
 
 class BlockArrays:
-    """Work arrays for one block of times, and the arithmetic on them."""
+    """Work arrays for one block of times, and the arithmetic of a chain on these arrays."""
 
     def __init__(self, room: Floats, count: int) -> None:
         """Divide memory from `room` into arrays for blocks of exactly `count` times."""
         self.count = count
         rows = _RowAllocator(room, count)
         self._flags = rows(1)[0].view(np.bool_)[:count]
-        # For each link of a group: the interval, the share of the way, and that of the turn.
+        # For each link of a group: the interval, and the fractions of translation and rotation.
         self._index = rows(GROUP).view(np.intp)[:, :count]
         self._shares, self._ratios = rows(GROUP), rows(GROUP)
-        # The square of half the angle turned, then the factor for `rotate`.
+        # First the square of half the rotation angle, then the factor for `rotate`.
         self._squares = rows(GROUP)
         self._whole: Stamps = self._squares.view(np.int64)
-        # Fetched samples are used up before the next link is turned.
+        # All links share these rows: a link's fetched samples are used before the next link's.
         shared = rows(8)
         self._some, self._more = shared.reshape(2, count, 4)
         self._spare, self._cross = shared[:3], VectorRows(shared[3:])
@@ -259,16 +259,16 @@ class BlockArrays:
             translations: Output in metres, shape (n, 3).
             rotations: Output, unit quaternions in xyzw order, shape (n, 4).
         """
-        # NaN and infinity are answers here: they spread to the rows they belong to, and no further.
+        # NaN and infinity are valid results here: each affects only the rows of its own times.
         with np.errstate(all="ignore"):
             self._climb(self._up, up, times, in_order)
             self._climb(self._down, down, times, in_order)
             self._join(translations, rotations)
 
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
-        """Multiply the links of one side."""
+        """Multiply the poses of one side's links at each time, into the arrays of `side`."""
         side.empty = not edges
-        # Links in groups: one numpy call serves several of them, as long as the arrays fit the
+        # In groups: one numpy call serves several links, as long as the arrays fit into the
         # cache.
         for start in range(0, len(edges), GROUP):
             group = edges[start : start + GROUP]
@@ -287,7 +287,7 @@ class BlockArrays:
                     rotate(turn, factor, side.place, self._cross, self._spare)
                     add(side.place.xyz, place.xyz, side.place.xyz)
                     chain(turn, side.turn, side.unused, self._spare)
-                    # Two sets of rows take turns, so that no product overwrites its own factor.
+                    # Two arrays alternate, so that no product overwrites its own factor.
                     side.turn, side.unused = side.unused, side.turn
                 side.place.close()
 
@@ -323,7 +323,7 @@ class BlockArrays:
         multiply(squares, shares, squares)
         terms = [intervals.terms for intervals in found]
         tan_ratio(squares, ratios, min(terms) and max(terms))
-        # The squared lengths of these quaternions, whose vector part is the tangent.
+        # The squared lengths of quaternions whose vector part has the tangent as its length.
         multiply(squares, ratios, squares)
         multiply(squares, ratios, squares)
         add(squares, 1.0, squares)
@@ -332,7 +332,7 @@ class BlockArrays:
         return list(zip(found, self._index, shares, ratios, squares, strict=False))
 
     def _find(self, edge: MovingEdge, times: Stamps, in_order: bool, index: Indices) -> Intervals:
-        """Return the intervals in use, and write the interval of each time into `index`."""
+        """Write the index of each time's interval into `index`; return the table of intervals."""
         column = edge.column
         if in_order:
             find_sorted(column.stamps, times, index)
@@ -357,14 +357,14 @@ class BlockArrays:
         place: VectorRows,
         turn: QuaternionRows,
     ) -> None:
-        """Interpolate a link's pose at each time, given the linear and the slerp weights."""
+        """Interpolate a link's pose at each time, from the fractions `share` and `ratio`."""
         some, more = self._some, self._more
         intervals.fetch(intervals.places, index, some)
         intervals.fetch(intervals.paths, index, more)
         multiply(share, more.T[:3], place.xyz)
         add(place.xyz, some.T[:3], place.xyz)
         if intervals.endless:
-            # Nothing interpolates from or to infinity, but a sample itself is returned as it is.
+            # Interpolation with infinity gives NaN, but at its own stamp a sample is valid.
             met = np.flatnonzero(share == 0.0)
             place.xyz[:, met] = some[met, :3].T
         intervals.fetch(intervals.starts, index, some)
@@ -374,7 +374,7 @@ class BlockArrays:
         turn.close()
 
     def _join(self, translations: Floats, rotations: Floats) -> None:
-        """Combine the two sides, and write the results."""
+        """Combine the poses of the two sides, and write the results into the output arrays."""
         up, down, scale = self._up, self._down, self._squares[0]
         place, turn = up.place, up.turn
         if not down.empty:
@@ -386,8 +386,8 @@ class BlockArrays:
                 np.negative(place.xyz, place.xyz)
                 place.close()
             else:
-                # The difference is turned, not the two ends: where they are equal, the
-                # answer is zero to the last bit.
+                # Rotate the difference of the two positions, not each position: where they
+                # are equal, the result is exactly zero.
                 subtract(place.xyz, down.place.xyz, place.xyz)
                 place.close()
                 chain(back, turn, up.unused, self._spare)
@@ -401,14 +401,12 @@ class BlockArrays:
         multiply(turn.w, scale, rotations.T[3])
 
     def _square(self, turn: QuaternionRows) -> Floats:
-        """Return the squared lengths of quaternions; exactly 1 where only rounding makes a
-        difference.
-        """
+        """Return the squared lengths of quaternions; exactly 1 if within rounding of 1."""
         square: Floats = self._shares[0]
         off, spare, near = self._ratios[0], self._spare, self._flags
         multiply(turn.xyz, turn.xyz, spare)
         multiply(turn.w, turn.w, off)
-        # In the order of `quaternions.unit`, which leaves the same ones as they are.
+        # Add in the order of `quaternions.unit`, so that both skip the same quaternions.
         for part in (spare[1], spare[2], off):
             add(spare[0], part, spare[0])
         copyto(square, spare[0])
@@ -418,9 +416,7 @@ class BlockArrays:
         return square
 
     def _lead(self, turn: QuaternionRows) -> Floats:
-        """Return the component of each quaternion that tf2 makes positive; see
-        `quaternions.canonical`.
-        """
+        """Return each quaternion's component that `quaternions.canonical` makes positive."""
         small, large, size = self._ratios[0], self._flags, self._spare
         lead: Floats = self._shares[0]
         multiply(turn.w, turn.w, small)

@@ -1,4 +1,4 @@
-"""Columns of a link's history in numpy, and the search for times among its stamps."""
+"""Columns of a link's samples in numpy, and the search for times among its stamps."""
 
 import numpy as np
 import numpy.typing as npt
@@ -14,21 +14,21 @@ Stamps = npt.NDArray[np.int64]
 """Nanoseconds, shape (n,)."""
 
 Indices = npt.NDArray[np.intp]
-"""Numbers of samples or of rows, shape (n,)."""
+"""Indices of samples or of rows, shape (n,)."""
 
-# A bucket that holds more samples than this is searched instead.
+# If a bucket has more samples than this, the stamps are searched by bisection instead.
 _MOST_STEPS = 3
 
 
 class Column:
-    """Samples of a moving link at the time of the question, oldest first.
+    """Samples of a moving link when the lookup began, oldest first.
 
     While a column exists, its records do not change; see `History.columns`.
 
     Attributes:
         records: Samples in memory order, shape (k, 8); see `history`.
-        stamps: Nanoseconds, shape (k,). A copy, made at the first use, like `samples`.
-        samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7).
+        stamps: Nanoseconds, shape (k,); a copy made at the first use.
+        samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7); a copy as well.
         origin: Parent and authority of the newest sample in one word; see `history`.
         origins: Parent and authority of each sample in one word; see `history`. None if all samples
             have the same parent and authority.
@@ -47,7 +47,7 @@ class Column:
         self.parents: npt.NDArray[np.int32] | None = None
         if self.origins is not None:
             parents = (self.origins & PARENT_MASK).astype(np.int32)
-            # Authorities may differ without another parent: only parents change a walk.
+            # Origins may differ only in the authority; only a change of the parent changes a path.
             if len(parents) and (parents != parents[-1]).any():
                 self.parents = parents
 
@@ -56,30 +56,30 @@ class Column:
 
     @property
     def stamps(self) -> Stamps:
-        """Nanoseconds, shape (k,)."""
+        """Stamps of all samples, nanoseconds, shape (k,)."""
         if self._stamps is None:
             self._stamps = np.ascontiguousarray(self.records[:, 0])
         return self._stamps
 
     @property
     def samples(self) -> Floats:
-        """Positions and unit quaternions, shape (k, 7)."""
+        """Positions and unit quaternions of all samples, shape (k, 7)."""
         if self._samples is None:
             self._samples = np.ascontiguousarray(self.records.view(np.float64)[:, 1:])
         return self._samples
 
     @property
     def oldest(self) -> int:
-        """Return the first stamp; without samples, a value later than every stamp."""
+        """Return the oldest stamp; without samples, a value later than every stamp."""
         return int(self.records[0, 0]) if len(self.records) else 2**63 - 1
 
     @property
     def newest(self) -> int:
-        """Return the last stamp; without samples, a value earlier than every stamp."""
+        """Return the newest stamp; without samples, a value earlier than every stamp."""
         return int(self.records[-1, 0]) if len(self.records) else -(2**63)
 
     def changes(self) -> Stamps:
-        """Return the rows at which the parent may change, including the first and the last."""
+        """Return the stamps at which the parent may change, including the first and the last."""
         ends = self.stamps[[0, -1]] if len(self.stamps) else self.stamps
         if self.parents is None:
             return ends
@@ -88,12 +88,12 @@ class Column:
 
 
 class Columns:
-    """Columns of every link that a batch touches, each copied once."""
+    """Columns of the links that a batch lookup uses, each copied once."""
 
     __slots__ = ("_held",)
 
     def __init__(self) -> None:
-        # The link is kept too: a number is only an identity while its object lives.
+        # The link is stored too: its `id` is unique only while the link exists.
         self._held: dict[int, tuple[Link, Column | Sample | None]] = {}
 
     def of(self, link: Link) -> "Column | Sample | None":
@@ -106,7 +106,7 @@ class Columns:
 
 
 def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
-    """See `Buffer.samples`."""
+    """Return all samples of one frame's link; see `Buffer.samples`."""
     link = frame.link
     is_static = link is not None and link.is_static
     stamps: Stamps = np.zeros(0, dtype=np.int64)
@@ -122,7 +122,7 @@ def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
     elif link is not None and link.newest is not None:
         stamps, poses = np.zeros(1, dtype=np.int64), np.array([link.newest])
         origins = np.array([link.origin], dtype=np.int64)
-    # Names are looked up once for each distinct sender, not for each sample.
+    # Look up names once for each distinct sender, not for each sample.
     numbers, kind = np.unique(origins, return_inverse=True)
     parents = [tree.frames[number & PARENT_MASK].name for number in numbers.tolist()]
     authorities = [tree.authorities[number >> AUTHORITY_SHIFT] for number in numbers.tolist()]
@@ -133,7 +133,7 @@ def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
         np.array(authorities, dtype=np.object_)[kind],
     )
     for array in columns:
-        # They are handed to users: a change in them would be lost, so it raises.
+        # Users get copies: writing into one would not change the buffer, so it raises.
         array.flags.writeable = False
     return SampleColumns(frame.name, is_static, *columns)
 
@@ -152,7 +152,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
     given = np.asarray(times)
     if given.ndim == 0:
         raise ValueError(
-            f"{name} have the shape (n,), not (): write a single one as a list, [{given}]"
+            f"{name} have the shape (n,), not (): write a single time as a list, [{given}]"
         )
     if given.ndim != 1:
         raise ValueError(f"{name} have the shape (n,), not {given.shape}")
@@ -160,7 +160,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
         return np.zeros(0, dtype=np.int64)
     kind = given.dtype.kind
     if kind == "O":
-        # Python's own whole numbers, of any size: `whole` refuses True and 1.5.
+        # Python integers of any size; `whole` refuses True and 1.5.
         wholes = [whole(time) for time in given]
         unfit = [time for time in wholes if not refusals.fits(time)]
         if unfit:
@@ -174,7 +174,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
             "M": f"{name}.astype('datetime64[ns]').astype(np.int64) makes them of dates",
         }.get(kind, "seconds(2.5) makes one of 2.5 seconds")
         raise TypeError(f"{name} are whole nanoseconds (int64), not {given.dtype}: {remedy}")
-    # Aligned too: rows of a file's bytes may begin anywhere.
+    # Align the array too: rows in a file's bytes may begin at any address.
     return np.require(given, np.int64, ["C", "A"])
 
 
@@ -191,7 +191,7 @@ class Buckets:
     def __init__(self, stamps: Stamps) -> None:
         self._stamps = stamps
         self._oldest = int(stamps[0])
-        # A shift finds the bucket: a power of two needs no division.
+        # A bucket spans a power of two, so that a shift finds it without a division.
         span = int(stamps[-1]) - self._oldest
         self._shift = max((span // (2 * len(stamps))).bit_length() - 1, 0)
         count = (span >> self._shift) + 1
@@ -200,14 +200,14 @@ class Buckets:
         self._before: Indices = before
         after = np.append(before[1:], len(stamps) - 1)
         self._steps = int((after - before).max())
-        # The stamp at which the sample after each one begins; there is none after the last.
+        # For each sample the stamp of the next sample; the last has no next sample.
         self._next: Stamps = np.append(stamps[1:], np.int64(2**63 - 1))
 
     def find(
         self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
     ) -> None:
-        """Write into `index` the last sample at or before each time."""
-        # Samples in bursts fill some buckets: there a binary search is quicker.
+        """Write into `index` the last sample at or before each time, for times in any order."""
+        # If samples come in bursts, some buckets are full, and a binary search is faster.
         if self._steps > _MOST_STEPS:
             index[:] = np.searchsorted(self._stamps, times, "right") - 1
             return
@@ -229,7 +229,7 @@ def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
     if last - first > len(times):
         np.subtract(np.searchsorted(stamps[first : last + 1], times, "right"), 1 - first, out=index)
         return
-    # Counted up from one sample to the next: other than `repeat`, that lets threads run.
+    # Count the samples up to each time. `repeat` could do it, but would hold the GIL.
     index.fill(0)
     np.add.at(index, times.searchsorted(stamps[first + 1 : last + 1], "left"), 1)
     index[0] += first
@@ -237,7 +237,7 @@ def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
 
 
 def settle_oldest(column: Column, times: Stamps, index: Indices) -> None:
-    """Choose, among samples with the oldest stamp, the one inserted first."""
+    """Correct `index` at the oldest stamp: of equal stamps, tf2 uses the sample inserted first."""
     stamps = column.stamps
     if len(stamps) > 2 and stamps[0] == stamps[1] and stamps[0] != stamps[-1]:
         index[times == stamps[0]] = 0

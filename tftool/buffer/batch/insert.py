@@ -1,4 +1,4 @@
-"""Insertion of many samples of one link in numpy: `Buffer.set_transforms`."""
+"""Insertion of many samples of one link in numpy, for `Buffer.set_transforms`."""
 
 from array import array
 from collections import deque
@@ -25,19 +25,19 @@ from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.rigid_arrays import Floats
 
 Flags: TypeAlias = npt.NDArray[np.bool_]
-"""One yes or no for each row."""
+"""Mask with one boolean for each row, shape (n,)."""
 
 MOST_LINES = 10
-"""How many refused rows are logged with their reasons; the others are only counted."""
+"""Number of rejected rows that are logged with their reasons; the others are only counted."""
 
 _LEAST = -(2**63)
 
-_BLOCK = 8192  # rows per chunk, so that a chunk fits the processor's cache
+_BLOCK = 8192  # rows per chunk; a chunk fits into the processor's cache
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Insertion:
-    """Outcome of a bulk insertion; true if every sample was accepted.
+    """Result of a bulk insertion; true if every sample was accepted.
 
     Attributes:
         accepted: Whether each row was accepted, shape (n,). A row that is already stored counts as
@@ -62,12 +62,12 @@ class Insertion:
 
 
 class CheckedRows:
-    """Samples of a bulk insertion, checked row by row.
+    """Samples of a bulk insertion, with the result of each row's check.
 
     Attributes:
         stamps: Nanoseconds, shape (n,).
         samples: Position and canonical unit quaternion, shape (n, 7).
-        reasons: Masks of invalid rows, by tf2's code.
+        reasons: For each of tf2's codes for a fault, the mask of the rows with that fault.
         validated: Mask of the valid rows.
     """
 
@@ -78,7 +78,7 @@ class CheckedRows:
         rotations: npt.ArrayLike,
         rest: tuple[str, str, str],
     ) -> None:
-        """Check samples.
+        """Check the rows of a bulk insertion.
 
         Args:
             stamps: Whole nanoseconds, shape (n,).
@@ -96,7 +96,7 @@ class CheckedRows:
         every = np.ones(n, dtype=np.bool_)
         whole = self._rest[:2]
         codes = refusals.objections(*whole, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
-        # Judged by the scalar rules where they do not depend on the row; array tests do the rest.
+        # Names are checked once, by the rules for single samples; array tests check the rows.
         self.reasons = {
             **{line.partition(":")[0]: every for line in codes},
             "TF_NAN_INPUT": np.isnan(self.samples).any(axis=1),
@@ -111,7 +111,7 @@ class CheckedRows:
             yield int(self.stamps[row]), (x, y, z, qx, qy, qz, qw)
 
     def lines(self, row: int) -> list[str]:
-        """Return the log lines for a rejected row."""
+        """Return the log lines that explain why a row is rejected."""
         child, parent, authority = self._rest
         x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
         stamp = int(self.stamps[row])
@@ -139,7 +139,7 @@ def insert(
         rotations: Quaternions in xyzw order, shape (n, 4).
 
     Returns:
-        The outcome of each row, and the checked rows.
+        Which rows were accepted and why others were not, and the checked rows.
     """
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     rows = CheckedRows(stamps, translations, rotations, (child, parent, authority))
@@ -156,22 +156,22 @@ def insert(
         accepted[:] = False
         log("ERROR", full)
     if accepted.any():
-        # From here on the tree changes: everything that may refuse was asked before.
+        # From here on the tree changes: every check that can reject rows comes before.
         frame, history, _ = tree.hang(child, parent, False)
         assert isinstance(history, History)
         origin = tree.origin(parent, authority)
-        # As a rule all of them: then nothing is copied.
+        # Usually all rows are accepted; a slice avoids a copy.
         chosen = slice(None) if accepted.all() else np.flatnonzero(accepted)
         old = merge(history, origin, rows.stamps[chosen], rows.samples[chosen])
         if old.any():
-            # `old` counts among the accepted rows; the answer counts among all.
+            # `old` is a mask of the accepted rows; convert it to a mask of all rows.
             late: Flags = np.zeros(len(accepted), dtype=np.bool_)
             late[np.flatnonzero(accepted)[old]] = True
             reasons["TF_OLD_DATA"] = late
             accepted &= ~late
         if not old.all():
             tree.note(frame, parent, authority, origin)
-    # A name that is too long was logged once, not for each row.
+    # A name that is too long is logged once, not for each row.
     refused = [] if long else np.flatnonzero(~accepted).tolist()
     if "TF_TOO_MANY_FRAMES" in reasons:
         refused = np.flatnonzero(~rows.validated).tolist()
@@ -193,7 +193,7 @@ def adopt(
     records: npt.NDArray[np.int64],
     kept: int = 0,
 ) -> bool:
-    """Give a new child a history that shares recorded samples, without a copy.
+    """Insert recorded samples of a new child without copying them: its history shares the array.
 
     Args:
         tree: The tree to insert into.
@@ -221,16 +221,16 @@ def adopt(
         return False
     if objections or not len(records) or not tree.has_room(child, parent, max_frames):
         return False
-    # A known child may have samples to merge with: that is the work of `merge`.
+    # A known child may have samples already: `merge` handles that case.
     if there is not None and tree.frames[there].link is not None:
         return False
-    # Longer than the buffer remembers: rows would have to be pruned.
+    # The records span more than the buffer's limit: some would have to be pruned.
     if int(records[-1, 0]) - int(records[0, 0]) > tree.limit:
         return False
-    # Borrowed, not copied: a recording of a million rows is taken in microseconds.
+    # Borrowed, not copied: a recording of a million rows is inserted in microseconds.
     lent = words = _lent(records)
     for begin in range(kept, len(records), _BLOCK):
-        # With the one before: rows in the cache are read only once.
+        # Begin one row earlier to compare stamps; both checks read rows in the cache.
         stamps = records[max(begin - 1, 0) : begin + _BLOCK, 0]
         samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
         if not (stamps[1:] > stamps[:-1]).all() or not np.isfinite(samples).all():
@@ -240,8 +240,8 @@ def adopt(
         turns = batch.canonical(batch.unit(samples[:, 3:]))
         if np.isnan(turns).any():
             return False
-        # The first row that needs another quaternion makes a copy: the caller's array stays as it
-        # is.
+        # Copy at the first row whose quaternion must change: the caller's array stays
+        # unchanged.
         if words is lent:
             words = _words(records)
         changed = np.frombuffer(words, dtype=np.float64).reshape(-1, WORDS)
@@ -255,7 +255,7 @@ def adopt(
 
 
 def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
-    """Return the records' memory as a flat array of words, up to where it is contiguous."""
+    """Return the records as a flat array of words: a view if contiguous, else a copy."""
     if not records.flags.c_contiguous:
         return _words(records)
     return records.data.cast("B").cast("q")
@@ -264,12 +264,12 @@ def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
 def _is_canonical(turns: Floats) -> bool:
     """Whether finite quaternions are in stored form: unit length and tf2's sign."""
     x, y, z, w = np.moveaxis(turns, -1, 0)
-    # Added in the order in which it is done one by one: it decides about the last bit.
+    # Add in the order of the scalar code, so that the last bit is the same.
     with np.errstate(over="ignore", under="ignore"):
         square = x * x + y * y + z * z + w * w
     if square.min() <= SHORTEST or square.max() >= LONGEST:
         return False
-    # All four: of a half turn's w, zero, the other sign is no other number.
+    # Compare all four numbers: at half a turn w is 0, and 0 equals -0.
     return bool(w.min() > 0.5 or (batch.canonical(turns) == turns).all())
 
 
@@ -277,15 +277,15 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
     """Insert validated samples in their order; return a mask of the samples that were too old."""
     n = len(stamps)
     limit = min(history.limit, 2**63 - 1)
-    # The newest stamp there was before each row: what it is too old for, and what it prunes by.
+    # The newest stamp before each row: it decides whether the row is too old, and what is pruned.
     before = np.empty(n, dtype=np.int64)
     before[0] = history.newest_stamp if len(history) else _LEAST
     np.maximum(before[0], np.maximum.accumulate(stamps[:-1]), out=before[1:])
-    # Where subtracting would pass the smallest number there is, nothing is too old.
+    # If the subtraction would overflow, no row is too old.
     floors = np.where(before < _LEAST + limit, _LEAST, before - limit)
     old: Flags = stamps < floors
     floor = int(floors[-1])
-    # The common case, newer samples in order: appended without looking at the old ones.
+    # The common case: the rows are newer than all samples, and in order. Append them.
     in_order = bool(np.all(stamps[1:] > stamps[:-1]))
     if in_order and (not len(history) or int(stamps[0]) > history.newest_stamp):
         kept = slice(int(np.searchsorted(stamps, floor)), n)
@@ -297,7 +297,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
             history.extend(records, floor)
             return old
 
-    # Out of order: old and new are sorted together, and the history is built anew.
+    # Out of order: sort old and new samples together, and replace the history.
     column = Column(history)
     there = column.origins
     if there is None:
@@ -306,7 +306,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
     all_stamps = np.concatenate((column.stamps, came))
     all_samples = np.concatenate((column.samples, samples[~old]))
     all_origins = np.concatenate((there, np.full(len(came), origin, dtype=np.int64)))
-    # Stable: among equal stamps, what came later stays behind what came before.
+    # Stable: samples with equal stamps keep the order of insertion.
     order = np.argsort(all_stamps, kind="stable")
     order = order[all_stamps[order] >= floor]
     order = order[_first_of_their_kind(all_stamps, all_samples, all_origins & PARENT_MASK, order)]
@@ -317,8 +317,8 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return the rows that differ from all earlier samples with the same stamp."""
-    # tf2 ignores a sample that equals one at the same stamp; only runs of equal stamps matter.
+    """Return a mask over `order`: false for a repetition of an earlier sample at the same stamp."""
+    # tf2 ignores a sample equal to a stored one with its stamp: check runs of equal stamps only.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]
     equal = np.flatnonzero(ordered[1:] == ordered[:-1])

@@ -1,4 +1,4 @@
-"""Batch lookup, native or in numpy: `Buffer.lookup_transforms`."""
+"""Batch lookup of transforms, native or in numpy, for `Buffer.lookup_transforms`."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -26,15 +26,15 @@ CHUNK = 1 << 16
 """Rows per chunk; a batch's temporary memory grows with it."""
 
 SECTION = 1 << 18
-"""Rows per chunk for long histories, where moments in no order are sorted first."""
+"""Rows per chunk for long histories, for which unsorted times are sorted first."""
 
-# In shorter blocks, threads spend their time waiting for each other.
+# With shorter blocks, threads mostly wait for each other.
 _LEAST_BLOCK = 1 << 11
 
-# Below this, a second thread costs more than it brings.
+# With fewer rows, a second thread costs more time than it saves.
 _WORTH_A_THREAD = CHUNK
 
-# Rows of a time travel whose two halves are held at the same time.
+# Rows of a lookup with two times whose halves are in memory at the same time.
 _TOGETHER = CHUNK
 
 
@@ -47,12 +47,12 @@ def lookup_transforms(
     missing: str = "raise",
     threads: int | None = None,
 ) -> TransformArray:
-    """See `Buffer.lookup_transforms`."""
+    """Return the poses of source in target at many times; see `Buffer.lookup_transforms`."""
     if missing not in ("raise", "nan"):
         raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
     workers = _workers(threads)
     stamps = stamps_of(times, "times")
-    # Like tf2: the identity, at whatever stamp is asked for.
+    # Like tf2: the identity, with the requested stamp.
     if target == source:
         return _identities(tree, target, stamps)
     numbers = (
@@ -77,7 +77,7 @@ def lookup_transforms_full(
     missing: str = "raise",
     threads: int | None = None,
 ) -> TransformArray:
-    """See `Buffer.lookup_transforms_full`."""
+    """Return poses by way of a fixed frame; see `Buffer.lookup_transforms_full`."""
     if missing not in ("raise", "nan"):
         raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
     for frame, argument in (
@@ -101,7 +101,7 @@ def lookup_transforms_full(
         fixed_from_source = lookup_transforms(
             tree, solver, fixed, source, ours[rows], "nan", threads
         )
-        # Each half has stamps of its own; the fixed frame joins them.
+        # Each half has its own stamps; the fixed frame joins the halves.
         target_from_fixed = lookup_transforms(
             tree, solver, target, fixed, theirs[rows], "nan", threads
         )
@@ -112,7 +112,7 @@ def lookup_transforms_full(
         found.valid[rows] = some.valid
         if missing == "raise":
             for row in (start + np.flatnonzero(~some.valid)).tolist():
-                # One of the two is refused, and says why: the first comes first.
+                # One of these two single lookups fails, and raises the error in tf2's words.
                 solver.pose(fixed, source, int(ours[row]))
                 solver.pose(target, fixed, int(theirs[row]))
     return found
@@ -133,11 +133,11 @@ class _Batch:
         self.times = times
         self.ask = ask
         self.columns = Columns()
-        # Where no link of the chain changed its parent, one path serves every moment.
+        # If no link of the chain ever changes its parent, one path is valid at every time.
         self.path = _steady_path(tree, self.target, self.source)
-        # Narrowed to the span in which every link of the path has data.
+        # The span in which every link of the path has data; narrowed below.
         self.first, self.last = -(2**63), 2**63 - 1
-        # Whether moments in no order are sorted first: long histories do not fit a cache.
+        # Whether unsorted times are sorted first: long histories do not fit into a cache.
         self.sorts = False
         for link in self.path.moving if self.path else ():
             column = self.columns.of(link)
@@ -147,9 +147,9 @@ class _Batch:
             if len(column) > kernel.MOST_INTERVALS:
                 self.sorts = True
         self.rows_at_once = SECTION if self.sorts else CHUNK
-        # There the intervals are recomputed for each block, which needs memory as well.
+        # Then the intervals are computed for each block, which needs memory too.
         self.block = kernel.BLOCK // 2 if self.sorts else kernel.BLOCK
-        # By the link's id: a link that is on both sides is made ready once.
+        # By the link's id: a link that is on both sides is prepared once.
         self.ready: dict[int, kernel.Edge] = {}
         self.rooms: list[Floats] = []
         self.latest: tuple[Stamp, Sample] | TransformException | None = None
@@ -160,13 +160,13 @@ class _Batch:
         self.valid = np.empty(n, dtype=np.bool_)
 
     def run(self, complete: bool, workers: int) -> None:
-        """Solve every row; if every row must have a result, raise for the first row without one."""
+        """Solve every row; if `complete`, raise the error of the first row without a result."""
         n = len(self.times)
-        # More threads than two share the memory that two take.
+        # More than two threads share the memory that two threads use.
         crowd = max(workers / 2, 1)
         self.block = max(int(self.block / crowd), _LEAST_BLOCK)
         most = max(int(self.rows_at_once / crowd), self.block)
-        # Of equal size, so that no thread is left with more than the others.
+        # Chunks of equal size, so that all threads have the same amount of work.
         pieces = -(-n // (most * workers)) * workers
         self.rows_at_once = -(-n // pieces) if pieces else 1
         starts = range(0, n, self.rows_at_once)
@@ -185,7 +185,7 @@ class _Batch:
                 raise
 
     def fill(self, start: int, complete: bool) -> None:
-        """Solve one chunk of rows."""
+        """Solve one chunk of rows, beginning at row `start`."""
         rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
@@ -193,10 +193,10 @@ class _Batch:
         if IS_NATIVE and self.path is not None and self.first <= self.last:
             missing = self.solve_natively(self.path, times, rows)
         if missing is not None:
-            # Every row is answered: the usual end.
+            # Every row has a result: the usual case.
             if missing == 0:
                 return
-            # Rows of stamp 0 ask for the latest common time, which is no moment of the path.
+            # Rows with time 0 request the latest common time, which is not a time on the path.
             rest = np.flatnonzero(~self.valid[rows] & (times != 0))
         else:
             if self.path is not None and self.has_all(times):
@@ -205,7 +205,7 @@ class _Batch:
             rest = self.begin(times, start)
         if len(rest):
             moments = times[rest]
-            # The tree had other shapes at these moments: each shape is a path of its own.
+            # The tree had other shapes at these times: each shape has its own path.
             for path, chosen in _paths_by_moment(
                 self.tree, self.columns, self.target, self.source, moments
             ):
@@ -214,12 +214,12 @@ class _Batch:
         self.fill_latest(start + np.flatnonzero(times == 0))
         if complete:
             for row in (start + np.flatnonzero(~self.valid[rows])).tolist():
-                # The scalar lookup refuses in tf2's words; should it answer after all, that answer
-                # counts.
+                # The single lookup raises an error in tf2's words; if it succeeds after all, its
+                # result is used.
                 self.put(row, self.ask(int(self.times[row])))
 
     def begin(self, times: Stamps, start: int) -> Indices:
-        """Solve the rows that the steady path covers; return the indices still open."""
+        """Solve the rows that the constant path covers; return the indices of unsolved rows."""
         rows = slice(start, start + len(times))
         usable = (times >= self.first) & (times <= self.last) & (times != 0)
         self.valid[rows] = False
@@ -232,7 +232,7 @@ class _Batch:
         return rest
 
     def has_all(self, times: Stamps) -> bool:
-        """Whether the steady path has data for all times, and no row asks for the latest."""
+        """Whether the constant path has data for all times, and no row requests the latest."""
         least, most = int(times.min()), int(times.max())
         return self.first <= least and most <= self.last and (least > 0 or bool(times.all()))
 
@@ -246,7 +246,7 @@ class _Batch:
         up, down = self.edges(path.up), self.edges(path.down)
         in_order = bool(np.all(times[1:] >= times[:-1]))
         if self.sorts and not in_order:
-            # Neighbouring moments then touch neighbouring samples, which the cache holds.
+            # Consecutive times then use neighbouring samples, which are in the cache.
             order = np.argsort(times)
             rows = order + rows.start if isinstance(rows, slice) else rows[order]
             times, in_order = times[order], True
@@ -261,7 +261,7 @@ class _Batch:
                 translations, rotations = self.translations[here], self.rotations[here]
                 arrays.solve(up, down, block, in_order, translations, rotations)
             else:
-                # Rows that are scattered: solved together, then written where they belong.
+                # Scattered rows are solved together, then written to their places.
                 translations, rotations = np.empty((len(block), 3)), np.empty((len(block), 4))
                 arrays.solve(up, down, block, in_order, translations, rotations)
                 self.translations[rows[part]] = translations
@@ -287,9 +287,7 @@ class _Batch:
         return missing
 
     def held(self, links: Iterable[Link]) -> tuple[Link, ...]:
-        """Return the links' samples as of the start of the call; later insertions do not change
-        them.
-        """
+        """Return copies of the links with the samples they had when this batch copied them."""
         found: list[Link] = []
         for link in links:
             held = self.columns.of(link)
@@ -331,7 +329,7 @@ class _Batch:
         return ready
 
     def fill_latest(self, rows: Indices) -> None:
-        """Solve the rows that ask for the latest; all get the same result."""
+        """Solve the rows whose time is 0 (the latest); all get the same result."""
         if not len(rows):
             return
         if self.latest is None:
@@ -352,7 +350,7 @@ class _Batch:
 
 
 def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
-    """Return the path if it is the same at all times with data; None if the path changes."""
+    """Return the path if it is the same at all times with data; None if it changes over time."""
     walk = tree.walk(target, source, 0)
     if walk.ended != ARRIVED or not tree.is_steady(walk):
         return None
@@ -365,11 +363,11 @@ def _paths_by_moment(
     """Yield each path that some times need, with the rows of these times.
 
     All times between two changes (a link begins, ends, or changes its parent) share one path. Rows
-    without a path are refused.
+    whose time has no path are left out.
     """
-    # Between two marks no link changes, so one walk answers for all moments there.
+    # Between two marks no link changes, so one walk finds the path for all times there.
     marks = _marks(tree, columns, (target, source))
-    # Odd numbers are marks, even numbers the spans between two.
+    # Odd numbers are marks; even numbers are the spans between two marks.
     interval = np.searchsorted(marks, times, "left") + np.searchsorted(marks, times, "right")
     found, first, member = np.unique(interval, return_index=True, return_inverse=True)
     paths: dict[tuple[tuple[int, ...], tuple[int, ...]], Path] = {}
@@ -409,7 +407,7 @@ def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps
         above = {link.parent}
         if isinstance(column, Column):
             marks.append(column.changes())
-            # A link with several parents leads to several frames, and each may hold marks.
+            # A link with several parents leads to several frames, and each may add marks.
             if column.parents is not None:
                 above.update(np.unique(column.parents).tolist())
         above -= seen
@@ -419,9 +417,7 @@ def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps
 
 
 def _identities(tree: FrameTree, frame: str, times: Stamps) -> TransformArray:
-    """Return identities, for a frame relative to itself; any name is accepted, as in a single
-    lookup.
-    """
+    """Return one identity per time: a frame's pose in itself. Unknown names are accepted."""
     number = tree.numbers.get(frame)
     newest = 0 if number is None else tree.newest_stamp(number)
     n = len(times)
@@ -438,7 +434,7 @@ def _identities(tree: FrameTree, frame: str, times: Stamps) -> TransformArray:
 
 
 def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[Stamps, Stamps]:
-    """Return two arrays of times of equal length; a single time is repeated."""
+    """Return both arrays of times, with equal lengths; a single time is repeated."""
     theirs, ours = np.asarray(target_times), np.asarray(source_times)
     if theirs.ndim == 0 and ours.ndim == 1:
         theirs = np.broadcast_to(theirs, ours.shape)
@@ -454,9 +450,9 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
 
 
 def _workers(threads: int | None) -> int:
-    """Return the number of threads: as requested, else one per available core."""
+    """Return the number of threads: `threads`, or one for each available core if None."""
     if threads is None:
-        # Where the system tells, those it allows us; a container may have more.
+        # The cores this process may use, if the system tells; the machine may have more.
         allowed = getattr(os, "sched_getaffinity", None)
         return len(allowed(0)) if allowed else os.cpu_count() or 1
     if threads < 1:

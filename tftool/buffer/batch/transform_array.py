@@ -33,7 +33,7 @@ class Velocities(NamedTuple):
 class SampleColumns:
     """Samples of one link, oldest first: the result of `Buffer.samples`.
 
-    The arrays are read-only copies. Equal stamps are in the order of insertion.
+    The arrays are read-only copies. Samples with equal stamps are in the order of insertion.
 
     Attributes:
         frame: The child.
@@ -59,12 +59,12 @@ class SampleColumns:
 
     @property
     def translations(self) -> Floats:
-        """Translations in metres, shape (n, 3)."""
+        """Translations of all samples, metres, shape (n, 3)."""
         return self.poses[:, :3]
 
     @property
     def rotations(self) -> Floats:
-        """Unit quaternions in xyzw order, shape (n, 4)."""
+        """Rotations of all samples: unit quaternions in xyzw order, shape (n, 4)."""
         return self.poses[:, 3:]
 
 
@@ -73,8 +73,8 @@ class TransformArray:
     """Poses of one frame in another at many times.
 
     Row i is the pose of `child_frame_id` in `frame_id` at `stamps[i]`: the transform maps points
-    from the child frame to the parent frame. An index gives a `TransformStamped`; a slice, a mask
-    or an array of indices gives a `TransformArray`.
+    from the child frame to the parent frame. An index returns a `TransformStamped`; a slice, a
+    mask or an array of indices returns a `TransformArray`.
 
     Attributes:
         frame_id: The target of the lookup.
@@ -82,7 +82,7 @@ class TransformArray:
         stamps: Nanoseconds, int64, shape (n,).
         translations: Metres, shape (n, 3).
         rotations: Unit quaternions in xyzw order, shape (n, 4).
-        valid: Whether a row holds a pose, bool, shape (n,); rows without a pose are NaN.
+        valid: Whether each row has a pose, bool, shape (n,); rows without a pose are NaN.
     """
 
     frame_id: str
@@ -126,7 +126,7 @@ class TransformArray:
         )
 
     def matrices(self) -> Floats:
-        """Homogeneous matrices, shape (n, 4, 4); NaN in invalid rows."""
+        """Return homogeneous matrices of all rows, shape (n, 4, 4); NaN in invalid rows."""
         return batch.matrices(self.translations, self.rotations)
 
     def apply(self, points: npt.ArrayLike) -> Floats:
@@ -156,7 +156,7 @@ class TransformArray:
         return batch.rotate(self.rotations, given) + self.translations
 
     def inverse(self) -> "TransformArray":
-        """Return the poses of `frame_id` in `child_frame_id`."""
+        """Return the inverse of each row: the poses of `frame_id` in `child_frame_id`."""
         back = batch.conjugate(self.rotations)
         return TransformArray(
             self.child_frame_id,
@@ -197,7 +197,7 @@ class TransformArray:
             return NotImplemented
         moved = batch.rotate(self.rotations, translations) + self.translations
         turned = batch.canonical(batch.multiply(self.rotations, rotations))
-        # Not so where one of the two is all zeros, or NaN.
+        # A product with zeros or NaN has no unit length: its row is not valid.
         valid = valid & (np.einsum("ij,ij->i", turned, turned) > 0.5)
         moved[~valid] = np.nan
         turned[~valid] = np.nan
@@ -208,8 +208,8 @@ class TransformArray:
         `frame_id`.
 
         Each row is the mean velocity from the previous to the next row; the first and the last row
-        use their only neighbour. A row is NaN if one of these two rows is not valid, or both have
-        the same stamp.
+        use their only neighbour. A row is NaN if one of the two rows used is invalid, or if both
+        have the same stamp.
         """
         n = len(self)
         here = np.arange(n)
@@ -236,7 +236,7 @@ class TransformArray:
         if not self.valid.all():
             count = int(np.count_nonzero(~self.valid))
             raise ValueError(
-                f"{count} of {len(self)} rows hold no pose: take path[path.valid].to_scipy()"
+                f"{count} of {len(self)} rows have no pose: use path[path.valid].to_scipy()"
             )
         rotation = Rotation.from_quat(self.rotations)
         return RigidTransform.from_components(self.translations, rotation), rotation
