@@ -195,7 +195,7 @@ def test_scipy_is_given_the_same():
 def test_scipy_is_not_given_rows_without_a_pose():
     pytest.importorskip("scipy", "1.16", reason="RigidTransform came with scipy 1.16")
 
-    with pytest.raises(ValueError, match="1 of 3 rows hold no pose"):
+    with pytest.raises(ValueError, match="1 of 3 rows have no pose"):
         with_a_gap([Transform()] * 3).to_scipy()
 
 

@@ -100,7 +100,7 @@ def test_a_pose_is_read_however_it_is_pasted(text):
         ("0 0 wat 1", "xyzw", "'wat'"),
         ("0 0 nan 1", "xyzw", "'nan'"),
         ("0 0 1e999 1", "xyzw", "too large"),
-        ("0 0 1", "xyzw", "takes 4 numbers, and there are 3"),
+        ("0 0 1", "xyzw", "needs 4 numbers, but there are 3"),
         ("0 0 pi/0", "rpy", "divides by zero"),
         ("0 0 1", "zyxw", "no form"),
         ("x: 0 y: 0 z: 0 w: 0", None, "four zeros"),

@@ -188,7 +188,7 @@ def test_a_workspace_can_add_definitions_of_its_own():
 @pytest.mark.parametrize(
     ("key", "text", "told"),
     [
-        (("msg", "A"), "float64", "'float64' is no field; write 'type name'"),
+        (("msg", "A"), "float64", "'float64' is not a field; write 'type name'"),
         (("msg", "A"), "Unknown x", "field 'x': there is no interface pkg/msg/Unknown"),
         (("srv", "A"), "int8 x", "2 parts separated by '---' are expected, not 1"),
     ],

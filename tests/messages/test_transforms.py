@@ -108,9 +108,9 @@ ONE = encode_transforms(transforms(random.Random(1), 1))
     [
         (b"", "0 bytes are too few for a header"),
         (b"\x00\x01\x00\x00", "ends before its number of transforms"),
-        (b"\x00\x00\x00\x00" + ONE[4:], "read in little endian only"),
+        (b"\x00\x00\x00\x00" + ONE[4:], "only little-endian"),
         (b"\x00\x07\x00\x00" + ONE[4:], "header 0007 is not that of plain CDR"),
-        (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms and has room"),
+        (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms, with room"),
         (ONE[:16] + b"\xff\xff\xff\xff" + ONE[20:], "a text has the length 4294967295 bytes"),
         (ONE[:-9], "ends within transform 1 of 1|has room for 0"),
         (ONE + bytes(8), "8 bytes are left over"),
@@ -133,7 +133,7 @@ def one_named(raw):
     [
         (b"abcd", "does not end with its zero byte"),
         (b"\xff\xfe\x00", "not UTF-8"),
-        (b"a\x00b\x00", "goes on behind its zero byte"),
+        (b"a\x00b\x00", "continues after its zero byte"),
     ],
 )
 @pytest.mark.parametrize("decode", [decode_transforms, decode_columns])

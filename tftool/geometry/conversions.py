@@ -1,4 +1,4 @@
-"""Conversions of rotations: roll pitch yaw, matrix, axis and angle, Euler, w first.
+"""Conversions between quaternions and roll pitch yaw, matrices, axis and angle, Euler angles.
 
 Roll, pitch, yaw are rotations about fixed axes: x, then y, then z. This module computes them, and
 the axis and angle of a quaternion, with plain floats: commands print these numbers, and importing
@@ -22,19 +22,19 @@ AXES = tuple(
     for third in "xyz"
     if first != second != third
 )
-"""Every order of Euler angles: "s" for static (fixed) or "r" for rotating axes, then the axes."""
+"""All orders of Euler angles: "s" for static (fixed) or "r" for rotating axes, then three axes."""
 
-# A sum of parts of a unit quaternion this small is rounding; `batch` has the same.
+# A sum of components of a unit quaternion below this is rounding; as in `rigid_arrays`.
 NOISE = 1e-13
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Return the rotation about fixed x, then y, then z; radians, sign as computed."""
+    """Return the quaternion of rotations about fixed x, then y, then z, radians."""
     return Quaternion(*quaternions.from_rpy(roll, pitch, yaw))
 
 
 def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """Return roll, pitch, yaw in radians, pitch within a quarter turn.
+    """Return roll, pitch, yaw of a rotation in radians, pitch within a quarter turn.
 
     At the poles (pitch of ±π/2) yaw is 0 and roll contains the whole turn, so that the angles
     always mean the same rotation as the quaternion. NaN for a zero quaternion.
@@ -43,9 +43,9 @@ def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, floa
 
 
 def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """Return roll, pitch, yaw that reproduce the rotation to 1e-12, also at the poles.
+    """Return roll, pitch, yaw that reproduce a rotation to 1e-12, also at the poles.
 
-    `rpy_from_quaternion` has tf2's formulas, whose arc sine loses half of the digits at the poles.
+    `rpy_from_quaternion` uses tf2's formulas, which lose half of the digits at the poles.
     Files for other programs are written with this function.
 
     Source:
@@ -56,7 +56,7 @@ def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, flo
     a, b, c, d = w - y, x + z, y + w, z - x
     near, far = math.hypot(a, b), math.hypot(c, d)
     pitch = 2.0 * math.atan2(far, near) - 0.5 * math.pi
-    # At a pole rounding alone decides one of the two.
+    # At a pole one of the two is pure rounding, and is ignored.
     half_sum = math.atan2(b, a) if near > NOISE else math.nan
     half_difference = math.atan2(d, c) if far > NOISE else math.nan
     if math.isnan(half_sum):
@@ -67,12 +67,12 @@ def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, flo
 
 
 def _wrapped(angle: float) -> float:
-    """Wrap an angle to −π to π."""
+    """Wrap an angle to the range from −π to π."""
     return math.remainder(angle, 2.0 * math.pi) if abs(angle) > math.pi else angle + 0.0
 
 
 def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """Return the other roll, pitch, yaw of the same rotation: pitch beyond a quarter turn."""
+    """Return the second roll, pitch, yaw of a rotation, with pitch beyond a quarter turn."""
     m = matrix_from_quaternion(quaternion)
     if not abs(m[2][0]) < quaternions.POLE:
         return rpy_from_quaternion(quaternion)
@@ -84,7 +84,7 @@ def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, floa
 
 
 def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
-    """Return the 3×3 rotation matrix, row by row.
+    """Return the 3×3 rotation matrix of a quaternion, row by row.
 
     Any finite quaternion except zero gives a proper rotation; zero gives NaN.
     """
@@ -92,7 +92,9 @@ def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
 
 
 def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
-    """Return the rotation of a 3×3 matrix, or of the upper left of a 4×4 matrix, with tf2's sign.
+    """Return the quaternion of a 3×3 matrix, or of the upper left of a 4×4 matrix.
+
+    Its sign is tf2's; see `quaternions.canonical`.
 
     Raises:
         ValueError: If the matrix is not a proper rotation (within 1e-6).
@@ -109,13 +111,13 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
     for j, row in enumerate(rows):
         for k, other in enumerate(rows):
             dot = sum(x * y for x, y in zip(row, other, strict=True))
-            # Asked this way round, NaN is refused as well.
+            # Written with `not`, so that NaN is refused too.
             if not abs(dot - (j == k)) < 1e-6:
                 raise ValueError(
-                    "the matrix is no rotation: its rows are not perpendicular vectors of length 1"
+                    "the matrix is not a rotation: its rows are not perpendicular unit vectors"
                 )
     if a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0:
-        raise ValueError("the matrix is no rotation: it mirrors")
+        raise ValueError("the matrix is not a rotation: it mirrors")
     import numpy as np
     from transforms3d.quaternions import mat2quat
 
@@ -149,7 +151,7 @@ def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]
 
 
 def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, float]:
-    """Return the unit axis and the angle, radians from 0 to π; the x axis for no rotation."""
+    """Return a rotation's unit axis and angle, radians from 0 to π; the x axis for angle 0."""
     x, y, z, w = quaternions.unit(_quad(quaternion))
     if w < 0.0:
         x, y, z, w = -x, -y, -z, -w
@@ -160,7 +162,7 @@ def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, fl
 
 
 def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternion:
-    """Return the rotation by `angle` radians about an axis of any length.
+    """Return the quaternion of a rotation by `angle` radians about an axis of any length.
 
     Raises:
         ValueError: If the axis is zero or not finite.
@@ -168,7 +170,9 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
     x, y, z = axis
     length = math.hypot(x, y, z)
     if not 0.0 < length < math.inf:
-        raise ValueError(f"({x}, {y}, {z}) is no axis: the numbers must be finite and not all zero")
+        raise ValueError(
+            f"({x}, {y}, {z}) is not an axis: the numbers must be finite and not all zero"
+        )
     from transforms3d.quaternions import axangle2quat
 
     return xyzw_from_wxyz(
@@ -177,19 +181,19 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
 
 
 def wxyz_from_xyzw(quaternion: Iterable[float]) -> tuple[float, float, float, float]:
-    """Reorder xyzw to w first, as in transforms3d and others."""
+    """Reorder a quaternion from xyzw to wxyz, as in transforms3d and others."""
     x, y, z, w = quaternion
     return w, x, y, z
 
 
 def xyzw_from_wxyz(quaternion: Iterable[float]) -> Quaternion:
-    """Reorder wxyz to w last, as in ROS and tftool."""
+    """Reorder a quaternion from wxyz to xyzw, as in ROS and tftool."""
     w, x, y, z = quaternion
     return Quaternion(x, y, z, w)
 
 
 def quaternion_from_euler(angles: Sequence[float], axes: str = "sxyz") -> Quaternion:
-    """Return the rotation of Euler angles in any order.
+    """Return the quaternion of Euler angles in any order of axes.
 
     Args:
         angles: Three angles in radians.
@@ -208,7 +212,7 @@ def quaternion_from_euler(angles: Sequence[float], axes: str = "sxyz") -> Quater
 def euler_from_quaternion(
     quaternion: Iterable[float], axes: str = "sxyz"
 ) -> tuple[float, float, float]:
-    """Return Euler angles in any order, radians; see `quaternion_from_euler`.
+    """Return Euler angles of a rotation, radians, in any order of axes.
 
     Raises:
         ValueError: If `axes` is not one of `AXES`.
@@ -229,7 +233,7 @@ def euler_from_matrix(
     Raises:
         ValueError: If `axes` is not one of `AXES`.
     """
-    # An array as it keeps it itself: of anything else it wants no copy, which numpy 2 refuses.
+    # Convert here: transforms3d would call numpy with copy=False, which numpy 2 often refuses.
     import numpy as np
     from transforms3d.euler import mat2euler
 
@@ -240,7 +244,7 @@ def euler_from_matrix(
 def _checked(axes: str) -> str:
     if axes not in AXES:
         raise ValueError(
-            f"{axes!r} is no order of axes: write 's' (fixed axes) or 'r' (rotating ones) "
+            f"{axes!r} is not an order of axes: write 's' (fixed axes) or 'r' (rotating axes) "
             "and three of x, y, z, such as 'sxyz'"
         )
     return axes

@@ -15,11 +15,11 @@ Pair: TypeAlias = tuple[
     int, float, float, float, float, float, float, float,
     int, float, float, float, float, float, float, float,
 ]  # fmt: skip
-"""Two poses, each with its stamp before it: whole nanoseconds, too large for a float's digits."""
+"""Two poses, each after its stamp. Stamps are whole nanoseconds, too large for a float's digits."""
 
 
 def interpolate(pair: Pair, time: float) -> Pose:
-    """Interpolate between two poses.
+    """Interpolate between two poses with stamps.
 
     The translation is linear, the rotation follows the shorter arc at constant speed. At the first
     stamp the result is exactly the first pose.
@@ -34,7 +34,7 @@ def interpolate(pair: Pair, time: float) -> Pose:
     before, x, y, z, ax, ay, az, aw, after, ux, uy, uz, bx, by, bz, bw = pair
     if time == before:
         return (x, y, z, ax, ay, az, aw)
-    # Stamps are whole numbers, and so is the dividend: as floats they are 256 ns apart.
+    # Subtract the stamps as whole numbers: as floats, neighbouring stamps are 256 ns apart.
     share = (time - before) / (after - before)
     cosine = ax * bx + ay * by + az * bz + aw * bw
     take = 1.0
@@ -47,8 +47,8 @@ def interpolate(pair: Pair, time: float) -> Pose:
         keep = sin((1.0 - share) * angle) / sine
         take *= sin(share * angle) / sine
     else:
-        # Too near for acos to tell; on an arc this short the chord is the arc. Between equals
-        # the rotation stays to the last bit.
+        # The angle is too small for acos; an arc this short equals its chord. Between equal
+        # rotations the result is exactly equal.
         return (
             x + share * (ux - x),
             y + share * (uy - y),
@@ -73,7 +73,7 @@ def compose(outer: Pose, inner: Pose) -> Pose:
     """Compose two poses: `a_from_c` from `a_from_b` and `b_from_c`."""
     ox, oy, oz, ax, ay, az, aw = outer
     x, y, z, bx, by, bz, bw = inner
-    # As quaternions.rotate and quaternions.multiply.
+    # The formulas of `quaternions.rotate` and `quaternions.multiply`.
     cx = 2.0 * (ay * z - az * y)
     cy = 2.0 * (az * x - ax * z)
     cz = 2.0 * (ax * y - ay * x)

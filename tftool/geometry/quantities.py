@@ -1,4 +1,4 @@
-"""Application of transforms to points, vectors, poses, covariances and wrenches.
+"""Functions that transform points, vectors, poses, covariances and wrenches.
 
 Arguments are plain numbers in the transform's child frame; results are in the parent frame.
 Arguments are never changed. A quaternion of zeros means the identity, as in tf2's own conversions.
@@ -17,22 +17,22 @@ if TYPE_CHECKING:
 Covariance: TypeAlias = tuple[float, ...]
 """36 numbers, 6×6 row by row, in the order x, y, z, rotation about x, about y, about z."""
 
-# Below this, the square of a quaternion's length is taken for no rotation at all.
+# A quaternion whose squared length is below this counts as zero.
 _NO_ROTATION = 2.2e-16
 
 
 def point(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
-    """Transform a point: rotate and translate."""
+    """Transform a point: rotate it and add the translation."""
     return _usable(a_from_b).apply(xyz)
 
 
 def vector(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
-    """Transform a vector: rotate only."""
+    """Transform a vector: rotate it, without the translation."""
     return _usable(a_from_b).rotate(xyz)
 
 
 def pose(a_from_b: Transform, pose: Transform) -> Transform:
-    """Transform a pose: its position as a point, its orientation rotated, with w not negative."""
+    """Transform a pose; the resulting quaternion has w ≥ 0."""
     moved = _usable(a_from_b) @ _usable(pose)
     x, y, z, w = moved.rotation
     return transform(moved.translation, (-x, -y, -z, -w)) if w < 0.0 else moved
@@ -65,7 +65,7 @@ def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
 
 
 def wrench(a_from_b: Transform, force: Vector3, torque: Vector3) -> tuple[Vector3, Vector3]:
-    """Transform a force and torque: rotate both, and add the torque of the force's lever arm."""
+    """Transform a force and a torque: rotate both, and add the torque of the force's lever arm."""
     force, torque = vector(a_from_b, force), vector(a_from_b, torque)
     return force, torque + a_from_b.translation.cross(force)
 

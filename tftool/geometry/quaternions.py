@@ -1,7 +1,6 @@
-"""Arithmetic of quaternions in plain floats, xyzw order.
+"""Arithmetic of quaternions as tuples of plain floats, in xyzw order.
 
-Functions take and return plain tuples of floats, so that the scalar path makes no extra objects.
-Products apply the right factor first.
+Plain tuples save the creation of objects in single lookups. Products apply the right factor first.
 """
 
 import math
@@ -10,7 +9,7 @@ from typing import TypeAlias
 from tftool.geometry import poses
 
 Triple: TypeAlias = tuple[float, float, float]
-"""x, y, z."""
+"""Three numbers: x, y, z."""
 
 Quad: TypeAlias = tuple[float, float, float, float]
 """A quaternion: x, y, z, w."""
@@ -19,14 +18,14 @@ Matrix3: TypeAlias = tuple[Triple, Triple, Triple]
 """A 3×3 matrix, row by row."""
 
 POLE = 1.0 - 1e-12
-"""From this sine of the pitch on, roll and yaw turn about one axis: only their sum is known."""
+"""Sine of the pitch from which roll and yaw have the same axis, so that only their sum is known."""
 
 IDENTITY: Quad = (0.0, 0.0, 0.0, 1.0)
 
 NAN_QUAD: Quad = (math.nan, math.nan, math.nan, math.nan)
 
 ROUNDING = 8e-16
-"""A quaternion whose square is this near to 1 is left as it is, to the last bit."""
+"""Difference of a quaternion's squared length from 1 up to which `unit` returns it unchanged."""
 
 
 def multiply(first: Quad, second: Quad) -> Quad:
@@ -62,7 +61,7 @@ def rotate(quaternion: Quad, vector: Triple) -> Triple:
 
 
 def unit(quaternion: Quad) -> Quad:
-    """Normalise a quaternion; NaN throughout if its length is zero.
+    """Scale a quaternion to unit length; all NaN if its length is zero.
 
     None if it is zero, not finite, or so small that its square underflows.
     """
@@ -71,12 +70,12 @@ def unit(quaternion: Quad) -> Quad:
     if -ROUNDING < square - 1.0 < ROUNDING:
         return quaternion
     if square == math.inf:
-        # Squares of huge numbers overflow although the direction is plain to see.
+        # The squares of huge numbers overflow, although the direction is defined: scale first.
         largest = max(abs(x), abs(y), abs(z), abs(w))
         if largest == math.inf:
             return NAN_QUAD
         return unit((x / largest, y / largest, z / largest, w / largest))
-    # As tf2: below this, 2 over the square is infinite. Asked so that NaN fails too.
+    # As in tf2: below this, 2 / square is infinite. Written with `not`, so that NaN fails too.
     if not square > 2.0 / 1.7976931348623157e308:
         return NAN_QUAD
     scale = 1.0 / math.sqrt(square)
@@ -104,12 +103,12 @@ def leading(x: float, y: float, z: float, w: float) -> float:
 
 
 def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
-    """Interpolate from `start` to `end` along the shorter arc, at constant angular speed.
+    """Interpolate between two rotations along the shorter arc, at constant angular speed.
 
     Args:
         start: Unit quaternion.
         end: Unit quaternion; its negative is used if that makes the arc shorter.
-        fraction: Share of the arc, from 0 to 1.
+        fraction: Position on the arc, from 0 (`start`) to 1 (`end`).
 
     Returns:
         A unit quaternion, `start` itself at fraction 0.
@@ -128,7 +127,7 @@ def angle_between(first: Quad, second: Quad) -> float:
 
 
 def matrix(quaternion: Quad) -> Matrix3:
-    """Return the rotation matrix.
+    """Return the 3×3 rotation matrix of a quaternion, row by row.
 
     Any finite quaternion except zero gives a proper rotation; zero gives NaN.
     """
@@ -144,7 +143,7 @@ def matrix(quaternion: Quad) -> Matrix3:
 
 
 def from_rpy(roll: float, pitch: float, yaw: float) -> Quad:
-    """Return the rotation about fixed x, then y, then z; radians, sign as computed."""
+    """Return the quaternion of rotations about fixed x, then y, then z, radians."""
     sr, cr = math.sin(0.5 * roll), math.cos(0.5 * roll)
     sp, cp = math.sin(0.5 * pitch), math.cos(0.5 * pitch)
     sy, cy = math.sin(0.5 * yaw), math.cos(0.5 * yaw)
@@ -157,12 +156,12 @@ def from_rpy(roll: float, pitch: float, yaw: float) -> Quad:
 
 
 def rpy(quaternion: Quad) -> Triple:
-    """Return roll, pitch and yaw in radians; see `conversions.rpy_from_quaternion`."""
+    """Return roll, pitch and yaw of a rotation, radians; see `conversions.rpy_from_quaternion`."""
     m = matrix(quaternion)
     m20 = m[2][0]
     if m20 <= -POLE:
         return math.atan2(m[0][1], m[0][2]), 0.5 * math.pi, 0.0
     if m20 >= POLE:
         return math.atan2(-m[0][1], -m[0][2]), -0.5 * math.pi, 0.0
-    # asin of +0 is negated to -0, as tf2 prints it.
+    # For pitch 0 this gives -0, as tf2 does.
     return math.atan2(m[2][1], m[2][2]), -math.asin(m20), math.atan2(m[1][0], m[0][0])

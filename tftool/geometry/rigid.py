@@ -1,4 +1,4 @@
-"""One rigid transform in plain floats: composition, inverse, application.
+"""Rigid transforms in plain floats: composition, inverse, application to points.
 
 A transform `a_from_b` is the pose of b in a, and maps points from b to a: `a_from_c == a_from_b @
 b_from_c`, `point_in_a == a_from_b.apply(point_in_b)`.
@@ -19,11 +19,11 @@ T = TypeVar("T")
 
 
 def refuses_arithmetic(kind: type[T]) -> type[T]:
-    """Decorate a tuple class so that + and * raise instead of joining and repeating."""
+    """Decorate a tuple class so that + and * raise an error instead of working as for lists."""
 
     def refuse(self: object, other: object) -> NoReturn:
         raise TypeError(
-            f"a {kind.__name__} cannot be joined or repeated like a list: use its fields, "
+            f"a {kind.__name__} does not support + and *: use its fields, "
             "chain transforms with @, or convert it with list(…)"
         )
 
@@ -35,7 +35,7 @@ def refuses_arithmetic(kind: type[T]) -> type[T]:
 class Vector3(NamedTuple):
     """A point or vector, in metres unless stated otherwise.
 
-    Addition, subtraction and scaling work as for vectors:
+    The operators +, -, * and / work as for vectors, not as for tuples.
     """
 
     x: float
@@ -75,26 +75,26 @@ class Vector3(NamedTuple):
         return Vector3(self.x / divisor, self.y / divisor, self.z / divisor)
 
     def cross(self, other: "Vector3") -> "Vector3":
-        """Return the cross product."""
+        """Return the cross product with another vector."""
         ax, ay, az = self
         bx, by, bz = other
         return Vector3(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
 
     def norm(self) -> float:
-        """Return the length."""
+        """Return the length of the vector."""
         return math.hypot(*self)
 
 
 def _three(numbers: tuple[object, ...]) -> tuple[float, float, float]:
     if len(numbers) != 3:
-        raise TypeError(f"a vector is added to three numbers, not to {numbers!r}")
+        raise TypeError(f"a vector can be added to three numbers, not to {numbers!r}")
     x, y, z = numbers
     return x, y, z  # type: ignore[return-value]
 
 
 @refuses_arithmetic
 class Quaternion(NamedTuple):
-    """A rotation; xyzw order as in ROS messages, of unit length unless read from outside."""
+    """A rotation as a quaternion in xyzw order; of unit length unless it comes from a message."""
 
     x: float
     y: float
@@ -103,7 +103,7 @@ class Quaternion(NamedTuple):
 
     @classmethod
     def from_rpy(cls, roll: float, pitch: float, yaw: float) -> "Quaternion":
-        """Return the rotation about fixed x, then y, then z; radians."""
+        """Return the quaternion of rotations about fixed x, then y, then z, radians."""
         return cls(*quaternions.from_rpy(roll, pitch, yaw))
 
     def rpy(self) -> quaternions.Triple:
@@ -111,17 +111,17 @@ class Quaternion(NamedTuple):
         return quaternions.rpy(self)
 
     def __matmul__(self, other: "Quaternion") -> "Quaternion":
-        """Compose: `a_from_b @ b_from_c` is `a_from_c`, of unit length."""
+        """Return the product of two rotations: `a_from_b @ b_from_c` is `a_from_c`."""
         if not isinstance(other, Quaternion):
             return NotImplemented
         return Quaternion(*quaternions.multiply(quaternions.unit(self), quaternions.unit(other)))
 
     def inverse(self) -> "Quaternion":
-        """Return the inverse rotation, of unit length."""
+        """Return the inverse of the rotation, of unit length."""
         return Quaternion(*quaternions.conjugate(quaternions.unit(self)))
 
 
-# Named tuples, made in half the time a frozen dataclass takes; a lookup makes four.
+# Named tuples are created in half the time of frozen dataclasses; a lookup creates four.
 class _Parts(NamedTuple):
     translation: Vector3
     rotation: Quaternion
@@ -154,7 +154,7 @@ class Transform(_Parts):
         """
         turn = _floats(rotation, 4, "rotation")
         if not any(turn):
-            raise ValueError("a quaternion of zeros is no rotation: the identity is (0, 0, 0, 1)")
+            raise ValueError("a zero quaternion is not a rotation: the identity is (0, 0, 0, 1)")
         return tuple.__new__(
             cls, (Vector3(*_floats(translation, 3, "translation")), Quaternion(*turn))
         )
@@ -171,7 +171,7 @@ class Transform(_Parts):
             ValueError: If the matrix is not 4×4, its last row is not 0 0 0 1, or its upper left is
                 not a proper rotation (within 1e-6).
         """
-        # Only this constructor needs it, and it makes the quaternions that are defined here.
+        # Imported here because `conversions` imports this module.
         from tftool.geometry.conversions import quaternion_from_matrix
 
         try:
@@ -189,28 +189,28 @@ class Transform(_Parts):
 
     @classmethod
     def identity(cls) -> "Transform":
-        """Return the identity."""
+        """Return the identity transform."""
         return IDENTITY
 
     def __matmul__(self, other: "Transform") -> "Transform":
-        """Compose: `a_from_b @ b_from_c` is `a_from_c`."""
+        """Return the product of two transforms: `a_from_b @ b_from_c` is `a_from_c`."""
         return compose(self, other)
 
     def inverse(self) -> "Transform":
-        """Return the inverse: `b_from_a` of `a_from_b`."""
+        """Return the inverse transform: `b_from_a` of `a_from_b`."""
         return invert(self)
 
     def apply(self, point: Iterable[float]) -> Vector3:
-        """Transform a point from b to a."""
+        """Transform a point from the child frame b to the parent frame a."""
         return apply(self, point)
 
     def rotate(self, vector: Iterable[float]) -> Vector3:
-        """Rotate a direction, velocity or axis, without the translation."""
+        """Rotate a direction, a velocity or an axis, without adding the translation."""
         x, y, z = vector
         return Vector3(*quaternions.rotate(quaternions.unit(self.rotation), (x, y, z)))
 
     def matrix(self) -> Matrix:
-        """Return the homogeneous 4×4 matrix, row by row."""
+        """Return the transform as a homogeneous 4×4 matrix, row by row."""
         first, second, third = quaternions.matrix(self.rotation)
         x, y, z = self.translation
         return ((*first, x), (*second, y), (*third, z), (0.0, 0.0, 0.0, 1.0))
@@ -220,7 +220,7 @@ def _floats(numbers: Iterable[float], count: int, what: str) -> tuple[float, ...
     try:
         floats = tuple(float(number) for number in numbers)
     except OverflowError as error:
-        # A whole number may have any size, and a text of it thousands of digits.
+        # The message leaves out the numbers: a large int may have thousands of digits.
         raise ValueError(f"a {what} is {count} numbers, and one of them is too large") from error
     except (TypeError, ValueError) as error:
         raise ValueError(f"a {what} is {count} numbers, not {numbers!r}") from error
@@ -239,7 +239,7 @@ IDENTITY = Transform()
 
 
 def compose(first: Transform, second: Transform) -> Transform:
-    """Compose: `a_from_c` from `a_from_b` and `b_from_c`; the quaternion product keeps its sign."""
+    """Return `a_from_c` for `a_from_b` and `b_from_c`; the quaternion's sign is not changed."""
     turn = quaternions.unit(first.rotation)
     x, y, z = quaternions.rotate(turn, second.translation)
     tx, ty, tz = first.translation
@@ -250,7 +250,7 @@ def compose(first: Transform, second: Transform) -> Transform:
 
 
 def invert(a_from_b: Transform) -> Transform:
-    """Invert: `b_from_a` from `a_from_b`."""
+    """Return the inverse transform: `b_from_a` of `a_from_b`."""
     back = quaternions.conjugate(quaternions.unit(a_from_b.rotation))
     x, y, z = quaternions.rotate(back, a_from_b.translation)
     return transform((-x, -y, -z), back)
@@ -265,10 +265,10 @@ def apply(a_from_b: Transform, point: Iterable[float]) -> Vector3:
 
 
 def canonical(pose: Transform) -> Transform:
-    """Return the pose with tf2's sign of the quaternion (NaN for a zero quaternion)."""
+    """Return the pose with a unit quaternion in tf2's sign (NaN for a zero quaternion)."""
     return transform(pose.translation, quaternions.canonical(quaternions.unit(pose.rotation)))
 
 
 def distance(pose: Transform) -> float:
-    """Return the distance between two origins, metres."""
+    """Return the length of a pose's translation: the distance between two origins, metres."""
     return math.hypot(*pose.translation)

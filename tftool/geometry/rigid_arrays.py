@@ -1,4 +1,4 @@
-"""The functions of `rigid` and `quaternions` for arrays: shapes (..., 3) and (..., 4).
+"""Functions of `rigid` and `quaternions` for arrays of shape (..., 3) and (..., 4).
 
 Quaternions are in xyzw order, and leading axes broadcast. Each row of a result equals the result of
 the function of the same name for plain floats.
@@ -19,7 +19,7 @@ _LEAST_SQUARE = 2.0 / 1.7976931348623157e308
 
 
 def multiply(first: Floats, second: Floats) -> Floats:
-    """Compose rotations: `second` is applied first. Shapes (..., 4)."""
+    """Multiply quaternions, shape (..., 4): `second` is applied first."""
     ax, ay, az, aw = np.moveaxis(first, -1, 0)
     bx, by, bz, bw = np.moveaxis(second, -1, 0)
     return np.stack(
@@ -57,11 +57,11 @@ def rotate(quaternions: Floats, vectors: Floats) -> Floats:
 
 
 def unit(quaternions: Floats) -> Floats:
-    """Normalise quaternions, shape (..., 4); NaN for zero length."""
+    """Scale quaternions to unit length, shape (..., 4); NaN for zero length."""
     with np.errstate(all="ignore"):
         x, y, z, w = np.moveaxis(quaternions, -1, 0)
         square = x * x + y * y + z * z + w * w
-        # Squares of huge numbers overflow although the direction is plain to see.
+        # The squares of huge numbers overflow, although the direction is defined: scale first.
         if np.any(square == np.inf):
             largest = np.max(np.abs(quaternions), axis=-1)
             huge = (square == np.inf) & (largest < np.inf)
@@ -104,14 +104,15 @@ def matrices(translations: Floats, rotations: Floats) -> Floats:
 
 
 def roll_pitch_yaw(quaternions: Floats) -> Floats:
-    """Return roll, pitch and yaw, radians, shape (..., 3), of unit quaternions; see
-    `precise_rpy_from_quaternion`.
+    """Return roll, pitch and yaw of unit quaternions, radians, shape (..., 3).
+
+    The formulas are those of `conversions.precise_rpy_from_quaternion`.
     """
     x, y, z, w = np.moveaxis(quaternions, -1, 0)
     a, b, c, d = w - y, x + z, y + w, z - x
     near, far = np.hypot(a, b), np.hypot(c, d)
     half_sum, half_difference = np.arctan2(b, a), np.arctan2(d, c)
-    # At a pole rounding alone decides one of the two.
+    # At a pole one of the two is pure rounding, and is ignored.
     level = (near > NOISE) & (far > NOISE)
     alone = np.where(near > NOISE, 2.0 * half_sum, -2.0 * half_difference)
     angles: Floats = np.stack(
@@ -127,7 +128,7 @@ def roll_pitch_yaw(quaternions: Floats) -> Floats:
 
 
 def _wrapped(angles: Floats) -> Floats:
-    """Wrap angles to −π to π."""
+    """Wrap angles to the range from −π to π."""
     turned: Floats = np.where(
         np.abs(angles) > np.pi, angles - 2.0 * np.pi * np.round(angles / (2.0 * np.pi)), angles
     )
@@ -144,12 +145,12 @@ def angles_between(first: Floats, second: Floats) -> Floats:
 
 
 def rotation_vectors(quaternions: Floats) -> Floats:
-    """Return axis times angle, radians from 0 to π, shape (..., 3), of unit quaternions."""
+    """Return rotation vectors of unit quaternions, shape (..., 3): axis times angle, 0 to π."""
     signed = np.where(quaternions[..., 3:] < 0.0, -quaternions, quaternions)
     vector = signed[..., :3]
     sine = _length(vector)
     angle = 2.0 * np.arctan2(sine, signed[..., 3:])
-    # Of a turn too small to have an axis, the vector part is half the angle.
+    # For a tiny turn the vector part of the quaternion is half the rotation vector.
     tiny = sine < 1e-150
     turned: Floats = vector * np.where(tiny, 2.0, angle / np.where(tiny, 1.0, sine))
     return turned

@@ -1,8 +1,8 @@
-"""Rotation and composition of many poses: components in rows, a pose per column.
+"""Arithmetic of many poses at once, with one array row per component and one column per pose.
 
-Batch lookups use these functions with reused arrays: no function allocates memory. Vectors are rows
-x, y, z, x, y, so that a cross product is three operations on three rows each. Quaternions have a
-row w before these rows. An array with a single column applies to all columns of the other.
+Batch lookups use these functions with reused arrays: no function allocates memory. Vectors have the
+rows x, y, z, x, y, so that a cross product is three operations on three rows each. Quaternions have
+a row w before these rows. An array with a single column is used for all columns of the other array.
 """
 
 from typing import NamedTuple
@@ -24,12 +24,12 @@ _SERIES = (
     929569.0 / 638512875.0,
 )
 
-# What a left-out term may amount to.
+# Terms of the series below this are left out.
 _NEGLIGIBLE = 2e-17
 
 
 class Arcs(NamedTuple):
-    """Shorter arcs from quaternions A to others, at constant angular speed.
+    """Shorter arcs from quaternions A to other quaternions, at constant angular speed.
 
     At the fraction f, the rotation is the quaternion A + s·C with s = f·tan(fθ)/(fθ); its length is
     √(1 + s²θ²). `tan_ratio` computes tan(fθ)/(fθ).
@@ -47,7 +47,7 @@ class Arcs(NamedTuple):
 
 
 def arcs(starts: Floats, ends: Floats) -> Arcs:
-    """Prepare the arcs between unit quaternions, shapes (n, 4), in any component order.
+    """Compute the arcs between unit quaternions, shapes (n, 4), in any order of components.
 
     Source:
         Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985, divided by the cosine
@@ -56,14 +56,14 @@ def arcs(starts: Floats, ends: Floats) -> Arcs:
     ends = np.where(_dot(starts, ends) < 0.0, -ends, ends)
     apart = ends - starts
     square = _dot(apart, apart)
-    # The chord is 2·sin(θ/2), and θ at most a right angle: no digits are lost, as they
-    # would be by the arc cosine.
+    # The chord is 2·sin(θ/2), and θ is at most a right angle: no digits are lost, unlike
+    # with the arc cosine.
     chord = np.sqrt(square)
     theta = 2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0))
     sine = chord * np.sqrt(np.maximum(1.0 - 0.25 * square, 0.0))
     tiny = theta < 1e-9
     stretch = np.where(tiny, 1.0, theta / np.where(tiny, 1.0, sine))
-    # ends − cos θ · starts, without the cancellation.
+    # This is ends − cos θ · starts, computed without cancellation.
     directions = (apart + 0.5 * square * starts) * stretch
     half_angle_squared = theta[:, 0] * theta[:, 0]
     return Arcs(directions, half_angle_squared, _terms(float(half_angle_squared.max(initial=0.0))))
@@ -75,7 +75,7 @@ def _dot(first: Floats, second: Floats) -> Floats:
 
 
 def _terms(square: float) -> int:
-    """Return the number of series terms needed for angles whose square is at most this."""
+    """Return how many terms of the series of tan(x)/x are needed while x² is at most `square`."""
     power = 1.0
     for count, coefficient in enumerate(_SERIES):
         if coefficient * power < _NEGLIGIBLE:
@@ -85,17 +85,17 @@ def _terms(square: float) -> int:
 
 
 def tan_ratio(squares: Floats, out: Floats, terms: int) -> None:
-    """Compute tan(x)/x.
+    """Write tan(x)/x into `out`, for given x².
 
     Args:
-        squares: x².
+        squares: The values of x².
         out: Output, of the same shape.
         terms: Number of terms of the series to use; 0 to compute the tangent itself.
     """
     if terms == 0:
         angles = np.sqrt(squares)
         np.tan(angles, out)
-        # Where there is no angle, there is no way to go: what it is multiplied with is 0.
+        # At angle 0 any finite value will do: it is multiplied by 0.
         np.divide(out, angles, out, where=angles > 0.0)
         return
     out.fill(_SERIES[terms - 1])
@@ -105,38 +105,38 @@ def tan_ratio(squares: Floats, out: Floats, terms: int) -> None:
 
 
 class VectorRows:
-    """Vectors: rows x, y, z, x, y, and views of them."""
+    """Many vectors as rows x, y, z, x, y of an array, with views for cross products."""
 
     __slots__ = ("first", "repeat", "xyz", "yzx", "zxy")
 
     def __init__(self, rows: Floats) -> None:
-        """Take five rows; the last two repeat the first two once `close` was called."""
+        """Use five rows of memory; `close` copies the first two rows into the last two."""
         self.xyz, self.yzx, self.zxy = rows[:3], rows[1:4], rows[2:5]
         self.first, self.repeat = rows[:2], rows[3:]
 
     def close(self) -> None:
-        """Repeat x and y, after x, y and z were written."""
+        """Copy x and y into the last two rows, after x, y and z were written."""
         np.copyto(self.repeat, self.first)
 
 
 class QuaternionRows:
-    """Quaternions of any length: rows w, x, y, z, x, y, and views of them."""
+    """Many quaternions of any length as rows w, x, y, z, x, y of an array, with views."""
 
     __slots__ = ("first", "repeat", "rows", "w", "wxyz", "xyz", "yzx", "zxy")
 
     def __init__(self, rows: Floats) -> None:
-        """Take six rows; the last two repeat x and y once `close` was called."""
+        """Use six rows of memory; `close` copies x and y into the last two."""
         self.rows = rows
         self.w, self.wxyz = rows[0], rows[:4]
         self.xyz, self.yzx, self.zxy = rows[1:4], rows[2:5], rows[3:6]
         self.first, self.repeat = rows[1:3], rows[4:]
 
     def close(self) -> None:
-        """Repeat x and y, after w, x, y and z were written."""
+        """Copy x and y into the last two rows, after w, x, y and z were written."""
         np.copyto(self.repeat, self.first)
 
     def conjugate(self) -> None:
-        """Invert the rotation."""
+        """Invert the rotations in place."""
         vector = self.rows[1:]
         np.negative(vector, vector)
 
@@ -152,8 +152,8 @@ def rotate(
 
     Args:
         quaternions: Rotations to apply.
-        factor: 2 over the square of the quaternions' lengths.
-        vectors: Vectors to turn.
+        factor: 2 divided by the quaternions' squared lengths.
+        vectors: Vectors to rotate.
         cross: Work rows, overwritten.
         spare: Three work rows, overwritten.
     """
@@ -174,9 +174,12 @@ def rotate(
 def chain(
     first: QuaternionRows, second: QuaternionRows, out: QuaternionRows, spare: Floats
 ) -> None:
-    """Multiply quaternions: `second` is applied first; `spare` is three work rows."""
+    """Write the products of quaternions into `out`; `second` is applied first.
+
+    `spare` is three rows of working memory.
+    """
     xyz, w = out.xyz, out.w
-    # In the order of `poses.compose`: where nothing is turned on the way, to its last bit.
+    # Add in the order of `poses.compose`, to get the same last bit without rotation.
     multiply(second.xyz, first.w, xyz)
     multiply(first.xyz, second.w, spare)
     add(xyz, spare, xyz)

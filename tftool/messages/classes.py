@@ -1,4 +1,4 @@
-"""Message, service and action classes, made from their definitions.
+"""Message, service and action classes, created from their definitions.
 
 These classes behave like the classes that ROS 2 generates: every field has a default, the
 constructor takes keywords, an assignment is checked for type and range, messages compare by value
@@ -30,7 +30,7 @@ _one_float32 = struct.Struct("<f")
 
 
 def as_float32(value: float) -> float:
-    """Return the number after rounding to a 32-bit field."""
+    """Round a number to the nearest value of a 32-bit field."""
     if not math.isfinite(value):
         return value
     return float(_one_float32.unpack(_one_float32.pack(value))[0])
@@ -38,7 +38,7 @@ def as_float32(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class MessageField:
-    """One field of a class.
+    """One field of a message class.
 
     Attributes:
         name: Name of the field.
@@ -48,7 +48,7 @@ class MessageField:
         text_bound: Maximum number of characters of a bounded string; None without a bound.
         check: Function that checks an assigned value.
         make: Function that returns the default.
-        described: Type of the field as ROS 2 writes it.
+        described: Type of the field in ROS 2's notation.
     """
 
     name: str
@@ -62,7 +62,7 @@ class MessageField:
 
 
 class Message:
-    """Base of all messages; subclasses get their fields from definitions."""
+    """Base class of all messages; subclasses get their fields from definitions."""
 
     __slots__ = ()
 
@@ -89,7 +89,7 @@ class Message:
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Return every field's type by name, as ROS 2 writes them."""
+        """Return the type of every field by the field's name, in ROS 2's notation."""
         return {field.name: field.described for field in cls.fields__}
 
     def __repr__(self) -> str:
@@ -127,9 +127,9 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 def build(kind: Any, *values: Any, **named: Any) -> Any:
-    """Make a message without checks: the first fields by position, others by name.
+    """Create a message without checks: the first fields by position, others by name.
 
-    Ten times as fast as the constructor, which checks every value.
+    This is ten times as fast as the constructor, which checks every value.
     """
     message = object.__new__(kind)
     stores = kind.stores__
@@ -143,7 +143,7 @@ def build(kind: Any, *values: Any, **named: Any) -> Any:
 
 
 def duplicate(message: Any) -> Any:
-    """Return a deep copy with 32-bit fields rounded, as the receiver gets it."""
+    """Return a deep copy of a message with 32-bit fields rounded, as its receiver gets it."""
     kind = type(message)
     same = object.__new__(kind)
     for field in kind.fields__:
@@ -165,7 +165,7 @@ def _duplicated(field: MessageField, value: Any) -> Any:
 
 
 def _layout_of(kind: type[Message]) -> tuple[Any, ...]:
-    """Return names and types of all fields, including the fields of nested messages."""
+    """Return the names and types of all fields, including the fields of nested messages."""
     return tuple(
         (
             field.name,
@@ -194,7 +194,7 @@ def recast(message: Any, kind: type[Message]) -> Any:
 
 
 def completed(message: Any, kind: type[Message]) -> Any:
-    """Copy a message to a class that has more fields; the additional fields get their defaults."""
+    """Copy a message to a class with more fields; the additional fields get their defaults."""
     if type(message) is kind:
         return message
     made = kind()
@@ -212,7 +212,7 @@ def completed(message: Any, kind: type[Message]) -> Any:
 
 
 def is_part(asked: Any, part: str, kind: Any) -> bool:
-    """Whether a message is the request or goal of a service or action.
+    """Whether a message is a request of a given service, or a goal of a given action.
 
     Args:
         asked: The message.
@@ -225,20 +225,20 @@ def is_part(asked: Any, part: str, kind: Any) -> bool:
 
 
 def plain_name(ros_type: str) -> str:
-    """Return a type's name; turtlesim's types have the same name in every ROS release."""
-    # Newer ROS 2 releases moved turtlesim's interfaces to a package of their own.
+    """Return a type's name in the spelling that turtlesim's types have in every ROS release."""
+    # In newer ROS 2 releases, turtlesim's interfaces are in the package turtlesim_msgs.
     return ros_type.replace("turtlesim_msgs/", "turtlesim/")
 
 
-# Making them
+# Creation of classes
 
 
 MOST_NESTED: Final = 64
-"""How deep messages may lie in messages."""
+"""Maximum depth of messages nested in messages."""
 
 
 class Interfaces(Schema):
-    """Classes of all interfaces by name, made on first use.
+    """Classes of all interfaces (messages, services, actions) by name, created on first use.
 
     The process has one set, `INTERFACES`. Each recording has its own set, because its definitions
     may come from another release or from ROS 1.
@@ -249,8 +249,8 @@ class Interfaces(Schema):
         self._made: dict[str, type[Any]] = {}
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
-        """Add a package's own definitions, by (kind, name)."""
-        # Classes compare by identity: as long as nothing changes they stay what they are.
+        """Add the interface definitions of a user's package, by (kind, name)."""
+        # Classes compare by identity, so unchanged definitions must keep their classes.
         if self.knows(package, texts):
             return
         super().add(package, texts)
@@ -258,7 +258,7 @@ class Interfaces(Schema):
             del self._made[full]
 
     def find(self, package: str, kind: str, name: str) -> type[Any]:
-        """Return the class of an interface.
+        """Return the class of a message, service or action.
 
         Raises:
             InputError: If there is no interface with that name.
@@ -272,7 +272,7 @@ class Interfaces(Schema):
         return made
 
     def message(self, name: str) -> type[Message]:
-        """Return the class of a message by "package/msg/Name" or "package/Name".
+        """Return the class of a message, named "package/msg/Name" or "package/Name".
 
         Raises:
             InputError: If there is no message with that name, or the message contains itself.
@@ -280,7 +280,7 @@ class Interfaces(Schema):
         return self.part(full_name(name))
 
     def recorded(self, name: str, text: str = "") -> type[Message]:
-        """Return the class of a message in a recording.
+        """Return the class of a recorded message type.
 
         If the recording has two definitions of one type, each message is read by the definition of
         its channel.
@@ -299,7 +299,7 @@ class Interfaces(Schema):
         return self.part(full)
 
     def earlier(self, full: str) -> list[type[Message]]:
-        """Return the classes of a message in earlier ROS distributions; often empty.
+        """Return the classes that a message type had in earlier ROS distributions; often none.
 
         In each class, a field or a field of a nested message differs from the present class.
         """
@@ -314,8 +314,9 @@ class Interfaces(Schema):
         return found
 
     def part(self, full: str) -> type[Message]:
-        """Return the class of any structure: a message, or a part such as
-        "std_srvs/srv/SetBool_Request".
+        """Return the class of a message, or of a part of a service or action.
+
+        A part is named like "std_srvs/srv/SetBool_Request".
 
         Raises:
             InputError: If there is no structure with that name, or the structure contains itself.
@@ -344,9 +345,7 @@ class Interfaces(Schema):
         return _holder(full, made)
 
     def _derived(self, action: str) -> type[Any]:
-        """Return what ROS 2 derives from an action: three services and two topics, by rclpy's
-        names.
-        """
+        """Return the class `Impl` of an action, with its three services and two messages."""
         made = self._made.get(f"{action}_Impl")
         if made is None:
             services = {
@@ -411,7 +410,7 @@ class Interfaces(Schema):
 
 
 class _Later:
-    """A nested class, made on first use."""
+    """A nested class, created on first use."""
 
     def __init__(self, make: Callable[[], type[Any]]) -> None:
         self._make = make
@@ -432,7 +431,7 @@ def _property(field: MessageField) -> property:
     def write(self: Any, value: Any) -> None:
         setattr(self, slot, check(value))
 
-    # Read by the interpreter itself: messages are read far more often than written.
+    # attrgetter runs in C: fields are read far more often than written.
     return property(attrgetter(slot), write, doc=field.described)
 
 
@@ -467,7 +466,7 @@ def _nothing(kind: str) -> Any:
 
 
 def _literal(place: str, kind: str, text: str) -> Any:
-    """Convert the text of a constant or default to a value; errors name its place in the message.
+    """Convert the text of a constant or default to a value; error messages begin with `place`.
 
     Raises:
         InputError: If the text is not a value of that type.
@@ -475,17 +474,17 @@ def _literal(place: str, kind: str, text: str) -> Any:
     text = text.strip()
     try:
         if kind in INTEGERS or kind == "byte":
-            # ROS 1 writes 010 for ten.
+            # In ROS 1, 010 means ten.
             number = int(text) if text.lstrip("+-").isdecimal() else int(text, 0)
             return bytes([number & 0xFF]) if kind == "byte" else number
         if kind in FLOATS:
             return float(text)
     except ValueError:
-        raise InputError(f"{place}: '{text[:80]}' is no {kind}") from None
+        raise InputError(f"{place}: '{text[:80]}' is not a value of type {kind}") from None
     if kind == "bool":
         return text.lower() in ("true", "1")
     return text[1:-1] if text[:1] in "\"'" and text[-1:] == text[:1] and len(text) > 1 else text
 
 
 INTERFACES = Interfaces()
-"""The interfaces every part of `ros` shares: a class compares by identity, so one of each."""
+"""The set of interfaces that the whole process shares, because classes compare by identity."""

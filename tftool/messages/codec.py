@@ -1,4 +1,4 @@
-"""Serialisation of messages by their definitions.
+"""Serialisation of messages into bytes, and back, by the messages' definitions.
 
 For each layout, a type is compiled once into a list of steps: a run of numbers, a string, an array,
 a list of messages. Each step writes and reads its part of a message. Arrays of numbers are copied
@@ -28,7 +28,7 @@ from tftool.messages.layouts import (
 )
 
 MOST_FIELDS: Final = 50_000
-"""Fields of one type, those of its parts included; a definition can double them in each line."""
+"""Maximum number of fields of one type, including nested fields, which can double in each line."""
 
 _NATIVE = LITTLE if sys.byteorder == "little" else BIG
 _SMALLEST_TEXT: Final = 4
@@ -41,7 +41,7 @@ class Codec:
     """
 
     def __init__(self, kind: type[Message], layout: Layout = CDR) -> None:
-        """Plan the layout of a class's fields.
+        """Prepare the byte layout of a message class.
 
         Args:
             kind: The class of the messages.
@@ -57,7 +57,7 @@ class Codec:
         self._plan = _Planner(self.name, layout).plan(kind)
 
     def encode(self, message: Any) -> bytes:
-        """Return the bytes of one message.
+        """Serialise a message; return its bytes.
 
         Raises:
             MalformedMessage: If a value does not fit its field.
@@ -70,14 +70,14 @@ class Codec:
             raise MalformedMessage(self.name, f"a value does not fit its field: {error}") from error
 
     def decode(self, payload: Payload) -> Any:
-        """Return the message in some bytes; the message does not refer to the bytes.
+        """Deserialise a message; it does not refer to the bytes afterwards.
 
         Raises:
             MalformedMessage: If the bytes are not a message of this type.
         """
         reader = Reader(self.name, payload, self.layout)
         if len(payload) == len(self.layout.header) and not self.kind.fields__:
-            # Some writers leave the empty structure's one byte out.
+            # Some writers leave out the one byte of an empty message.
             return self.kind()
         message = self._plan.read(reader)
         check_rest(self.name, len(payload) - reader.position)
@@ -85,14 +85,14 @@ class Codec:
 
 
 class RecordedCodec:
-    """Serialiser of a type that was recorded without a definition.
+    """Serialiser of a message type that was recorded without its definition.
 
-    The serialiser tries the definitions of all distributions. A message of an earlier distribution
-    gets a class of its own, and is written with that class.
+    It tries the definitions of all ROS distributions. Messages of earlier distributions have their
+    own classes, by which they are written again.
     """
 
     def __init__(self, interfaces: Interfaces, full: str, layout: Layout) -> None:
-        """Plan the layouts of the present and the earlier classes.
+        """Prepare the byte layouts of the present and the earlier definitions of a type.
 
         Args:
             interfaces: The present definitions.
@@ -107,7 +107,7 @@ class RecordedCodec:
         self._codecs = [Codec(kind, layout) for kind in kinds]
 
     def encode(self, message: Any) -> bytes:
-        """Return the bytes of one message.
+        """Serialise a message, with the definition of its class; return its bytes.
 
         Raises:
             MalformedMessage: If a value does not fit its field.
@@ -115,7 +115,7 @@ class RecordedCodec:
         return next(one for one in self._codecs if one.kind is type(message)).encode(message)
 
     def decode(self, payload: Payload) -> Any:
-        """Return the message in some bytes, of the class that fits them.
+        """Deserialise a message, with the first definition that fits the bytes.
 
         Raises:
             MalformedMessage: If no class fits the bytes.
@@ -134,7 +134,7 @@ _codecs: dict[Any, Codec] = {}
 
 
 def codec(kind: type[Message]) -> Codec:
-    """Return the CDR codec of a message class; each codec is created once."""
+    """Return the serialiser of a message class in ROS 2's layout (CDR), created at most once."""
     found = _codecs.get(kind)
     if found is None:
         found = _codecs[kind] = Codec(kind)
@@ -142,15 +142,15 @@ def codec(kind: type[Message]) -> Codec:
 
 
 class _Run:
-    """Consecutive numbers of fixed size, including those of nested messages."""
+    """Step of a codec for consecutive numbers of fixed size, including those of nested messages."""
 
     def __init__(self, leaves: list[tuple[str, str]], layout: Layout) -> None:
-        """Lay out (path, letter) pairs; padding has no path."""
+        """Prepare the layout of pairs of a field's path and `struct` letter; padding has no path."""
         self._get = _getter([path for path, _ in leaves if path])
         self._letters = [letter for _, letter in leaves]
         self.smallest = sum(map(struct.calcsize, self._letters))
         self._start = len(layout.header)
-        # How much padding there is depends on where the run begins on the layout's grid.
+        # The amount of padding depends on the position of the run, modulo the alignment.
         self._mask = layout.alignment - 1
         self._structs: dict[str, list[struct.Struct]] = {
             order: [self._struct(order, phase, layout) for phase in range(layout.alignment)]
@@ -177,7 +177,7 @@ class _Run:
 
 
 class _Text:
-    """A string: length and bytes."""
+    """Step of a codec for a string: its length, then its bytes."""
 
     smallest = _SMALLEST_TEXT
 
@@ -194,7 +194,7 @@ class _Text:
 
 
 class _Array:
-    """Numbers, bytes or booleans: a fixed array, or a sequence with its length."""
+    """Step of a codec for numbers, bytes or booleans: a fixed array, or a sequence."""
 
     def __init__(self, path: str, field: MessageField, layout: Layout) -> None:
         self._get = attrgetter(path)
@@ -224,7 +224,7 @@ class _Array:
             writer.pass_on(raw)
 
     def _raw(self, value: Any) -> memoryview:
-        """Return the little-endian bytes of a field's numbers, without a copy if possible."""
+        """Return the little-endian bytes of an array field's value, without a copy if possible."""
         if self._kind == "byte":
             return memoryview(b"".join(value))
         if self._kind == "bool":
@@ -241,7 +241,7 @@ class _Array:
         if self._kind == "byte":
             values.append([bytes(raw[place : place + 1]) for place in range(count)])
         elif self._kind == "bool":
-            # Anything but 0 is true, and nothing is refused for it.
+            # Every byte except 0 means true.
             values.append(list(map(bool, raw)))
         else:
             found = array.array(self._code)
@@ -250,14 +250,14 @@ class _Array:
             values.append(found if self._count is None else packed(self._kind, count, found))
 
     def _turned(self, numbers: "array.array[Any]", order: str) -> "array.array[Any]":
-        """Convert numbers in place between this machine's byte order and another; return them."""
+        """Convert numbers in place between the native byte order and `order`; return them."""
         if order != _NATIVE and self._item > 1:
             numbers.byteswap()
         return numbers
 
 
 class _List:
-    """Strings or messages: a fixed number, or a sequence with its length."""
+    """Step of a codec for strings or messages: a fixed number, or a sequence with its length."""
 
     def __init__(
         self, path: str, field: MessageField, plan: "_Plan | None", layout: Layout
@@ -296,7 +296,7 @@ _Step = _Run | _Text | _Array | _List
 
 
 class _Planner:
-    """Planner of the layout of a type; each nested type of a list is planned once."""
+    """Creator of the byte layout of a type; each nested type of a list is processed once."""
 
     def __init__(self, name: str, layout: Layout) -> None:
         self._name = name
@@ -305,7 +305,7 @@ class _Planner:
         self._fields = 0
 
     def plan(self, kind: type[Message]) -> "_Plan":
-        """Return the layout of a class of messages."""
+        """Return the byte layout of a message class."""
         found = self._plans.get(kind)
         if found is None:
             found = self._plans[kind] = _Plan(kind, self._steps(kind))
@@ -350,7 +350,7 @@ class _Planner:
         return steps
 
     def _letter(self, owner: type[Message], field: MessageField) -> str | None:
-        """Return `struct`'s letter for a numeric field; None for texts and messages."""
+        """Return `struct`'s letter for a numeric field; None for strings and messages."""
         if field.kind == "wstring":
             raise MalformedMessage(
                 self._name,
@@ -371,7 +371,7 @@ class _Planner:
 
 
 def _numbers_held(value: Any) -> memoryview | None:
-    """Return the memory of an array's numbers, without a copy; None for other values."""
+    """Return the memory of an array of numbers, without a copy; None for other values."""
     try:
         view = memoryview(value)
     except TypeError:
@@ -380,14 +380,14 @@ def _numbers_held(value: Any) -> memoryview | None:
 
 
 def _letter_of(view: memoryview) -> str:
-    """Return the letter of a view's numbers, the same for numpy and Python arrays."""
-    # Both have 8-byte integers as "l" where C's long is that wide; fields have them as "q".
+    """Return `struct`'s letter for an array's numbers, the same for numpy and Python arrays."""
+    # Where C's long has 8 bytes, arrays call such integers "l"; fields always call them "q".
     letter = view.format
     return _WIDE.get(letter, letter) if view.itemsize == 8 else letter
 
 
 def _getter(paths: list[str]) -> Callable[[Any], tuple[Any, ...]]:
-    """Return a function that returns the attributes at these paths as a tuple."""
+    """Return a function that reads a message's attributes at these paths as a tuple."""
     if len(paths) > 1:
         return attrgetter(*paths)
     getters = [attrgetter(path) for path in paths]
@@ -396,26 +396,26 @@ def _getter(paths: list[str]) -> Callable[[Any], tuple[Any, ...]]:
 
 def _check_count(field: MessageField, count: int) -> None:
     if field.size is not None and 0 <= field.size != count:
-        raise ValueError(f"'{field.name}' takes {field.size} values, not {count}")
+        raise ValueError(f"'{field.name}' needs {field.size} values, not {count}")
     if field.bound is not None and count > field.bound:
-        raise ValueError(f"'{field.name}' takes at most {field.bound} values, not {count}")
+        raise ValueError(f"'{field.name}' may have at most {field.bound} values, not {count}")
 
 
 class _Shape:
-    """Constructor of a message from its fields' values, in order."""
+    """Constructor of a message from the values of its fields, in order."""
 
     def __init__(self, kind: type[Message]) -> None:
         self._kind = kind
         self._slots: list[tuple[str, _Shape | None]] = []
         for field in kind.fields__:
-            # A single message's fields lie in line with the others.
+            # The fields of a single nested message follow in the same row of values.
             part = None
             if field.size is None and not isinstance(field.kind, str):
                 part = _Shape(field.kind)
             self._slots.append((f"_{field.name}", part))
 
     def build(self, values: Iterator[Any]) -> Any:
-        """Make the message without assignment checks: its values fit by construction."""
+        """Create the message without checks, because values that were read fit their fields."""
         message = object.__new__(self._kind)
         for slot, part in self._slots:
             setattr(message, slot, next(values) if part is None else part.build(values))
@@ -423,7 +423,7 @@ class _Shape:
 
 
 class _Plan:
-    """Byte layout of one message type."""
+    """Byte layout of one message class: the steps that write and read its fields."""
 
     def __init__(self, kind: type[Message], steps: list[_Step]) -> None:
         self._steps = steps

@@ -1,4 +1,4 @@
-"""Definitions of the ROS 2 interfaces supported here.
+"""Definitions of the ROS 2 interfaces that are included in tftool.
 
 Each block is one interface: its full name, then its fields as in a .msg, .srv or .action file, with
 `;` for a line break. `---` separates the parts of a service or an action. The module `classes`
@@ -215,12 +215,12 @@ rcl_interfaces/srv/SetLoggerLevels = LoggerLevel[] levels; ---; SetLoggerLevelsR
 """  # noqa: E501 -- one interface a line can be searched and compared
 
 _SAME = {"turtlesim_msgs": "turtlesim"}
-"""Newer ROS 2 releases moved turtlesim's interfaces to a package of their own."""
+"""Packages of newer ROS 2 releases with the same interfaces as an older package."""
 
 
 @cache
 def table() -> dict[str, dict[tuple[str, str], str]]:
-    """Return every definition: by package, then (kind, name), as lines."""
+    """Return the text of every definition, by package, then by (kind, name)."""
     packages: dict[str, dict[tuple[str, str], str]] = {}
     for line in _TEXT.splitlines():
         name, found, fields = line.partition("=")
@@ -237,13 +237,13 @@ def table() -> dict[str, dict[tuple[str, str], str]]:
 
 
 EARLIER: Final = (
-    # Up to Humble.
+    # Definitions up to ROS 2 Humble.
     {
         "sensor_msgs/msg/Range": "uint8 ULTRASOUND=0; uint8 INFRARED=1; std_msgs/Header header; "
         "uint8 radiation_type; float32 field_of_view; float32 min_range; float32 max_range; "
         "float32 range",
     },
-    # Up to Foxy.
+    # Definitions up to ROS 2 Foxy.
     {
         "sensor_msgs/msg/Range": "uint8 ULTRASOUND=0; uint8 INFRARED=1; std_msgs/Header header; "
         "uint8 radiation_type; float32 field_of_view; float32 min_range; float32 max_range; "
@@ -258,5 +258,5 @@ EARLIER: Final = (
 )
 """Definitions that earlier distributions had for some types, the latest distribution first.
 
-A recording made before Iron has no definitions, so the bytes have to tell which one they follow.
+A recording made before Iron has no definitions: the reader tries which of these fits the bytes.
 """

@@ -12,11 +12,11 @@ _FLOAT32_MAX = 3.402823466e38
 _FLOAT64_MAX = 1.7976931348623157e308
 
 Check = Callable[[Any], Any]
-"""Gives the value as it is kept, or raises an AssertionError that says why not."""
+"""Function that returns the value to store, or raises an AssertionError with the reason."""
 
 
 def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
-    """Return the check of one value of a field (of an array: one element).
+    """Return the function that checks one value of a field (of an array: one element).
 
     Args:
         name: The field's name.
@@ -37,7 +37,7 @@ def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
 def array_check(
     name: str, kind: str | type[Any], size: int, bound: int | None, element: Check
 ) -> Check:
-    """Return the check of a whole array or sequence.
+    """Return the function that checks a whole array or sequence.
 
     Args:
         name: The field's name.
@@ -74,20 +74,20 @@ def array_check(
 
 
 def typecode(kind: str | type[Any]) -> str | None:
-    """Return the letter of numbers stored as arrays; None for lists."""
+    """Return the letter in `array` of a numeric type stored in arrays; None for types in lists."""
     if not isinstance(kind, str):
         return None
     return INTEGERS[kind] if kind in INTEGERS else FLOATS.get(kind)
 
 
 def packed(kind: str | type[Any], size: int, values: Sequence[Any]) -> Any:
-    """Return several values in a field's storage type."""
+    """Return the values of an array or sequence in the type in which a field stores them."""
     code = typecode(kind)
     if code is None:
         return values
     if size < 0:
         return array.array(code, values)
-    # ROS 2 keeps fixed arrays of numbers as numpy arrays, and users rely on it.
+    # ROS 2 stores fixed arrays of numbers as numpy arrays, and users' programs rely on it.
     import numpy as np
 
     return np.array(values, dtype=np.dtype(code))
@@ -170,8 +170,8 @@ def _check_byte(name: str) -> Check:
 def _check_message(name: str, kind: type[Any]) -> Check:
     def check(value: Any) -> Any:
         if not isinstance(value, kind):
-            # rclpy's Time and Duration have the names of the messages that they make.
-            hint = ", rclpy's own: write .to_msg() behind it" if hasattr(value, "to_msg") else ""
+            # rclpy's Time and Duration have the same names as the message classes.
+            hint = ", which is rclpy's own: append .to_msg()" if hasattr(value, "to_msg") else ""
             raise AssertionError(
                 f"The '{name}' field must be a sub message of type '{kind.__name__}', "
                 f"not '{type(value).__name__}'{hint}"

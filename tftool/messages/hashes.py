@@ -1,4 +1,4 @@
-"""ROS 2's hash of a type's version (REP 2016, RIHS01).
+"""Hash of a message type's definition, as ROS 2 computes it (REP 2016, RIHS01).
 
 The hash is the SHA-256 of a fixed JSON form of the type's description and the descriptions of its
 parts. Names and types of fields are included; defaults, constants and comments are not.
@@ -14,7 +14,7 @@ _NESTED, _BOUNDED_STRING, _BOUNDED_WSTRING = 1, 21, 22
 _NUMBERS: Final = {
     "int8": 2,
     "uint8": 3,
-    # In IDL, which is described here, a char of a .msg file is an uint8.
+    # The description follows IDL, in which a char of a .msg file is a uint8.
     "char": 3,
     "int16": 4,
     "uint16": 5,
@@ -34,11 +34,11 @@ _NUMBERS: Final = {
 _ARRAY, _BOUNDED_SEQUENCE, _SEQUENCE = 48, 96, 144
 
 PLACEHOLDER: Final = FieldDefinition("structure_needs_at_least_one_member", "uint8")
-"""The member that IDL wants in an empty structure."""
+"""Field that an empty structure has in IDL."""
 
 
 def type_hash(schema: Schema, full: str) -> str:
-    """Return the hash of a message, a service, or another structure.
+    """Return the hash of a message, a service, or a part of a service or action.
 
     Args:
         schema: Schema with the definition.

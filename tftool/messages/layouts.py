@@ -1,11 +1,11 @@
-"""Byte layouts of messages: ROS 2's plain CDR, and ROS 1's.
+"""Byte layouts of messages: ROS 2's plain CDR, and ROS 1's serialisation.
 
 CDR has a header of four bytes with the byte order. After the header, every number is aligned to its
 size, and a string ends with a zero byte, which its length includes. tftool writes little endian and
 reads both byte orders. ROS 1 has no header, no alignment and no zero byte after strings.
 
 Bytes are untrusted: a length is compared with the available bytes before memory is allocated, and
-bytes that do not fit are refused with a sentence.
+bytes that do not fit raise an error.
 """
 
 import struct
@@ -16,22 +16,24 @@ from typing import Final
 from tftool.base.errors import MalformedMessage
 
 Payload = bytes | bytearray | memoryview
-"""The bytes of one message, as they arrive or lie in a file."""
+"""Bytes of one message, as received or as stored in a file."""
 
 LARGEST: Final = 64 * 1024 * 1024
-"""Bytes of the largest message we read."""
+"""Maximum size of a message, bytes."""
 
 MOST_ITEMS: Final = 1_000_000
-"""Texts and messages in the lists of one message: each becomes an object many times its bytes."""
+"""Maximum number of strings and messages in the lists of one message. Each becomes an object much
+larger than its bytes.
+"""
 
 PASSED_ON: Final = 4096
-"""Bytes from which the numbers of an array are handed over where they lie, not copied first."""
+"""Size of an array, bytes, from which it is passed on as a view instead of a copy."""
 
 LITTLE: Final = "<"
-"""Little endian, as `struct` writes it."""
+"""Code of `struct` for little endian."""
 
 BIG: Final = ">"
-"""Big endian."""
+"""Code of `struct` for big endian."""
 
 _LENGTHS = {order: struct.Struct(f"{order}I") for order in (LITTLE, BIG)}
 _LENGTH = _LENGTHS[LITTLE]
@@ -39,7 +41,7 @@ _LENGTH = _LENGTHS[LITTLE]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Layout:
-    """Rules of one serialisation of messages.
+    """Rules of one byte layout of messages.
 
     Attributes:
         name: Name of the layout in error messages.
@@ -51,8 +53,8 @@ class Layout:
         empty_size: Bytes of a structure without a field.
         letters: Codes of `struct` for single fields that differ from their definition, by
             (structure, field).
-        hidden: Name and `struct` padding of a structure's first field, for fields that ROS 2's
-            definitions leave out.
+        hidden: By structure, the name and `struct` padding of a first field that ROS 2's
+            definitions do not have.
     """
 
     name: str
@@ -66,7 +68,7 @@ class Layout:
     hidden: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
     def order(self, kind: str, payload: Payload) -> str:
-        """Return the byte order of a message, in `struct`'s notation.
+        """Return the byte order of a message, as a code of `struct`.
 
         Raises:
             MalformedMessage: If the message is too short, too long or has an unknown header.
@@ -74,7 +76,9 @@ class Layout:
         if len(payload) < len(self.header):
             raise MalformedMessage(kind, f"{len(payload)} bytes are too few for a header")
         if len(payload) > LARGEST:
-            raise MalformedMessage(kind, f"{len(payload)} bytes are more than we read ({LARGEST})")
+            raise MalformedMessage(
+                kind, f"{len(payload)} bytes are more than the maximum of {LARGEST}"
+            )
         if not self.headers:
             return LITTLE
         order = self.headers.get(bytes(payload[:2]))
@@ -85,7 +89,7 @@ class Layout:
         return order
 
     def padding(self, position: int, size: int) -> int:
-        """Return the number of padding bytes before a number, by its offset after the header."""
+        """Return the number of padding bytes before a number at an offset after the header."""
         return -position % min(size, self.alignment)
 
 
@@ -96,10 +100,10 @@ CDR: Final = Layout(
     alignment=8,
     word=4,
     texts_end_with_zero=True,
-    # IDL knows no structure without a member, so an empty one is one byte.
+    # IDL has no empty structure, so an empty message is one byte.
     empty_size=1,
 )
-"""ROS 2's bytes."""
+"""Byte layout of ROS 2's messages."""
 
 ROS1: Final = Layout(
     name="ROS 1",
@@ -113,25 +117,27 @@ ROS1: Final = Layout(
         ("builtin_interfaces/msg/Time", "sec"): "I",
         ("builtin_interfaces/msg/Duration", "nanosec"): "i",
     },
-    # ROS 2 dropped the number that ROS 1 counts headers with.
+    # ROS 2 has no sequence number in headers.
     hidden={"std_msgs/msg/Header": ("seq", "4x")},
 )
-"""ROS 1's bytes; its `time` and `duration` are read as builtin_interfaces/Time and Duration."""
+"""Byte layout of ROS 1's messages. Its `time` and `duration` are read as the messages Time and
+Duration of builtin_interfaces.
+"""
 
 
 def check_rest(kind: str, rest: int) -> None:
-    """Refuse a message with bytes after its end.
+    """Raise an error if a message is followed by more bytes than padding.
 
     Raises:
-        MalformedMessage: If bytes remain.
+        MalformedMessage: If more than 7 bytes remain.
     """
-    # Some writers round a message up to a full word.
+    # Some writers pad a message to a multiple of 8 bytes.
     if rest > 7:
-        raise MalformedMessage(kind, f"{rest} bytes are left over behind it")
+        raise MalformedMessage(kind, f"{rest} bytes are left over after it")
 
 
 def text_bytes(text: str) -> bytes:
-    """Return a string as CDR encodes it, without the length: UTF-8 and a final zero.
+    """Return a string's bytes in CDR, without the length: UTF-8 and a final zero byte.
 
     Raises:
         ValueError: If the string contains a zero character, which would end it early.
@@ -143,7 +149,7 @@ def text_bytes(text: str) -> bytes:
 
 
 def read_text(raw: bytes) -> str:
-    """Return the text of a CDR string; `raw` includes the final zero.
+    """Return the text of a string in CDR; `raw` includes the final zero byte.
 
     Raises:
         MalformedMessage: If the bytes are not a CDR string.
@@ -152,7 +158,7 @@ def read_text(raw: bytes) -> str:
         raise MalformedMessage("string", "a text does not end with its zero byte")
     text = _decoded(raw[:-1])
     if "\x00" in text:
-        raise MalformedMessage("string", "a text goes on behind its zero byte")
+        raise MalformedMessage("string", "a text continues after its zero byte")
     return text
 
 
@@ -166,24 +172,24 @@ def _decoded(raw: bytes) -> str:
 class Writer(bytearray):
     """Writer of one message's bytes after its header.
 
-    The bytearray holds the bytes since the last large array; large arrays are copied only once,
-    when everything is joined.
+    The bytearray has the bytes since the last large array. Large arrays are copied only once, when
+    all parts are joined.
 
     Attributes:
-        before: Number of bytes before the current bytearray.
-        parts: Parts of the message so far.
+        before: Number of bytes in `parts`.
+        parts: Parts of the message before this bytearray.
     """
 
-    # Defaults of the class and no constructor: one is made for every message.
+    # Class attributes instead of a constructor save time: each message creates a writer.
     before: int = 0
     parts: tuple[bytes | memoryview, ...] = ()
 
     def length(self, length: int, layout: Layout) -> None:
-        """Append a length."""
+        """Append the length of a string or list, aligned."""
         self += bytes(-(self.before + len(self)) % layout.word) + _LENGTH.pack(length)
 
     def text(self, text: str, layout: Layout) -> None:
-        """Append a text.
+        """Append a string: its length and its bytes.
 
         Raises:
             ValueError: If the layout ends strings with zero and the text contains a zero character.
@@ -198,12 +204,12 @@ class Writer(bytearray):
         self.clear()
 
     def finish(self, layout: Layout) -> bytes:
-        """Return all bytes, with the layout's header."""
+        """Return the bytes of the whole message, with the layout's header."""
         return b"".join((layout.header, *self.parts, self)) if self.parts else layout.header + self
 
 
 class Reader:
-    """Reader of one message's bytes."""
+    """Reader of one message's bytes, which checks every length before use."""
 
     __slots__ = ("_items", "_size", "_start", "kind", "layout", "order", "payload", "position")
 
@@ -217,7 +223,7 @@ class Reader:
         self._items = 0
 
     def take(self, length: int, align: int = 1) -> int:
-        """Skip some bytes; return where they begin."""
+        """Move past `length` bytes; return the offset of the first of them."""
         start = self.position
         if align > 1:
             start += -(start - self._start) % align
@@ -231,7 +237,7 @@ class Reader:
         return MalformedMessage(self.kind, f"{length} bytes are announced and {rest} have arrived")
 
     def length(self) -> int:
-        """Read a length."""
+        """Read the length of a string or list."""
         start = self.position
         start += -(start - self._start) % self.layout.word
         if start + 4 > self._size:
@@ -242,21 +248,21 @@ class Reader:
         return length
 
     def count(self, smallest: int, bound: int | None) -> int:
-        """Return how many items follow, each of at least `smallest` bytes."""
+        """Read a list's number of items, each of at least `smallest` bytes."""
         count = self.length()
         rest = self._size - self.position
         if count * smallest > rest:
             raise MalformedMessage(
-                self.kind, f"a list announces {count} items and {rest} bytes have arrived"
+                self.kind, f"a list announces {count} items, but only {rest} bytes follow"
             )
         if bound is not None and count > bound:
             raise MalformedMessage(
-                self.kind, f"a list announces {count} items where at most {bound} are allowed"
+                self.kind, f"a list announces {count} items, but at most {bound} are allowed"
             )
         return count
 
     def admit(self, items: int) -> None:
-        """Add to the number of list items that may still be read."""
+        """Count list items that were read; raise an error above `MOST_ITEMS`."""
         self._items += items
         if self._items > MOST_ITEMS:
             raise MalformedMessage(
@@ -264,7 +270,7 @@ class Reader:
             )
 
     def text(self, bound: int | None) -> str:
-        """Read a text."""
+        """Read a string of at most `bound` characters."""
         length = self.length()
         start = self.position
         if length > self._size - start:
@@ -277,9 +283,9 @@ class Reader:
         return text
 
     def numbers(self, count: int, size: int) -> Payload:
-        """Read the bytes of some numbers of one size; large blocks are not copied."""
+        """Return the bytes of `count` numbers of one size; large blocks are not copied."""
         length = count * size
-        # Nothing is aligned where nothing follows.
+        # An empty array has no padding.
         start = self.take(length, min(size, self.layout.alignment) if count else 1)
         raw = self.payload if length < PASSED_ON else memoryview(self.payload)
         return raw[start : self.position]

@@ -1,8 +1,8 @@
-"""The native scan of recorded messages, if it was built; see `tftool.base.native`."""
+"""The native scanner of recorded messages, if it was built; see `tftool.base.native`."""
 
 from typing import Any, Final
 
 from tftool.base.native import built
 
 SCAN: Final[Any] = built("tftool.messages._scan", 4)
-"""The module; None where it is not used."""
+"""The native module; None if it is not used."""

@@ -1,4 +1,4 @@
-"""foxglove.FrameTransforms in protobuf: messages, and their description.
+"""Serialiser of foxglove.FrameTransforms in protobuf, and the schema of these messages.
 
 Source: foxglove.dev's schemas of FrameTransforms, FrameTransform, Vector3 and Quaternion, and
 protobuf's own wire format and descriptor.proto.
@@ -16,13 +16,13 @@ _VARINT, _LENGTH = 0, 2
 _POSE: Final = struct.Struct("<BdBdBd")
 _TURN: Final = struct.Struct("<BdBdBdBd")
 
-# Numbers of descriptor.proto: types and labels of fields.
+# Numbers for types and labels of fields in descriptor.proto.
 _DOUBLE, _INT64, _INT32, _STRING, _MESSAGE = 1, 3, 5, 9, 11
 _ONE, _MANY = 1, 3
 
 
 def frame_transforms(samples: Iterable[TransformStamped]) -> bytes:
-    """Return the bytes of a foxglove.FrameTransforms message."""
+    """Return the bytes of a foxglove.FrameTransforms message with these samples."""
     return b"".join(_field(1, _frame_transform(one)) for one in samples)
 
 
@@ -42,7 +42,7 @@ def _frame_transform(sample: TransformStamped) -> bytes:
 
 @cache
 def frame_transforms_definition() -> bytes:
-    """Return the FileDescriptorSet of foxglove.FrameTransforms, its dependencies first."""
+    """Return the bytes of the FileDescriptorSet of foxglove.FrameTransforms, parts first."""
     time = ".google.protobuf."
     own = ".foxglove."
     doubles = [(name, _DOUBLE, "", _ONE) for name in "xyzw"]
@@ -91,7 +91,7 @@ def _file(
     message: str,
     fields: Sequence[tuple[str, int, str, int]],
 ) -> bytes:
-    """Return a FileDescriptorProto with one message."""
+    """Return the bytes of a FileDescriptorProto with one message type."""
     body = _field(1, message.encode())
     for number, (field, kind, type_name, label) in enumerate(fields, 1):
         described = _field(1, field.encode()) + _number(3, number) + _number(4, label)

@@ -1,4 +1,4 @@
-"""Parsed definitions: fields of each interface, and structures derived from it.
+"""Parser of interface definitions: fields of each interface, and structures derived from it.
 
 A service consists of a request and a response; an action consists of three services and two
 messages. ROS 2 derives these structures, and an event for every service, from the definition. Each
@@ -27,15 +27,15 @@ INTEGERS: Final = {
     "uint32": "I",
     "uint64": "Q",
 }
-"""Whole numbers, and their letters in `struct` and `array`."""
+"""Integer types, with their letters in `struct` and `array`."""
 
 FLOATS: Final = {"float32": "f", "float64": "d", "float": "f", "double": "d"}
-"""Floating-point numbers, and their letters."""
+"""Floating-point types, with their letters in `struct` and `array`."""
 
 STRINGS: Final = ("string", "wstring")
 
 MOST_FIELDS: Final = 10_000
-"""Fields and constants of one definition."""
+"""Maximum number of fields and constants in one definition."""
 
 PRIMITIVES: Final = frozenset([*INTEGERS, *FLOATS, *STRINGS, "bool", "byte"])
 
@@ -53,7 +53,7 @@ _NAME = re.compile(r"(\w+)/(?:(msg|srv|action)/)?(\w+)", re.ASCII)
 _DERIVED = re.compile(r"_(?:Request|Response|Event|Goal|Result|Feedback)$")
 
 _ROS1: Final = {
-    # ROS 1 has moments and spans as primitives; ROS 2 as messages of the same two numbers.
+    # `time` and `duration` are primitive in ROS 1, and messages of the same two numbers in ROS 2.
     "time": "builtin_interfaces/msg/Time",
     "duration": "builtin_interfaces/msg/Duration",
 }
@@ -64,7 +64,7 @@ _GOAL_ID = "unique_identifier_msgs/UUID goal_id\n"
 
 @dataclass(frozen=True, slots=True)
 class FieldDefinition:
-    """One field of a structure.
+    """One field of a structure, as defined.
 
     Attributes:
         name: Name of the field.
@@ -85,11 +85,11 @@ class FieldDefinition:
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """Fields of one message, in order.
+    """Parsed definition of one message, or of one part of a service or action.
 
     Attributes:
         name: Full name, "geometry_msgs/msg/Pose".
-        fields: Fields.
+        fields: The fields, in order.
         constants: Name, type and text of each constant.
     """
 
@@ -106,16 +106,16 @@ def full_name(name: str) -> str:
     """
     found = _NAME.fullmatch(name)
     if found is None:
-        raise InputError(f"{name[:200]!r} is no name of an interface; write 'package/Name'")
+        raise InputError(f"{name[:200]!r} is not a name of an interface; write 'package/Name'")
     package, folder, own = found.groups()
     full = f"{package}/{folder or 'msg'}/{own}"
     return _ROS1_MOVED.get(full, full)
 
 
 class Schema:
-    """Structures of every interface by name, parsed on first use.
+    """Set of interface definitions by name, each parsed on first use.
 
-    Definitions of a workspace's packages, and of a recording, can be added.
+    Definitions of a workspace's packages and of recordings can be added.
     """
 
     def __init__(self) -> None:
@@ -123,13 +123,13 @@ class Schema:
         self._read: dict[str, Structure] = {}
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
-        """Add a package's own definitions, by (kind, name)."""
+        """Add the interface definitions of a package, by (kind, name); replace older ones."""
         self._texts[package] = dict(texts)
         for full in [full for full in self._read if full.startswith(f"{package}/")]:
             del self._read[full]
 
     def define(self, full: str, text: str) -> bool:
-        """Use the definitions that a recording has for one of its types.
+        """Add the definitions that a recording has for one of its types.
 
         Args:
             full: The type's full name.
@@ -137,7 +137,7 @@ class Schema:
                 each after a line of '=' and a line "MSG: package/Name".
 
         Returns:
-            Whether the definitions are in use now. False if a structure with another definition was
+            Whether these definitions are used now. False if a structure with another definition was
             parsed before, for example if two releases recorded into one file.
 
         Raises:
@@ -160,25 +160,25 @@ class Schema:
         return True
 
     def _is_other(self, full: str, text: str) -> bool:
-        """Whether a service or action was parsed before from another definition."""
+        """Whether a service or action was already parsed from another definition."""
         package, kind, name = full.split("/")
         known = self._texts.get(package, {}).get((kind, name), text)
         return known != text and any(one.startswith(f"{full}_") for one in self._read)
 
     def knows(self, package: str, texts: Mapping[tuple[str, str], str]) -> bool:
-        """Whether a package already has exactly these definitions."""
+        """Whether exactly these definitions were already added for a package."""
         return self._texts.get(package) == texts
 
     def packages(self) -> Sequence[str]:
-        """Return the packages with interfaces."""
+        """Return the names of the packages with interfaces."""
         return list(self._texts)
 
     def names(self, package: str, kind: str) -> list[str]:
-        """Return a package's interfaces of kind msg, srv or action."""
+        """Return the names of a package's interfaces of one kind: msg, srv or action."""
         return [name for found, name in self._texts.get(package, {}) if found == kind]
 
     def text(self, package: str, kind: str, name: str) -> str:
-        """Return the text of a definition, as in its file.
+        """Return the text of an interface's definition, as in its file.
 
         Raises:
             InputError: If there is no such interface.
@@ -189,7 +189,7 @@ class Schema:
         return text
 
     def parts(self, package: str, kind: str, name: str) -> dict[str, str]:
-        """Return the parts of a service's or action's definition by "Request", "Goal" and so on.
+        """Return the parts of a service's or action's definition by name: "Request", "Goal", ….
 
         Raises:
             InputError: If there is no such interface, or it has other parts.
@@ -205,7 +205,7 @@ class Schema:
         return dict(zip(parts, texts, strict=True))
 
     def structure(self, full: str) -> Structure:
-        """Return a structure by its full name.
+        """Return the parsed definition with a full name.
 
         Raises:
             InputError: If there is no structure with that name, or its definition is wrong.
@@ -216,7 +216,7 @@ class Schema:
         return found
 
     def has(self, full: str) -> bool:
-        """Whether there is an interface of that name (package/kind/Name)."""
+        """Whether there is an interface with this full name ("package/kind/Name")."""
         package, _, rest = full.partition("/")
         kind, _, name = rest.partition("/")
         return (kind, name) in self._texts.get(package, {})
@@ -241,7 +241,7 @@ class Schema:
                 return derived
         if part in _PARTS[kind] and base:
             return self.parts(package, kind, base)[part]
-        # The service itself is a structure too: of its three messages, for its hash.
+        # For its hash, a service is also a structure, with its three messages as fields.
         return (
             f"{full}_Request request_message\n{full}_Response response_message\n"
             f"{full}_Event event_message"
@@ -249,7 +249,7 @@ class Schema:
 
 
 def _of_action(folder: str, base: str, part: str) -> str | None:
-    """Return the lines of a type that ROS 2 derives from an action; None for the action itself."""
+    """Return the definition of a type that ROS 2 derives from an action; None for the action."""
     action = base.rpartition("_")[0]
     if part == "FeedbackMessage":
         return f"{_GOAL_ID}{folder}{base}_Feedback feedback"
@@ -263,9 +263,9 @@ def _of_action(folder: str, base: str, part: str) -> str | None:
 
 
 def _sections(full: str, text: str) -> dict[str, str]:
-    """Split a recorded definition into its sections by full name."""
+    """Split a recorded definition into its sections; return their texts by full name."""
     first, *others = _SEPARATOR.split(text)
-    # A service's event is recorded with the definition of the service.
+    # For a service's event, the recorded definition is that of the service.
     name = _DERIVED.sub("", full) if "/msg/" not in full and "---" in first else full
     found = {name: first}
     for other in others:
@@ -279,7 +279,7 @@ def _sections(full: str, text: str) -> dict[str, str]:
 
 
 def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Structure:
-    """Parse one definition; a recorded definition with ROS 1 types follows ROS 1's rules."""
+    """Parse the definition of one structure; if recorded with ROS 1's types, by ROS 1's rules."""
     fields: list[FieldDefinition] = []
     constants: list[tuple[str, str, str]] = []
     for raw in text.splitlines():
@@ -290,7 +290,7 @@ def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Str
             raise InputError(f"{full} has more than {MOST_FIELDS} fields")
         match = _FIELD.match(line)
         if match is None:
-            raise InputError(f"{full}: '{line[:200]}' is no field; write 'type name'")
+            raise InputError(f"{full}: '{line[:200]}' is not a field; write 'type name'")
         if match["constant"]:
             constants.append((match["name"], match["type"], match["value"]))
         else:
@@ -299,7 +299,7 @@ def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Str
 
 
 def _without_comment(line: str) -> str:
-    """Return a line without its comment; a '#' in quotes is kept."""
+    """Return a line of a definition without its comment; a '#' in quotes is kept."""
     quote = ""
     for at, char in enumerate(line):
         if quote:
@@ -308,7 +308,7 @@ def _without_comment(line: str) -> str:
             quote = char
         elif char == "#":
             return line[:at]
-    # An apostrophe that nothing closes is no quote.
+    # An apostrophe without a second one does not begin a quoted text.
     return line.partition("#")[0] if quote else line
 
 
@@ -317,7 +317,7 @@ def _field(full: str, match: "re.Match[str]", recorded: Collection[str] | None) 
     if recorded is not None and kind in _ROS1:
         kind = _ROS1[kind]
     elif recorded is not None and kind == "Header" and f"{package}/msg/Header" not in recorded:
-        # ROS 1 lets definitions leave out where the header is from.
+        # In ROS 1, the package of Header may be left out.
         kind = "std_msgs/msg/Header"
     elif kind not in PRIMITIVES:
         kind = full_name(kind if "/" in kind else f"{package}/{kind}")
@@ -332,5 +332,5 @@ def _field(full: str, match: "re.Match[str]", recorded: Collection[str] | None) 
 
 def _size(full: str, digits: str) -> int:
     if not (digits.isascii() and digits.isdecimal() and len(digits) <= 10):
-        raise InputError(f"{full}: {digits[:20]} is no size of an array or a text")
+        raise InputError(f"{full}: {digits[:20]} is not a size of an array or a text")
     return int(digits)

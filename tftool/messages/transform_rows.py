@@ -1,7 +1,7 @@
-"""Fast decoding of many recorded tf2_msgs/TFMessages as rows of a numpy table.
+"""Fast decoder of many recorded tf2_msgs/TFMessages into rows of a numpy array.
 
 A publisher sends the same frames again and again: its messages have equal lengths and names, and
-differ only in stamps and numbers. Python parses the first message and notes the byte positions of
+differ only in stamps and numbers. Python parses the first message and stores the byte offsets of
 stamps and numbers. A later message of the same length is not parsed: numpy only checks that all its
 other bytes equal those of the first message.
 """
@@ -20,19 +20,19 @@ from tftool.messages.layouts import CDR, Layout
 from tftool.messages.transforms import KIND
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
-"""Bytes as an array."""
+"""Array of bytes."""
 
 Words: TypeAlias = npt.NDArray[np.uint64]
-"""One row a message, in words of 8 bytes, shape (n, words)."""
+"""Messages as 64-bit words, one row per message, shape (n, words)."""
 
 Records: TypeAlias = npt.NDArray[np.int64]
-"""One row a transform: its stamp, and bit by bit seven doubles, shape (n, 8)."""
+"""Transforms, one row each: the stamp, and the bits of seven doubles, shape (n, 8)."""
 
 LONGEST_NAME: Final = 4096
-"""Bytes of the longest frame name that is read."""
+"""Maximum length of a frame name, bytes."""
 
 SMALLEST: Final = 72
-"""Bytes of a transform with empty names: stamp 8, two lengths 8, seven doubles 56."""
+"""Size of a transform with empty names, bytes: stamp 8, two lengths 8, seven doubles 56."""
 
 _LITTLE: Final = b"\x00\x01"
 _BIG: Final = b"\x00\x00"
@@ -42,7 +42,7 @@ _WORD: Final = {order: struct.Struct(f"{order}I") for order in "<>"}
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Byte positions of one transform in a message.
+    """Names of one transform in a message, and the byte offsets of its numbers.
 
     Attributes:
         parent: Name of the parent, as sent.
@@ -59,7 +59,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Walked:
-    """Transforms found in one message.
+    """Byte offsets of the transforms in one message.
 
     Attributes:
         order: Byte order of the message, in `struct`'s notation.
@@ -73,7 +73,7 @@ class Walked:
 
 
 def walk(layout: Layout, payload: bytes) -> Walked:
-    """Find the transforms of a message.
+    """Find the byte offsets of all transforms in a message.
 
     Raises:
         MalformedMessage: If the bytes are not a TFMessage.
@@ -89,12 +89,12 @@ def walk(layout: Layout, payload: bytes) -> Walked:
         (count,) = word.unpack_from(payload, position)
         fixed.append((0, position + 4))
         position += 4
-        # Stamp and numbers take 64 bytes, and two lengths 8, at least.
+        # A transform has at least 72 bytes: stamp and numbers 64, two lengths 8.
         if count * SMALLEST > size - position:
             room = (size - position) // SMALLEST
             raise MalformedMessage(KIND, f"it announces {count} transforms, with room for {room}")
         for _ in range(count):
-            stamp = position if is_cdr else position + 4  # behind the sequence number
+            stamp = position if is_cdr else position + 4  # after the sequence number
             position = stamp + 8
             names = []
             for _ in range(2):
@@ -105,14 +105,14 @@ def walk(layout: Layout, payload: bytes) -> Walked:
                 if length > LONGEST_NAME or end > size:
                     raise MalformedMessage(KIND, f"a frame name announces {length} bytes")
                 raw = payload[position + 4 : end]
-                # ROS 2 counts the zero byte that ends a text.
+                # In ROS 2 the length includes the final zero byte.
                 raw = raw.removesuffix(b"\x00") if is_cdr else raw
-                # An odd name must not cost the message: its bytes become visible escapes.
+                # A name that is not UTF-8 must not make the message unreadable: escape its bytes.
                 names.append(raw.decode("utf-8", "backslashreplace"))
                 fixed.append((position, end))
                 position = end
             if is_cdr:
-                # To the grid of 8 that starts behind the header.
+                # Align to 8 bytes, counted from the end of the header.
                 position = ((position + 3) & ~7) + 4
             places.append(Place(names[0], names[1], stamp, position))
             position += 56
@@ -120,14 +120,14 @@ def walk(layout: Layout, payload: bytes) -> Walked:
                 raise MalformedMessage(KIND, f"it ends within transform {len(places)} of {count}")
     except struct.error as error:
         raise MalformedMessage(KIND, f"it ends within transform {len(places) + 1}") from error
-    # Some writers round a message up to a full word.
+    # Some writers pad a message to a multiple of 8 bytes.
     if size - position > (7 if is_cdr else 0):
-        raise MalformedMessage(KIND, f"{size - position} bytes are left over behind it")
+        raise MalformedMessage(KIND, f"{size - position} bytes are left over after it")
     return Walked(order, tuple(places), tuple(fixed))
 
 
 def sample(payload: bytes, order: str, place: Place) -> tuple[Stamp, tuple[float, ...]]:
-    """Return stamp and seven numbers of one transform of a message."""
+    """Return the stamp and the seven numbers of one transform in a message."""
     word = _WORD[order]
     (sec,) = word.unpack_from(payload, place.stamp)
     (nanosec,) = word.unpack_from(payload, place.stamp + 4)
@@ -148,11 +148,11 @@ def _byte_order(payload: bytes) -> str:
 
 
 def row_span(layout: Layout, length: int) -> tuple[int, int]:
-    """Return the row length for a message of that length, in whole words.
+    """Return the offset and the width of the row, in whole words, that contains a message.
 
     Returns:
-        Offset of the row from the first byte of the message, and its length. A row begins before
-            its message, so that the doubles of the message are aligned to 8 bytes in the row: 4
+        Offset of the row from the first byte of the message, and its width in bytes. A row begins
+            before its message, so that the doubles of the message are aligned to 8 bytes in the row: 4
             bytes before for ROS 2, up to 7 bytes for ROS 1.
     """
     if layout is CDR:
@@ -162,17 +162,17 @@ def row_span(layout: Layout, length: int) -> tuple[int, int]:
 
 
 def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
-    """Copy rows of equal length from a buffer.
+    """Copy rows of equal width from a buffer.
 
     Args:
         buffer: Buffer with the rows.
         starts: Offset of each row, shape (n,); every row is within the buffer.
-        width: Bytes of a row, a multiple of 8.
+        width: Width of a row, bytes, a multiple of 8.
 
     Returns:
         The rows as 64-bit words, shape (n, width / 8).
     """
-    # As single items of that many bytes: numpy then copies a row in one go.
+    # Treat each row as one large item, which numpy copies in one step.
     items: npt.NDArray[np.void] = np.ndarray(
         (len(buffer) - width + 1,), dtype=f"V{width}", buffer=buffer.data, strides=(1,)
     )
@@ -180,14 +180,14 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
 
 
 def _items(rows: npt.NDArray[Any], begin: int, size: int) -> npt.NDArray[np.void]:
-    """Return a byte range of every row as one item per row, which numpy copies in one step."""
+    """Return a view of a byte range of every row, with one large item per row."""
     return np.ndarray(
         (len(rows),), f"V{size}", buffer=rows.data, offset=begin, strides=rows.strides[:1]
     )
 
 
 class Template:
-    """Common part of all messages of one layout, length and set of frames.
+    """Common bytes of all messages with the same layout, length and frames.
 
     Attributes:
         places: Byte positions of each transform.
@@ -196,7 +196,7 @@ class Template:
     __slots__ = ("_begin", "_masks", "_values", "_words", "places")
 
     def __init__(self, layout: Layout, payload: bytes, walked: Walked) -> None:
-        """Make the template of a little-endian message."""
+        """Make the template of a little-endian message that was parsed."""
         self.places = walked.places
         begin, width = row_span(layout, len(payload))
         self._begin = begin
@@ -212,10 +212,8 @@ class Template:
         self._values = row.view(np.uint64)[self._words]
 
     def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
-        """Return a mask of the rows with the template's frames, shape (n,); None if all rows have
-        them.
-        """
-        # A copy: what follows works in place. Bits that are set after the mask tell a row apart.
+        """Return the mask of the rows with the template's frames, shape (n,); None if all match."""
+        # This copy is changed in place. Rows with bits that are set after masking do not match.
         apart = rows.take(self._words, axis=1)
         apart ^= self._values
         apart &= self._masks
@@ -225,11 +223,11 @@ class Template:
         return found
 
     def cut(self, rows: Words, place: Place, records: Records) -> None:
-        """Copy one transform of each row into records, shape (n, 8)."""
+        """Copy one transform of each row into records, an array of shape (n, 8)."""
         if not len(rows):
             return
         _items(records, 8, 56)[:] = _items(rows, place.numbers - self._begin, 56)
-        # Copied first: numpy takes only contiguous items as another type.
+        # Copy first: numpy views only contiguous items as another type.
         times = _items(rows, place.stamp - self._begin, 8).copy().view(np.int32).reshape(-1, 2)
         stamps = times[:, 0].astype(np.int64)
         stamps *= NANOSECONDS
@@ -239,14 +237,14 @@ class Template:
 
 
 class TransformRow(NamedTuple):
-    """One transform of a message.
+    """One transform of a recorded message.
 
     Attributes:
         stamp: Nanoseconds.
         parent: Name of the parent, as sent.
         child: Name of the child, as sent.
         numbers: x y z in metres, and x y z w of the quaternion.
-        sequence: Sequence number of a ROS 1 header; 0 in ROS 2.
+        sequence: Sequence number of the ROS 1 header; 0 in ROS 2.
     """
 
     stamp: Stamp
@@ -257,7 +255,7 @@ class TransformRow(NamedTuple):
 
 
 class TransformRows:
-    """A parsed TFMessage with the byte range of each transform.
+    """A parsed TFMessage that can be written again with other transforms.
 
     Attributes:
         payload: Bytes of the message.
@@ -267,7 +265,7 @@ class TransformRows:
     __slots__ = ("_layout", "_walked", "payload", "rows")
 
     def __init__(self, layout: Layout, payload: bytes) -> None:
-        """Parse the message.
+        """Parse the bytes of a message.
 
         Raises:
             MalformedMessage: If the bytes are not a TFMessage.
@@ -281,7 +279,7 @@ class TransformRows:
         stamp, numbers = sample(self.payload, self._walked.order, place)
         sequence = 0
         if self._layout is not CDR:
-            # ROS 1's header begins with it, right before the stamp.
+            # The sequence number is right before the stamp in ROS 1's header.
             (sequence,) = _WORD["<"].unpack_from(self.payload, place.stamp - 4)
         return TransformRow(stamp, place.parent, place.child, numbers, sequence)
 
@@ -293,8 +291,8 @@ class TransformRows:
         Raises:
             MalformedMessage: If a stamp does not fit into ROS's seconds.
         """
-        # Lengths of names decide all offsets: only with the same names, in the same order, can
-        # bytes be replaced in place.
+        # The lengths of names determine all offsets: bytes can be replaced in place only if the
+        # names and their order are the same.
         same = len(rows) == len(self.rows) and all(
             one[1:3] == other[1:3] for one, other in zip(rows, self.rows, strict=True)
         )
@@ -307,14 +305,14 @@ class TransformRows:
                 patched[place.stamp : place.stamp + 8] = _packed_stamp(
                     self._layout, row.stamp, order
                 )
-            # By identity: NaN differs from itself, and numbers nobody touched must keep every bit.
+            # Compare by identity: NaN differs from itself, and unchanged numbers must stay as is.
             if row.numbers is not old.numbers:
                 struct.pack_into(f"{order}7d", patched, place.numbers, *row.numbers)
         return bytes(patched)
 
 
 def encode_rows(layout: Layout, rows: Sequence[TransformRow]) -> bytes:
-    """Return the bytes of a TFMessage of some transforms.
+    """Return the bytes of a TFMessage with these transforms.
 
     Raises:
         MalformedMessage: If a stamp does not fit into ROS's seconds.
@@ -326,14 +324,14 @@ def encode_rows(layout: Layout, rows: Sequence[TransformRow]) -> bytes:
             found += _WORD["<"].pack(row.sequence)
         found += _packed_stamp(layout, row.stamp, "<")
         for name in (row.parent, row.child):
-            # A name from a command line may hold bytes that are no UTF-8.
+            # A name from a command line may contain bytes that are not UTF-8.
             raw = name.encode("utf-8", "surrogateescape")
             raw = raw + b"\x00" if is_cdr else raw
             if is_cdr:
                 found += bytes(-len(found) % 4)
             found += _WORD["<"].pack(len(raw)) + raw
         if is_cdr:
-            # To the grid of 8 that starts behind the header.
+            # Align to 8 bytes, counted from the end of the header.
             found += bytes((4 - len(found)) % 8)
         found += _SEVEN["<"].pack(*row.numbers)
     return bytes(found)

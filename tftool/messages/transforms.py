@@ -1,4 +1,4 @@
-"""Fast serialiser of tf2_msgs/TFMessage, which makes up most of a session's traffic.
+"""Fast serialiser of tf2_msgs/TFMessage, the most frequent message between processes.
 
 The bytes equal those of the general codec, at a fraction of the cost. Large messages can be read as
 arrays, without an object for each transform.
@@ -29,22 +29,22 @@ _STAMP: Final = struct.Struct("<iI")
 _LONGEST_NAME_KEPT: Final = 256
 _NAMES_KEPT: Final = 4096
 
-# Names repeat in every message: their bytes are turned into text once. Emptied when
-# full, so that a stranger with ever new names cannot make it grow.
+# Names repeat in every message, so each is decoded once. The cache is emptied when full, so that a
+# sender of ever new names cannot make it grow.
 _names: dict[bytes, str] = {}
 _heads: dict[tuple[str, str, int], bytes] = {}
 
 
 def encode_transforms(transforms: Sequence[TransformStamped]) -> bytes:
-    """Return the bytes of a tf2_msgs/TFMessage.
+    """Return the bytes of a tf2_msgs/TFMessage with these transforms.
 
     Raises:
         MalformedMessage: If a stamp does not fit into ROS's 32-bit seconds, or a name contains a
             zero character.
     """
     parts = [CDR.header, _LENGTH.pack(len(transforms))]
-    # Behind the count the first transform starts 4 bytes off the grid of 8, and every
-    # other one, behind doubles, on it.
+    # The first transform, after the count, begins 4 bytes after a multiple of 8; the others,
+    # after doubles, begin at a multiple of 8.
     phase = 4
     for sample in transforms:
         sec, nanosec = divmod(sample.stamp, NANOSECONDS)
@@ -96,13 +96,13 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
             child = _names.get(raw)
             if child is None:
                 child = _name(raw)
-            # To the grid of 8 that starts behind the header.
+            # Align to 8 bytes, counted from the end of the header.
             position = ((end + 3) & ~7) + 4
 
             seven = _SEVEN.unpack_from(payload, position)
             position += 56
-            # Made as plain tuples are, past the constructors: seven doubles need no
-            # conversion, and the buffer judges them.
+            # Created without the constructors' checks: seven doubles need no conversion, and
+            # the buffer checks them.
             pose = new(Transform, (new(Vector3, seven[:3]), new(Quaternion, seven[3:])))
             stamp = sec * NANOSECONDS + nanosec
             found.append(new(TransformStamped, (stamp, parent, child, pose)))
@@ -115,7 +115,7 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
 
 
 class TransformColumns:
-    """Many transforms as columns, one row per transform, in order of arrival.
+    """Many transforms as columns, one row per transform, in the order of the message.
 
     Attributes:
         stamps: Nanoseconds, int64, shape (n,).
@@ -146,7 +146,7 @@ class TransformColumns:
 
 
 def decode_columns(payload: bytes) -> TransformColumns:
-    """Return the transforms of a large tf2_msgs/TFMessage as arrays.
+    """Return the transforms of a large tf2_msgs/TFMessage as arrays, one row each.
 
     Raises:
         MalformedMessage: If the bytes are not a TFMessage.
@@ -169,7 +169,7 @@ def decode_columns(payload: bytes) -> TransformColumns:
             word = _skim_name(payload, words, word, children)
         except IndexError:
             raise _ends_within(row, count) from None
-        # Odd words lie on the grid of 8 that starts behind the header.
+        # Odd 4-byte words are aligned to 8 bytes, counted from the end of the header.
         word |= 1
         numbers[row] = word
         word += 14
@@ -185,7 +185,7 @@ def decode_columns(payload: bytes) -> TransformColumns:
 
 
 def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[str]) -> int:
-    """Append the text at a word offset; return the offset after it."""
+    """Append the name at a word offset to `names`; return the offset after the name."""
     length = words[word]
     begin = word * 4 + 4
     if length > len(payload) - begin:
@@ -197,11 +197,11 @@ def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[
 
 
 def _head(key: tuple[str, str, int]) -> bytes:
-    """Return the bytes of both names with their lengths, padded up to the first double."""
+    """Return the bytes of a transform's two names with lengths, padded to the first double."""
     parent, child, phase = key
     head = _text(parent)
     head += bytes(-len(head) % 4) + _text(child)
-    # Eight bytes of stamp lie in front and leave the phase as it is.
+    # The eight bytes of the stamp before the names do not change the alignment.
     head += bytes(-(phase + len(head)) % 8)
     if len(_heads) >= _NAMES_KEPT:
         _heads.clear()
@@ -228,13 +228,13 @@ def _name(raw: bytes) -> str:
 
 def _count_of_transforms(payload: bytes) -> int:
     if CDR.order(KIND, payload) != LITTLE:
-        raise MalformedMessage(KIND, "transforms are read in little endian only")
+        raise MalformedMessage(KIND, "only little-endian transforms can be read")
     if len(payload) < 8:
         raise MalformedMessage(KIND, "it ends before its number of transforms")
     (count,) = _LENGTH.unpack_from(payload, 4)
     room = (len(payload) - 8) // _SMALLEST_TRANSFORM
     if count > room:
-        raise MalformedMessage(KIND, f"it announces {count} transforms and has room for {room}")
+        raise MalformedMessage(KIND, f"it announces {count} transforms, with room for {room}")
     return int(count)
 
 

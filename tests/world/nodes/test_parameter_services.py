@@ -78,7 +78,7 @@ def test_each_change_is_accepted_or_refused_by_itself(ask):
         "background_g must be a whole number from 0 to 255, not 256",
         "parameter 'background_b' of node 'sim' takes int, not str ('blue')",
         "node 'sim' has no parameter 'backgroud_b'; did you mean 'background_b'?",
-        "77 is no known type of a parameter",
+        "77 is not a known type of a parameter",
     ]
     assert (ask.simulator.background.r, ask.simulator.background.g) == (7, 86)
     assert ask.simulator.get_parameter("holonomic") is True

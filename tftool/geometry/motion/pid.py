@@ -1,4 +1,4 @@
-"""One step of a PID controller, as a function of its state and the error."""
+"""A PID controller's step, as a function of the controller's state and a measurement."""
 
 import math
 from dataclasses import dataclass, replace
@@ -8,12 +8,12 @@ from tftool.base.errors import UsageError
 
 @dataclass(frozen=True, slots=True)
 class Gains:
-    """Gains of a controller.
+    """Gains and limits of a PID controller.
 
     Attributes:
         kp: Output per unit of error.
         ki: Output per unit of error that lasts for one second.
-        kd: Output per unit by which the error grows in one second.
+        kd: Output per unit of growth of the error in one second.
         integral_limit: Bound on the size of the integral term of the output; None for no limit.
         output_limit: Bound on the size of the output; None for no limit. While the output is
             limited, the integral does not grow further in that direction.
@@ -31,12 +31,12 @@ class Gains:
                 raise UsageError(f"gain {name} must be a finite number, not {getattr(self, name)}")
         for name in ("integral_limit", "output_limit"):
             limit = getattr(self, name)
-            # Asked this way round, NaN is refused as well.
+            # Written with `not`, so that NaN is refused too.
             if limit is not None and not limit >= 0.0:
                 raise UsageError(f"{name} must be zero or more, not {limit}")
 
     def limited(self, output_limit: float | None) -> "Gains":
-        """Return the same gains with the tighter of two output limits."""
+        """Return the gains with the smaller of two output limits: their own, or `output_limit`."""
         if output_limit is None or (
             self.output_limit is not None and self.output_limit <= output_limit
         ):
@@ -46,7 +46,7 @@ class Gains:
 
 @dataclass(frozen=True, slots=True)
 class PidState:
-    """State of a controller between steps.
+    """State of a PID controller between two steps.
 
     Attributes:
         integral: Sum of error times time so far.
@@ -58,7 +58,7 @@ class PidState:
 
 
 FRESH = PidState()
-"""What a controller remembers before its first step."""
+"""State of a controller before its first step."""
 
 
 def step(
@@ -81,8 +81,7 @@ def step(
         measured: Measured value.
         interval: Seconds since the previous step, above zero.
         setpoint: Wanted value.
-        angle: Whether the quantity is an angle in radians, whose changes and
-            errors go the short way round.
+        angle: Whether the quantity is an angle in radians, so that differences are at most π.
 
     Returns:
         The output, and the new state.
@@ -97,7 +96,7 @@ def step(
     limit = gains.output_limit
     if limit is not None and abs(output) > limit:
         held = math.copysign(limit, output)
-        # Growing the integral in the direction of the bound would only have to be undone later.
+        # At the output limit the integral must not grow further: it would have to shrink later.
         if gains.ki * error * held > 0.0:
             integral = memory.integral
         output = held
@@ -112,5 +111,5 @@ def _bounded_integral(gains: Gains, integral: float) -> float:
 
 
 def _short_way(angle: float) -> float:
-    # The bearing straight behind is ±π; both are left as they are.
+    # ±π, the bearing of a goal straight behind, stays unchanged.
     return angle if -math.pi <= angle <= math.pi else math.remainder(angle, math.tau)

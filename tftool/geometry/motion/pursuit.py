@@ -1,4 +1,4 @@
-"""Pursuit of a goal given relative to the pursuer."""
+"""Control of a body that pursues a goal given relative to the body."""
 
 import math
 from dataclasses import dataclass
@@ -8,20 +8,20 @@ from tftool.geometry.motion import pid
 from tftool.geometry.motion.twist import Twist2D
 
 COINCIDENT = 1e-9
-"""Below this distance, in metres, a goal has no bearing: the rest is rounding."""
+"""Distance, metres, below which a goal has no bearing because only rounding is left."""
 
 TUTORIAL_DISTANCE = pid.Gains(0.5)
-"""The tutorial's forward gain: m/s per metre."""
+"""Gain from distance to forward speed in ROS's tutorial: m/s per metre."""
 
 TUTORIAL_BEARING = pid.Gains(1.0)
-"""The tutorial's rotation gain: rad/s per radian."""
+"""Gain from bearing to turn rate in ROS's tutorial: rad/s per radian."""
 
 _STOP = Twist2D()
 
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """Control law from distance and bearing to speed and turn rate; the tutorial's by default.
+    """Control law from distance and bearing to speed and turn rate; ROS's tutorial's by default.
 
     Attributes:
         distance: Gains from distance in metres to speed in m/s.
@@ -36,7 +36,7 @@ class Law:
     speed_limit: float | None = None
 
     def __post_init__(self) -> None:
-        # Asked this way round, NaN is refused as well.
+        # Written with `not`, so that NaN is refused too.
         if not self.dead_band >= 0.0:
             raise UsageError(f"the dead band must be zero metres or more, not {self.dead_band}")
         if self.speed_limit is not None and not self.speed_limit >= 0.0:
@@ -45,20 +45,20 @@ class Law:
 
 @dataclass(frozen=True, slots=True)
 class PursuitState:
-    """State of the two controllers between steps."""
+    """State of the distance and the bearing controller between two steps."""
 
     distance: pid.PidState = pid.FRESH
     bearing: pid.PidState = pid.FRESH
 
 
 FRESH = PursuitState()
-"""State before the first step."""
+"""State of the controllers before the first step."""
 
 
 def steer(
     law: Law, memory: PursuitState, x: float, y: float, interval: float
 ) -> tuple[Twist2D, PursuitState]:
-    """Return the velocity command towards a goal.
+    """Return the velocity command that steers a body towards a goal.
 
     Args:
         law: The control law.
@@ -74,12 +74,12 @@ def steer(
     distance = math.hypot(x, y)
     if distance < law.dead_band:
         return _STOP, FRESH
-    # Two frames at one place leave a residue of rounding, and atan2 would make
-    # a full turn rate of it.
+    # For two frames at one place only rounding is left, from which atan2 would compute
+    # a full turn rate.
     bearing = math.atan2(y, x) if distance >= COINCIDENT else 0.0
     distance = distance if distance >= COINCIDENT else 0.0
 
-    # Seen from the goal, being `distance` away means standing at -distance.
+    # The controller's measurement is the position relative to the goal: -distance.
     speed, of_distance = pid.step(
         law.distance.limited(law.speed_limit), memory.distance, -distance, interval
     )

@@ -1,7 +1,7 @@
-"""Motion of one turtle, update by update: turn, move, stop at the wall.
+"""Motion of one simulated turtle in each update: turn, move, stop at the wall.
 
-The constants are exactly turtlesim's: a simulator with the library's π, or with a field edge in
-double precision, would print other poses.
+The constants are exactly turtlesim's: with Python's π, or with a field edge in double precision,
+the simulator would print other poses.
 """
 
 import math
@@ -12,7 +12,7 @@ from tftool.base.errors import UsageError
 from tftool.base.stamps import Duration
 
 PIXELS_PER_METRE: Final = 45
-"""The height of the first turtle picture: what turtlesim calls a metre."""
+"""Pixels in one of turtlesim's metres: the height of the first turtle picture."""
 
 WINDOW: Final = 500
 """Width and height of the drawing in pixels."""
@@ -21,16 +21,16 @@ FIELD: Final = 11.088889122009277
 """Edge of the field in metres: (500 - 1) / 45 as a 32-bit float."""
 
 CENTRE: Final = FIELD / 2
-"""Both coordinates of the place where the first turtle starts, in metres."""
+"""Both start coordinates of the first turtle, metres."""
 
 TICK: Final[Duration] = 16_000_000
 """Time between two updates, in nanoseconds."""
 
 STEP: Final = 0.016
-"""What one update integrates over, in seconds; the same however late the update runs."""
+"""Time that each update simulates, seconds; the same even if the update runs late."""
 
 COMMAND_TIMEOUT: Final[Duration] = 1_000_000_000
-"""A command older than this no longer moves the turtle."""
+"""Age of a velocity command, nanoseconds, after which the turtle stops."""
 
 PI: Final = 3.14159265
 TWO_PI: Final = 6.2831853
@@ -39,15 +39,15 @@ ROTATION_SPEED: Final = 1.0
 """Turn rate of the rotate action, in rad/s."""
 
 ROTATION_TOLERANCE: Final = 0.02
-"""The rotate action is done when less than this remains, in rad."""
+"""Remaining angle, rad, below which the rotate action is done."""
 
-# Above this the quotient of `wrap` has no fraction left to speak of.
+# For larger angles, rounding leaves no useful fraction in the quotient of `wrap`.
 _FAR = 1e9
 _LARGEST = 3.4028234663852886e38
 
 
 class Placement(NamedTuple):
-    """Pose in the plane: metres, and radians counter-clockwise from +x."""
+    """Pose of a turtle in the plane: x, y in metres, theta in radians counter-clockwise from +x."""
 
     x: float
     y: float
@@ -59,7 +59,7 @@ class Turning(NamedTuple):
 
     Attributes:
         remaining: Remaining angle to the goal, the short way, in rad.
-        delta: Start heading minus present heading, in rad: negative for a left turn, as in
+        delta: Start heading minus present heading, in rad: negative after a left turn, as in
             turtlesim.
         speed: Turn rate to use, in rad/s; 0 when done.
         done: True when less than the tolerance remains.
@@ -76,12 +76,12 @@ def wrap(angle: float) -> float:
     if not -_FAR < angle < _FAR:
         angle = math.fmod(angle, TWO_PI)
     wrapped = angle - TWO_PI * math.floor((angle + PI) / TWO_PI)
-    # Rounding can land on the excluded end.
+    # Rounding may give π, which is outside the range.
     return wrapped - TWO_PI if wrapped >= PI else wrapped
 
 
 def advance(start: Placement, forward: float, sideways: float, turn: float) -> Placement:
-    """Compute one update: turn first, then move along the new heading.
+    """Compute a turtle's pose after one update: turn first, then move along the new heading.
 
     Args:
         start: Pose before the update.
@@ -90,7 +90,7 @@ def advance(start: Placement, forward: float, sideways: float, turn: float) -> P
         turn: Turn rate in rad/s.
 
     Returns:
-        The pose of the body one update later, walls not yet considered.
+        The pose one update later, without regard to walls.
     """
     x, y, theta = start
     theta = wrap(theta + turn * STEP)
@@ -103,20 +103,20 @@ def advance(start: Placement, forward: float, sideways: float, turn: float) -> P
 
 
 def inside(place: Placement) -> bool:
-    """Whether a position is in the field, edges included."""
+    """Whether a turtle's position is in the field, edges included."""
     return 0.0 <= place.x <= FIELD and 0.0 <= place.y <= FIELD
 
 
 def clamp(place: Placement) -> Placement:
-    """Clamp a position outside the field to its edge, each coordinate separately."""
+    """Clamp a turtle's position to the field, each coordinate separately."""
     return Placement(min(max(place.x, 0.0), FIELD), min(max(place.y, 0.0), FIELD), place.theta)
 
 
 def turn_towards(goal: float, start: float, theta: float) -> Turning:
-    """Compute one update of the rotate action.
+    """Compute one update of turtlesim's rotate action.
 
     Args:
-        goal: Heading to reach; any size.
+        goal: Heading to reach, radians of any size.
         start: Heading at which the action began.
         theta: Heading now.
     """
@@ -129,16 +129,16 @@ def turn_towards(goal: float, start: float, theta: float) -> Turning:
 
 
 def float32(value: float) -> float:
-    """Round to the nearest 32-bit float, as a message field does.
+    """Round a number to the nearest 32-bit float, as a message field does.
 
     Numbers above the largest such float become infinite.
     """
-    # An array converts as C does; `struct` refuses what overflows, from Python 3.14 on always.
+    # An array converts like C, to infinity; `struct` raises an error if the number overflows.
     return array("f", (value,))[0]
 
 
 def float32_finite(value: float, what: str) -> float:
-    """Round a request's number to 32 bits, or refuse it.
+    """Round a number of a request to a 32-bit float; raise an error if it is not finite.
 
     Args:
         value: The number of the request.

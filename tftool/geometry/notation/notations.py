@@ -1,4 +1,4 @@
-"""Notations of a rotation: how each is read and written.
+"""Table of the notations of a rotation, with functions that read and write each.
 
 A new notation needs one line in `NOTATIONS`.
 """
@@ -27,7 +27,7 @@ Numbers: TypeAlias = Sequence[float]
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """One notation of a rotation; angles are in radians.
+    """One notation of a rotation, such as a quaternion or roll, pitch and yaw; angles in radians.
 
     Attributes:
         title: Title that is printed beside the numbers.
@@ -38,7 +38,7 @@ class Notation:
         as_object: Keys of the values in JSON; empty if another notation has the same values.
         read_as: Name of the notation as an input; the title if empty.
         aliases: Other words that name the notation in a text.
-        wraps: Whether an angle of more than a full turn is likely a mistake.
+        wraps: Whether an angle of more than a full turn is probably a mistake.
     """
 
     title: str
@@ -57,7 +57,7 @@ class Notation:
         return self.plain == self.count
 
     def scaled(self, numbers: Numbers, scale: Callable[[float], float]) -> list[float]:
-        """Return the numbers with their angles multiplied by `scale`."""
+        """Return the values of a rotation in another unit: `scale` converts an angle."""
         return [*numbers[: self.plain], *map(scale, numbers[self.plain :])]
 
 
@@ -153,18 +153,18 @@ NOTATIONS: Final[Mapping[str, Notation]] = MappingProxyType(
         ),
     }
 )
-"""By the word for `--as` and `--into`."""
+"""Notations by the word that names them in `--as` and `--into`."""
 
 EULER: Final[Mapping[str, Notation]] = MappingProxyType({axes: _euler(axes) for axes in AXES})
-"""The 24 orders of Euler angles, by their axes."""
+"""Notations of the 24 orders of Euler angles, by their axes."""
 
 FORMS: Final = (*NOTATIONS, "matrix", *EULER)
-"""What bare numbers can be named as."""
+"""All words that name the notation of bare numbers."""
 
 NAMED_FORMS: Final = (*NOTATIONS, "matrix")
-"""Those that are listed for a person: not each order of axes."""
+"""The words of `FORMS` that are listed in help: all but the orders of axes."""
 
 
 def notation_of(form: str) -> Notation:
-    """Return the notation of a form other than a matrix."""
+    """Return the notation with a name of `FORMS`, except "matrix"."""
     return NOTATIONS.get(form) or EULER[form]

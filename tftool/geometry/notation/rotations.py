@@ -1,4 +1,4 @@
-"""Rotations and poses parsed from pasted text in other programs' notations.
+"""Parser of rotations and poses pasted as text, in the notations of other programs.
 
 A label (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) identifies the notation. Three or four
 bare numbers are ambiguous, and refused unless the notation is named.
@@ -22,13 +22,13 @@ from tftool.geometry.notation.notations import FORMS, NAMED_FORMS, NOTATIONS, no
 from tftool.geometry.rigid import Quaternion, Transform
 
 LONGEST: Final = 1 << 20
-"""Characters of a text that is read."""
+"""Maximum length of a text, characters."""
 
 NOT_SCALED: Final = 1e-3
-"""A quaternion's length may differ so much from 1 without a word about it."""
+"""Difference of a quaternion's length from 1 above which a note is printed."""
 
 SLACK: Final = 0.02
-"""How far a matrix may be from a rotation, by rounding of who printed it."""
+"""Maximum difference between a matrix and a rotation, to allow for printed digits."""
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _PI = r"(?:(?:math|np|numpy)\.)?(?:pi\b|PI\b|M_PI\b|π)"
@@ -65,13 +65,13 @@ _PUNCTUATION = frozenset("[](){}<>,;:=|$\"'°*-")
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """One transform read from a text.
+    """One transform parsed from a text.
 
     Attributes:
         transform: The pose; its quaternion of unit length.
         has_translation: Whether the text contains a translation.
         form: Name of the recognised notation.
-        notes: Oddities, as sentences.
+        notes: Sentences about unusual features of the text.
     """
 
     transform: Transform
@@ -95,7 +95,7 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
     if len(text) > LONGEST:
         raise UsageError(f"That text is longer than {LONGEST} characters: paste one rotation.")
     if form is not None and form not in FORMS:
-        raise UsageError(f"'{form}' is no form of a rotation: {_listed()}.")
+        raise UsageError(f"'{form}' is not a notation of a rotation: {_listed()}.")
     for reader in (_publisher, _echoed, _described, _labelled):
         found = reader(text, degrees) if form is None else None
         if found is not None:
@@ -107,11 +107,11 @@ def _listed() -> str:
     return f"{', '.join(NAMED_FORMS)}, or an order of axes such as sxyz or rzyx"
 
 
-# What says itself what it is
+# Texts with labels
 
 
 def _publisher(text: str, _degrees: bool) -> Written | None:
-    """Parse a static_transform_publisher command of ROS 2 or ROS 1."""
+    """Parse a command line of static_transform_publisher, of ROS 2 or ROS 1."""
     if "static_transform_publisher" not in text and not re.search(
         r"(?<!\S)--(q?[xyz]|qw|roll|pitch|yaw|(child-)?frame-id)(?=[\s=])", text
     ):
@@ -161,7 +161,7 @@ def _labelled(text: str, degrees: bool) -> Written | None:
             continue
         label, number = match["label"].lower().removeprefix("q"), _value(match["number"])
         if match["label"].lower().startswith("q") and "w" not in groups[-1]:
-            # --x --y --z and qx qy qz qw in one breath
+            # --x --y --z and qx qy qz qw in one group
             if groups[-1].keys() & {"x", "y", "z"} and "q" not in groups[-1]:
                 groups.append({})
             groups[-1]["q"] = 1.0
@@ -193,11 +193,11 @@ def _says_degrees(text: str) -> bool:
     return "°" in text or any(word in _DEGREES for word in re.findall(r"[a-z]+", text.lower()))
 
 
-# Bare numbers
+# Numbers without labels
 
 
 def _bare(text: str, form: str | None, degrees: bool) -> Written:
-    """Parse numbers in any brackets: a matrix, or a form given by name."""
+    """Parse numbers without labels, in any brackets: a matrix, or the notation `form`."""
     numbers: list[float] = []
     in_radians: set[int] = set()
     named = None
@@ -213,12 +213,12 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
         elif word and word.lower() in _DEGREES:
             degrees = True
         elif word and word.lower() not in _FILLER:
-            raise UsageError(f"'{word[:60]}' is no part of a rotation.")
+            raise UsageError(f"'{word[:60]}' is not part of a rotation.")
         elif match["other"] and match["other"] not in _PUNCTUATION:
-            raise UsageError(f"'{match['other']}' is no part of a rotation.")
+            raise UsageError(f"'{match['other']}' is not part of a rotation.")
     degrees = degrees or "°" in text
     if degrees:
-        # A multiple of π is in radians among degrees, too.
+        # A multiple of π is in radians, also among degrees.
         numbers = [math.degrees(n) if k in in_radians else n for k, n in enumerate(numbers)]
     if not all(map(math.isfinite, numbers)):
         raise UsageError("A number in the text is too large.")
@@ -232,12 +232,12 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
         raise _ambiguous(count)
     wanted = 9 if form == "matrix" else notation_of(form).count
     if count != wanted:
-        raise UsageError(f"{form} takes {wanted} numbers, and there are {count}.")
+        raise UsageError(f"{form} needs {wanted} numbers, but there are {count}.")
     return _of_form(form, numbers, degrees)
 
 
 def _ambiguous(count: int) -> UsageError:
-    """Return why `count` numbers need a form, or fit no form."""
+    """Return the error that `count` numbers need the name of their notation, or fit none."""
     if count == 4:
         return UsageError(
             "Four bare numbers can be x y z w or w x y z: choose with --as xyzw or --as wxyz."
@@ -317,7 +317,7 @@ def _matrix(numbers: Sequence[float]) -> Written:
     near, apart = nearest_rotation([row[:3] for row in rows[:3]])
     if not apart < SLACK:
         raise UsageError(
-            "The matrix is no rotation: its rows are not perpendicular vectors of length 1, "
+            "The matrix is not a rotation: its rows are not perpendicular unit vectors, "
             "or it mirrors."
         )
     notes: tuple[str, ...] = ()
@@ -342,8 +342,8 @@ def _numbers(text: str, count: int, what: str) -> tuple[float, ...]:
     for word in words:
         bare = word.removeprefix("${").removesuffix("}")
         if not re.fullmatch(_VALUE, bare):
-            raise UsageError(f"{what} has '{word[:60]}' where a number belongs.")
+            raise UsageError(f"{what} has '{word[:60]}' instead of a number.")
         found.append(_value(bare))
     if len(found) != count or not all(map(math.isfinite, found)):
-        raise UsageError(f"{what} takes {count} finite numbers, and there are {len(found)}.")
+        raise UsageError(f"{what} needs {count} finite numbers, but there are {len(found)}.")
     return tuple(found)

@@ -1,4 +1,4 @@
-"""Arguments of static_transform_publisher in tf2's two styles."""
+"""Command-line arguments of static_transform_publisher, in tf2's two styles."""
 
 import math
 import re
@@ -15,12 +15,12 @@ from tftool.geometry.rigid import Transform
 TRANSLATION = ("x", "y", "z")
 QUATERNION = ("qx", "qy", "qz", "qw")
 EULER = ("roll", "pitch", "yaw")
-# The order of the positional style; it surprises everybody once.
+# Order of the angles in the positional style: yaw first.
 OLD_EULER = ("yaw", "pitch", "roll")
 FRAMES = ("frame-id", "child-frame-id")
 
-NO_ROTATION = "A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing."
-"""Why four zeros are refused."""
+NO_ROTATION = "A quaternion of four zeros is not a rotation: write 0 0 0 1 for no turn."
+"""Error message for four zeros."""
 
 OPTIONS = tuple(f"--{name}" for name in (*TRANSLATION, *QUATERNION, *EULER, *FRAMES))
 
@@ -52,7 +52,7 @@ class StaticArguments:
 
 
 def parse(argv: Sequence[str]) -> StaticArguments | None:
-    """Parse the arguments after the command's name.
+    """Parse the arguments of static_transform_publisher.
 
     `--x --y --z`, `--roll --pitch --yaw` or `--qx --qy --qz --qw`, `--frame-id` and
     `--child-frame-id`, in any order, each with its value as the next word; or eight
@@ -72,7 +72,7 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
     if euler and quaternion:
         raise _refusal(
             "Cannot specify both quaternion and Euler rotations",
-            f"--{euler[0]} and --{quaternion[0]} say the same thing twice: leave one out.",
+            f"--{euler[0]} and --{quaternion[0]} both set the rotation: leave one out.",
         )
     if len(words) in (8, 9):
         if given:
@@ -110,12 +110,12 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
 
 
 def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
-    """Parse a whole shell line, of ROS 2's or ROS 1's publisher.
+    """Parse a shell line with static_transform_publisher, of ROS 2 or ROS 1.
 
     Args:
         line: The line. If it contains "static_transform_publisher", only the rest of the line is
             parsed.
-        frames: Parent and child to use where the options do not name them.
+        frames: Parent and child for a line without `--frame-id` or `--child-frame-id`.
 
     Returns:
         The parsed arguments; None if help is requested.
@@ -126,16 +126,18 @@ def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
     try:
         words = shlex.split(line.replace("\\\n", " "), comments=True)
     except ValueError as error:
-        raise UsageError(f"That line has a quote without its partner: {error}.") from None
+        raise UsageError(
+            f"That line has an opening quote without a closing one: {error}."
+        ) from None
     start = next((n for n, word in enumerate(words) if "static_transform_publisher" in word), -1)
     rest = words[start + 1 :]
-    # Where the line goes on with something else.
+    # Words after which the line no longer contains arguments.
     for end in ("--ros-args", "&", "&&", ";", "|", ">"):
         rest = rest[: rest.index(end)] if end in rest else rest
     rest = [part for word in rest for part in _parted(word.removesuffix(";"))]
     named = any(word in OPTIONS for word in rest)
     if not named and len(rest) in (9, 10) and _is_number(rest[-1]) and not _is_number(rest[-2]):
-        rest = rest[:-1]  # ROS 1: the period comes last
+        rest = rest[:-1]  # ROS 1: the last word is the period
     if named and frames:
         for option, frame in zip(("--frame-id", "--child-frame-id"), frames, strict=True):
             rest += [] if option in rest else [option, frame]
@@ -152,7 +154,7 @@ def _is_number(word: str) -> bool:
 
 
 def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
-    """Separate positional words from options with values."""
+    """Separate positional arguments from options with values."""
     words: list[str] = []
     given: dict[str, str] = {}
     asks_for_help = False
@@ -163,7 +165,9 @@ def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
         elif word in OPTIONS:
             value = next(rest, None)
             if value is None:
-                raise _refusal(f"Not enough arguments for {word}", "Its value is the next word.")
+                raise _refusal(
+                    f"Not enough arguments for {word}", "Write its value as the next word."
+                )
             name = word.removeprefix("--")
             if name not in FRAMES:
                 _number(word, value)
@@ -232,7 +236,7 @@ def _refusal(tf2_text: str, remedy: str) -> UsageError:
 
 
 def advice(said: StaticArguments) -> list[str]:
-    """Return a sentence for each likely mistake in these arguments."""
+    """Return a sentence for each probable mistake in the arguments."""
     sentences = []
     if said.old_style:
         sentences.append("Old-style arguments are deprecated; see --help for new-style arguments.")
