@@ -433,7 +433,7 @@ def test_a_cache_time_that_looks_like_seconds_is_warned_of_with_the_remedy(said)
 
     assert [level for level, _ in said] == ["WARN"]
     assert "with a cache_time of 10 ns nearly all samples are dropped at once" in said[0][1]
-    assert "seconds(10) makes one of 10 s" in said[0][1]
+    assert "for 10 s write seconds(10)" in said[0][1]
 
 
 def test_one_callback_registered_twice_is_called_until_both_are_stopped(buffer):

@@ -112,7 +112,7 @@ ONE = encode_transforms(transforms(random.Random(1), 1))
         (b"\x00\x07\x00\x00" + ONE[4:], "header 0007 is not that of plain CDR"),
         (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms, with room"),
         (ONE[:16] + b"\xff\xff\xff\xff" + ONE[20:], "a text has the length 4294967295 bytes"),
-        (ONE[:-9], "ends within transform 1 of 1|has room for 0"),
+        (ONE[:-9], "ends within transform 1 of 1|with room for 0"),
         (ONE + bytes(8), "8 bytes are left over"),
     ],
 )

@@ -145,7 +145,7 @@ class _Run:
     """Step of a codec for consecutive numbers of fixed size, including those of nested messages."""
 
     def __init__(self, leaves: list[tuple[str, str]], layout: Layout) -> None:
-        """Prepare the layout of pairs of a field's path and `struct` letter; padding has no path."""
+        """Prepare the layout of (path of a field, `struct` letter) pairs; padding has no path."""
         self._get = _getter([path for path, _ in leaves if path])
         self._letters = [letter for _, letter in leaves]
         self.smallest = sum(map(struct.calcsize, self._letters))

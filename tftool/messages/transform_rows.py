@@ -152,8 +152,8 @@ def row_span(layout: Layout, length: int) -> tuple[int, int]:
 
     Returns:
         Offset of the row from the first byte of the message, and its width in bytes. A row begins
-            before its message, so that the doubles of the message are aligned to 8 bytes in the row: 4
-            bytes before for ROS 2, up to 7 bytes for ROS 1.
+            before its message (4 bytes for ROS 2, up to 7 bytes for ROS 1), so that the doubles of
+            the message are aligned to 8 bytes in the row.
     """
     if layout is CDR:
         return -4, (length + 4) & ~7
