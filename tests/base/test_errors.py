@@ -120,9 +120,7 @@ def test_a_moment_of_a_few_nanoseconds_is_explained():
     with pytest.raises(tftool.ExtrapolationException) as caught:
         buffer.lookup_transform("a", "b", time=1)
 
-    assert caught.value.__notes__ == [
-        "Moments are whole nanoseconds: 1 is 1 ns, seconds(1) is 1 s."
-    ]
+    assert caught.value.__notes__ == ["Times are whole nanoseconds: 1 is 1 ns, seconds(1) is 1 s."]
     assert caught.value.remedy == caught.value.__notes__[0]
     with pytest.raises(tftool.ExtrapolationException) as caught:
         buffer.lookup_transform("a", "b", time=tftool.seconds(5))

@@ -35,7 +35,7 @@ def refused(read, path):
 
 def test_a_pipe_into_which_no_process_writes_is_refused(pipe):
     assert refused(read_named, pipe) == "it is a pipe, and no process writes into it"
-    assert refused(open_regular, pipe) == "it is no regular file"
+    assert refused(open_regular, pipe) == "it is not a regular file"
 
 
 def test_what_comes_through_a_pipe_is_read_to_its_end():

@@ -100,7 +100,7 @@ def test_a_cleared_link_is_told_as_empty(buffer):
     with pytest.raises(NoDataForExtrapolationException) as refused:
         buffer.lookup_transform("world", "turtle1", seconds(2))
 
-    assert refused.value.remedy == "Nothing is remembered of 'turtle1': wait until it is sent."
+    assert refused.value.remedy == "There are no samples of 'turtle1': wait until one is sent."
 
 
 def test_an_unknown_frame_is_told_with_those_that_look_like_it(buffer):
@@ -120,10 +120,10 @@ def test_an_unknown_frame_is_told_with_those_that_look_like_it(buffer):
 def test_a_slash_is_told_how_to_go_without(buffer):
     with pytest.raises(InvalidArgumentException) as refused:
         buffer.lookup_transform("/world", "turtle1")
-    assert refused.value.remedy == "Ask for 'world'."
+    assert refused.value.remedy == "Use 'world'."
     with pytest.raises(InvalidArgumentException) as refused:
         buffer.lookup_transform("", "turtle1")
-    assert refused.value.remedy == "Name a frame."
+    assert refused.value.remedy == "Give the name of a frame."
 
 
 def test_two_trees_are_told_as_two(buffer):

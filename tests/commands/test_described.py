@@ -119,11 +119,11 @@ def test_tree_tells_programs_which_frames_move(tftool, robot):
     [
         (["--joint", "turm=1"], "has no joint 'turm'; did you mean 'turn'?"),
         (["--joint", "elbow=1"], "has no joint 'elbow'; those that move are turn"),
-        (["--joint", "bolt=1"], "joint 'bolt' is fixed: it takes no position"),
+        (["--joint", "bolt=1"], "joint 'bolt' is fixed: it has no position"),
         (["--joint", "turn"], "write NAME=VALUE"),
         (["--joint", "turn=fast"], "write NAME=VALUE"),
         (["--joint", "turn=nan"], "write NAME=VALUE"),
-        (["size:=2"], "contains no xacro, so it takes no arguments: leave out size:=2"),
+        (["size:=2"], "contains no xacro, so it has no arguments: leave out size:=2"),
         (["--argument", "size=2"], "write NAME:=VALUE"),
     ],
 )

@@ -145,7 +145,7 @@ def test_a_name_that_is_no_text_is_refused(decode, raw, told):
 def test_a_message_larger_than_we_read_is_refused_unread(monkeypatch):
     monkeypatch.setattr(layouts, "LARGEST", 100)
 
-    with pytest.raises(MalformedMessage, match="more than we read"):
+    with pytest.raises(MalformedMessage, match="more than the maximum"):
         decode_transforms(ONE + bytes(100))
 
 

@@ -309,7 +309,7 @@ def test_an_alias_bomb_is_refused():
 
 
 def test_an_alias_to_what_holds_it_is_refused():
-    assert told("nodes: &n [*n]") == ["*n stands inside what it stands for"]
+    assert told("nodes: &n [*n]") == ["*n is used inside its own definition"]
     assert told("nodes: [*n, &n x]") == ["*n is no anchor defined before"]
 
 

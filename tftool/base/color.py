@@ -1,10 +1,10 @@
-"""Colours as 8-bit channels, used by screens and turtles' pens."""
+"""Colours with 8-bit channels, for screens and for turtles' pens."""
 
 from typing import Final, NamedTuple
 
 
 class Color(NamedTuple):
-    """A colour, each channel from 0 to 255."""
+    """A colour; red, green and blue from 0 to 255."""
 
     r: int
     g: int
@@ -12,4 +12,4 @@ class Color(NamedTuple):
 
 
 BACKGROUND: Final = Color(69, 86, 255)
-"""The turtles' field, unless parameters say otherwise."""
+"""Default colour of the turtles' field."""

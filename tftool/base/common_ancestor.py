@@ -1,15 +1,15 @@
-"""Path between two nodes of a tree through their common ancestor; for frames and for joints."""
+"""Path between two nodes of a tree, through their common ancestor; for frames and for joints."""
 
 from collections.abc import Callable
 from typing import Protocol, TypeVar
 
 
 class Above(Protocol):
-    """Edge from a frame to its parent."""
+    """Edge of a tree, from a node to its parent."""
 
     @property
     def parent(self) -> str:
-        """Return the parent's name."""
+        """Return the name of the parent."""
 
 
 EdgeT = TypeVar("EdgeT", bound=Above)
@@ -36,7 +36,7 @@ def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
 def up_to_join(
     frame: str, other: str, above: Callable[[str], list[EdgeT]]
 ) -> tuple[list[EdgeT], list[EdgeT]] | None:
-    """Return each frame's edges up to their common ancestor; None if they have none.
+    """Return the edges from each of two frames up to their common ancestor; None without one.
 
     Args:
         frame: The first frame.

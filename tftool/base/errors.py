@@ -1,7 +1,7 @@
-"""Every exception of tftool, as one tree.
+"""All exceptions of tftool, in one class tree.
 
-A lookup raises exceptions with tf2's names; the tools raise a few more. Each exception has its
-facts as fields. Only `app` turns exceptions into exit statuses.
+Lookups raise exceptions with tf2's names; other code raises a few more. Each exception has its
+facts as fields. Only `app` converts exceptions to exit statuses.
 """
 
 import os
@@ -16,7 +16,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 
 class TftoolError(Exception):
-    """Base of all exceptions of tftool; the text names the fault and the remedy.
+    """Base class of tftool's exceptions; the text names the fault and the remedy.
 
     The text is fixed when the error is created. The error can be pickled and copied with all its
     facts, whatever arguments its class takes.
@@ -31,12 +31,12 @@ class TftoolError(Exception):
 
 
 def _made_again(kind: type[TftoolError], args: tuple[object, ...]) -> TftoolError:
-    # Not by its `__init__`, which takes other arguments: the text is in `args` already.
+    # `__init__` is not called: its arguments differ, and `args` already contains the text.
     return kind.__new__(kind, *args)
 
 
 class UsageError(TftoolError):
-    """Error for a command line that the command does not accept (exit status 2)."""
+    """Error for wrong arguments of a command or function (exit status 2)."""
 
 
 class NodeArgumentsError(UsageError):
@@ -61,9 +61,9 @@ class Mistake:
 
     Attributes:
         file: Name of the file as it was given.
-        line: Line, from 1.
-        column: Column, from 1.
-        text: The fault, a sentence without its full stop.
+        line: Number of the line, from 1.
+        column: Number of the column, from 1.
+        text: The fault, as a sentence without its full stop.
         shown: The offending line, safe to print on a terminal; empty if the file has no such line.
         marks: Text to print under `shown`: blanks up to the column, then carets.
     """
@@ -85,14 +85,14 @@ class Mistake:
     def at(
         cls, file: str, lines: Sequence[str], line: int, column: int, text: str, *, width: int = 1
     ) -> "Mistake":
-        """Format a mistake with its source line, cut to the terminal's width, and carets below it.
+        """Return a mistake with up to 120 characters of its source line and carets below them.
 
         Args:
             file: Name of the file, as the user gave it.
             lines: All lines of the file.
-            line: Line, from 0.
-            column: Column, from 0.
-            text: The fault, without a full stop.
+            line: Number of the line, from 0.
+            column: Number of the column, from 0.
+            text: The fault, as a sentence without its full stop.
             width: Number of characters to mark.
         """
         whole = lines[line] if line < len(lines) else ""
@@ -105,7 +105,7 @@ class Mistake:
 
 
 def showable(text: str) -> str:
-    """Replace each control character that a terminal might execute by one visible character."""
+    """Replace every control character, which a terminal might execute, by a visible character."""
     return "".join(
         char if char.isprintable() else (" " if char == "\t" else "\ufffd") for char in text
     )
@@ -119,7 +119,7 @@ def _cells(char: str) -> int:
 
 
 class DocumentError(InputError):
-    """Error that lists all mistakes of a text file at once (exit status 3).
+    """Error with all mistakes of a text file at once (exit status 3).
 
     Attributes:
         name: The file, as it was given.
@@ -127,7 +127,7 @@ class DocumentError(InputError):
     """
 
     MOST = 50
-    """Mistakes written out; a file that is no scenario at all would fill the screen."""
+    """Maximum number of mistakes in the text: a file of another kind would fill the screen."""
 
     def __init__(self, name: str, mistakes: Sequence[Mistake]) -> None:
         self.name = name
@@ -141,11 +141,11 @@ class DocumentError(InputError):
 
 
 class ScenarioError(DocumentError):
-    """Error that lists the mistakes of a scenario."""
+    """Error with all mistakes of a scenario file."""
 
 
 class DescriptionError(DocumentError):
-    """Error that lists the mistakes of a robot description."""
+    """Error with all mistakes of a robot description."""
 
 
 def failure_text(error: BaseException) -> str:
@@ -160,7 +160,7 @@ def failure_text(error: BaseException) -> str:
 
 
 def line_of(error: BaseException, *, users_only: bool = False) -> str:
-    """Return the innermost line of the user's code in a traceback, as "busy.py:10".
+    """Return the innermost line of the user's code in an error's traceback, as "busy.py:10".
 
     If no line is the user's, return the innermost line of the traceback, or "" with `users_only`.
     """
@@ -175,7 +175,7 @@ def line_of(error: BaseException, *, users_only: bool = False) -> str:
 
 
 def is_users_file(file: str) -> bool:
-    """Whether a file belongs to the user: neither to tftool nor to Python's library."""
+    """Whether a file with code belongs to the user: neither to tftool nor to Python's library."""
     if file.startswith((_PACKAGE, "<frozen")):
         return False
     return "site-packages" in file or not file.startswith(_LIBRARY)
@@ -186,7 +186,7 @@ _LIBRARY = os.path.dirname(os.path.realpath(os.__file__))
 
 
 class NodeFailed(TftoolError):
-    """Error that ends a run because a node raised; the node's exception is its cause."""
+    """Error that ends a run because a node raised an exception, which is the error's cause."""
 
     def __init__(self, node: str, error: BaseException, what: str = "") -> None:
         """Create the error for a node that raised `error`; `what` replaces the text."""
@@ -200,9 +200,9 @@ class TransformException(TftoolError):
     The text is exactly tf2's; `remedy` says what to do.
 
     Attributes:
-        frame: The frame at fault, where one is: unknown, misspelt, or without data.
-        target: The target frame of the lookup, where known.
-        source: The source frame of the lookup, where known.
+        frame: The frame that causes the error: unknown, misspelt, or without data; None if none.
+        target: The target frame of the lookup; None if unknown.
+        source: The source frame of the lookup; None if unknown.
     """
 
     def __init__(
@@ -220,7 +220,7 @@ class TransformException(TftoolError):
 
     @property
     def remedy(self) -> str:
-        """Return how large the fault is and what to do; may be empty."""
+        """Return advice: what to do, often with the size of the fault; empty without advice."""
         return ""
 
 
@@ -258,12 +258,12 @@ class LookupException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return similar names, or say that no frame is known yet."""
+        """Return advice with similar frame names, or that no frame is known yet."""
         if self.looped:
             return "Some frame hangs from one of its own children: see who sends the links named."
         if self.frame is None:
             return ""
-        # Only for a person who reads it: a wait that is refused ten thousand times is not slowed.
+        # Computed only for printing: a waiting program may create this error thousands of times.
         known = self._names()
         near = near_names(self.frame, known, 3)
         if near:
@@ -274,7 +274,7 @@ class LookupException(TransformException):
         return f"No transform of '{self.frame}' has come yet; {len(known)} other frames are known."
 
     def _names(self) -> list[str]:
-        """Return the frame names known when the error was made."""
+        """Return the frame names that were known when the error was created."""
         return list(islice(self._known, self._count))
 
     def _facts(self) -> dict[str, object]:
@@ -286,10 +286,10 @@ class ConnectivityException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return the sentence about the missing link."""
+        """Return the advice to look at the tree for the missing link."""
         return (
-            f"No chain of links joins '{self.source}' to '{self.target}' at that moment: "
-            "the tree shows which root each hangs from."
+            f"No chain of links joins '{self.source}' to '{self.target}' at that time: "
+            "'tftool tree' shows the root of each."
         )
 
 
@@ -298,16 +298,16 @@ class InvalidArgumentException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return the name without its slash."""
+        """Return the advice to use the name without its slash."""
         plain = (self.frame or "").lstrip("/")
-        return f"Ask for '{plain}'." if plain else "Name a frame."
+        return f"Use '{plain}'." if plain else "Give the name of a frame."
 
 
 class TimeoutException(TransformException):
-    """Error for a wait that exceeded its timeout; the last refusal is the cause.
+    """Error for a wait that exceeded its timeout; the last failed lookup is the cause.
 
     Attributes:
-        refusal: The last refusal; None if there was none.
+        refusal: The error of the last failed lookup; None if there was none.
     """
 
     def __init__(
@@ -323,12 +323,12 @@ class TimeoutException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return the remedy of the last refusal."""
+        """Return the remedy of the last failed lookup."""
         return "" if self.refusal is None else self.refusal.remedy
 
 
 _FEW_NANOSECONDS = 100_000
-"""Moments below this were meant in seconds."""
+"""Limit below which a time was probably meant in seconds."""
 
 
 class ExtrapolationException(TransformException):
@@ -353,7 +353,7 @@ class ExtrapolationException(TransformException):
         self.requested = requested
         self.available = available
         if hint := self._hint():
-            # A traceback shows notes; the text itself stays tf2's.
+            # A traceback prints notes; the error's text is exactly tf2's.
             self.add_note(hint)
 
     def _hint(self) -> str:
@@ -361,9 +361,7 @@ class ExtrapolationException(TransformException):
         if not 0 < self.requested < _FEW_NANOSECONDS or self.missed < NANOSECONDS // 1000:
             return ""
         asked = self.requested
-        return (
-            f"Moments are whole nanoseconds: {asked} is {asked} ns, seconds({asked}) is {asked} s."
-        )
+        return f"Times are whole nanoseconds: {asked} is {asked} ns, seconds({asked}) is {asked} s."
 
     @property
     def missed(self) -> Duration:
@@ -371,7 +369,7 @@ class ExtrapolationException(TransformException):
         return abs(self.requested - self.available)
 
     def _by(self) -> str:
-        # Rounded to microseconds, as in the message, the two moments often read alike.
+        # The message rounds both times to microseconds, so that they often look equal.
         return f"{as_seconds(self.missed):.3f} s" if self.missed >= 500_000 else f"{self.missed} ns"
 
 
@@ -380,10 +378,10 @@ class BackwardExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return the distance to the oldest sample and a remedy."""
+        """Return the time between the lookup and the oldest sample, and what to do."""
         return self._hint() or (
-            f"That is {self._by()} before the oldest sample of '{self.frame}': ask for a later "
-            "moment, or for time 0 (the latest), or give the buffer a longer cache_time."
+            f"That is {self._by()} before the oldest sample of '{self.frame}': look up a later "
+            "time, or time 0 (the latest), or give the buffer a longer cache_time."
         )
 
 
@@ -392,10 +390,10 @@ class ForwardExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return the distance to the newest sample and a remedy."""
+        """Return the time between the lookup and the newest sample, and what to do."""
         return (
-            f"That is {self._by()} after the newest sample of '{self.frame}': ask for time 0 "
-            "(the latest), or wait until it has come."
+            f"That is {self._by()} after the newest sample of '{self.frame}': look up time 0 "
+            "(the latest), or wait for the next sample."
         )
 
 
@@ -404,12 +402,12 @@ class NoDataForExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return the distance to the nearest sample and a remedy."""
+        """Return the time between the lookup and the nearest sample, and what to do."""
         if self.available == 0:
-            return f"Nothing is remembered of '{self.frame}': wait until it is sent."
+            return f"There are no samples of '{self.frame}': wait until one is sent."
         side = "after" if self.requested > self.available else "before"
         return self._hint() or (
-            f"That is {self._by()} {side} the only sample of '{self.frame}': ask for time 0 "
+            f"That is {self._by()} {side} the only sample of '{self.frame}': look up time 0 "
             "(the latest), or wait for more."
         )
 
@@ -429,7 +427,7 @@ class MalformedMessage(InputError):
 
 
 class LinkError(InputError):
-    """Error for a session that cannot be opened, or for a process of it that does not answer."""
+    """Error for a session (processes that share frames) that does not open or answer."""
 
 
 def without_frames(given: object) -> TypeError:

@@ -1,4 +1,4 @@
-"""Escaping of control characters in names from outside; the names stay recognisable.
+"""Escaping of control characters in names from outside, so that they can be printed safely.
 
 Before drawing, `visible` replaces the dangerous characters of a name: control characters, changes
 of writing direction, and characters that XML forbids. Afterwards each output format escapes its
@@ -9,7 +9,7 @@ import unicodedata
 from collections.abc import Iterable
 
 _JOINERS = frozenset("\u200c\u200d")
-"""Zero width joiners: emoji and several scripts are written with them; they act on nothing else."""
+"""Zero width joiners, which emoji and several scripts need, and which affect nothing else."""
 
 
 def visible(name: str) -> str:
@@ -27,7 +27,7 @@ def visible_lines(text: str) -> str:
     """Escape a text so that every character is visible; line breaks are kept.
 
     A text of more than 400 lines keeps its beginning and end, with the number of omitted lines in
-    between: tf2's sentence about a loop names every frame.
+    between: tf2's error message about a loop, for example, names every frame.
     """
     lines = text.split("\n")
     if len(lines) > MOST_LINES:
@@ -37,7 +37,7 @@ def visible_lines(text: str) -> str:
 
 
 MOST_LINES = 400
-"""Lines of one sentence, or links of one chain, that are printed whole."""
+"""Maximum number of lines of a text, or of links of a chain, that are printed completely."""
 
 
 def _shown(char: str) -> str:
@@ -55,7 +55,7 @@ _SHAPELESS = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
 def distinct(names: Iterable[str]) -> dict[str, str]:
-    """Map every name to its escaped form; different names get different forms."""
+    """Map every name to its escaped form; different names have different forms."""
     shown: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:

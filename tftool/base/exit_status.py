@@ -1,6 +1,6 @@
-"""The exit statuses of the `tftool` command.
+"""Exit statuses of the `tftool` command.
 
-A module of its own, because the command imports it before it can handle a signal.
+This module imports nothing large, because the command needs it before it can handle a signal.
 """
 
 from enum import IntEnum
@@ -11,7 +11,7 @@ class ExitStatus(IntEnum):
 
     DONE = 0
     FAILED = 1
-    """An expectation or a node failed, or a check found something."""
+    """A scenario's expectation or a node failed, or a check found something."""
     WRONG_USAGE = 2
     UNREADABLE = 3
     """The input cannot be read."""

@@ -1,4 +1,4 @@
-"""Text from outside, fitted into a fixed number of terminal cells."""
+"""Functions that fit text from outside into a fixed number of terminal cells."""
 
 from collections.abc import Iterable
 
@@ -6,21 +6,21 @@ from rich.cells import cell_len
 
 from tftool.base.escaping import visible
 
-# Joined or switched by these, one sign is drawn wide in one terminal and narrow in
-# the next; without them every terminal agrees with our count.
+# Joiners and variation selectors, which change a character's width in some terminals only.
+# Without them the computed width is right on every terminal.
 _SWITCHES = dict.fromkeys((0x200C, 0x200D, *range(0xFE00, 0xFE10)))
 
 
 def plain(text: str) -> str:
-    """Escape `text` to one line whose width in cells is the same on every terminal."""
+    """Escape a text to one line whose width in cells is the same on every terminal."""
     if text.isascii() and text.isprintable():
         return text
     return visible(text).translate(_SWITCHES)
 
 
 def fitted(text: str, width: int, *, more: str = "…") -> str:
-    """Fit `plain(text)` into at most `width` cells; `more` stands for omitted text."""
-    # No sign is narrower than nothing: a long text need not be measured to its end.
+    """Return a text as one line of at most `width` cells; `more` replaces the omitted end."""
+    # Measure only the beginning of a long text.
     shown = plain(text[: 4 * max(0, width) + 4])
     if cell_len(shown) <= width:
         return shown
@@ -37,7 +37,7 @@ def fitted(text: str, width: int, *, more: str = "…") -> str:
 
 
 def middle_cut(text: str, width: int, *, more: str = "…") -> str:
-    """Fit `plain(text)` into at most `width` cells by cutting the middle.
+    """Return a text as one line of at most `width` cells by cutting its middle.
 
     The beginning and the end stay; `more` replaces the middle.
     """
@@ -53,7 +53,7 @@ def middle_cut(text: str, width: int, *, more: str = "…") -> str:
 
 
 def _within(signs: Iterable[str], room: int) -> list[str]:
-    """Return the longest beginning of `signs` that fits into `room` cells."""
+    """Return as many characters from the beginning of `signs` as fit into `room` cells."""
     kept = []
     for sign in signs:
         room -= cell_len(sign)
@@ -79,6 +79,6 @@ def wrap_words(sentence: str, width: int) -> list[str]:
 
 
 def padded(text: str, width: int, *, more: str = "…") -> str:
-    """Fit `text` and pad it with spaces to exactly `width` cells."""
+    """Return a text as one line of exactly `width` cells: cut, or padded with spaces."""
     shown = fitted(text, width, more=more)
     return shown + " " * (width - cell_len(shown))

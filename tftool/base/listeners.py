@@ -1,4 +1,4 @@
-"""Registered callbacks, called one after the other.
+"""Registered callbacks (listeners), called one after the other.
 
 The buffer, topics, the log and the world share these rules: each registration is separate, and the
 exception of a listener is reported under the name of the listener's owner. The other listeners and
@@ -13,11 +13,11 @@ from tftool.base.errors import failure_text
 Values = TypeVarTuple("Values")
 
 Report = Callable[[str, Exception], object]
-"""Takes the name of a listener's owner and what the listener raised."""
+"""Function called with the name of a listener's owner, and the exception the listener raised."""
 
 
 class Listeners(Generic[*Values]):
-    """Registered callbacks, in the order of their registration.
+    """Registered callbacks, in the order of registration.
 
     A callback can be registered more than once: it is called once per registration, and each
     registration is removed separately.
@@ -37,7 +37,7 @@ class Listeners(Generic[*Values]):
                 called; None sends the exception to Python's log.
         """
         self._report: Report = report or _report_to_logging
-        # Replaced and never changed: a list that changes while it is walked skips entries.
+        # Replaced, never changed in place: changing a list during iteration would skip entries.
         self.registered: tuple[tuple[Callable[[*Values], object], str], ...] = ()
 
     def add(self, callback: Callable[[*Values], object], owner: str = "") -> Callable[[], None]:
@@ -59,7 +59,7 @@ class Listeners(Generic[*Values]):
         return stop
 
     def call(self, *values: *Values) -> None:
-        """Call every listener, including listeners that are removed during the call."""
+        """Call every listener with these values, even if it is removed during the call."""
         failures: tuple[tuple[str, Exception], ...] = ()
         for callback, owner in self.registered:
             try:
@@ -74,12 +74,12 @@ class Listeners(Generic[*Values]):
 
 
 def _report_to_logging(owner: str, error: Exception) -> None:
-    # Costs 10 ms at start-up, and most programs never get here.
+    # Imported here because it takes 10 ms at start-up, and most programs never log.
     import logging
 
     logging.getLogger("tftool").error("%s", listener_text(owner, error))
 
 
 def listener_text(owner: str, error: Exception) -> str:
-    """Return the log line for a listener that raised."""
+    """Return the log line for a listener that raised an exception."""
     return f"a listener{f' of {owner!r}' if owner else ''} failed: {failure_text(error)}"

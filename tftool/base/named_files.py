@@ -1,4 +1,4 @@
-"""Opening files that users name, without blocking on pipes or devices.
+"""Functions that open files named by users, without blocking on pipes or devices.
 
 A plain `open` of a pipe waits until another process opens the pipe for writing.
 """
@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import BinaryIO, Final
 
 LARGEST: Final = 64 << 20
-"""Bytes that are taken from a pipe or a device, which may never end."""
+"""Maximum number of bytes read from a pipe or a device, which may never end."""
 
 _AT_ONCE: Final = getattr(os, "O_NONBLOCK", 0)
 _HOW: Final = os.O_RDONLY | _AT_ONCE | getattr(os, "O_BINARY", 0)
@@ -26,7 +26,7 @@ def open_regular(path: Path) -> io.BufferedReader:
     file, mode = _opened(path)
     if not stat.S_ISREG(mode):
         file.close()
-        raise OSError(errno.EINVAL, "it is no regular file", str(path))
+        raise OSError(errno.EINVAL, "it is not a regular file", str(path))
     return io.BufferedReader(file)
 
 
@@ -40,7 +40,7 @@ def open_named(path: Path) -> BinaryIO:
     if stat.S_ISREG(mode):
         return io.BufferedReader(file)
     with file:
-        # None: a process has it open, and has not written yet.
+        # None means that a process has the pipe open, but has not written yet.
         first = file.read(io.DEFAULT_BUFFER_SIZE)
         if first == b"" and stat.S_ISFIFO(mode):
             raise OSError(errno.EINVAL, "it is a pipe, and no process writes into it", str(path))
@@ -75,9 +75,9 @@ def read_named_text(path: Path) -> str:
 
 
 def reader_there(path: str, flags: int) -> int:
-    """Open a path for writing; fail at once if the path is a pipe without a reader.
+    """Open a path for writing; raise an error at once if it is a pipe without a reader.
 
-    A value for the argument `opener` of Python's `open`.
+    The function is for the argument `opener` of Python's `open`.
 
     Raises:
         OSError: If the path cannot be opened, or no process reads from the pipe.
@@ -94,7 +94,7 @@ def reader_there(path: str, flags: int) -> int:
 
 
 def _opened(path: Path) -> tuple[io.FileIO, int]:
-    """Open a file without blocking; return its descriptor and mode. Refuse folders."""
+    """Open a file without blocking; return it with its mode. Folders raise an error."""
     number = os.open(path, _HOW)
     try:
         mode = os.fstat(number).st_mode

@@ -1,4 +1,4 @@
-"""Import of the native modules, if they were built and are not switched off.
+"""Import of the native (C) modules, if they were built and are not switched off.
 
 Native modules are built with the package if there is a C compiler. Without them everything runs in
 plain Python with equal results. `TFTOOL_PURE=1` switches them off.
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 SWITCH = "TFTOOL_PURE"
-"""The environment variable that has everything run in plain Python, if it is not empty or 0."""
+"""Environment variable that switches the native modules off, unless it is empty or 0."""
 
 
 def built(name: str, interface: int) -> "ModuleType | None":

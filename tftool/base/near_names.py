@@ -1,9 +1,9 @@
-"""Known names that resemble an unknown one, for "did you mean"."""
+"""Search for known names that resemble an unknown name, for "did you mean"."""
 
 from collections.abc import Iterable
 
 LONGEST = 100
-"""Characters of a word that are compared: the search takes their square."""
+"""Number of characters that are compared; the time of the search grows with its square."""
 
 
 def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float = 0.6) -> list[str]:
@@ -11,11 +11,11 @@ def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float =
 
     Args:
         word: The unknown name.
-        known: The existing names. Of names that differ only in case, one is returned.
+        known: The existing names. If names differ only in case, one of them is returned.
         most: Maximum number of names to return.
         alike: Minimum similarity of a name to the word, from 0 to 1.
     """
-    from difflib import get_close_matches  # only where something is amiss
+    from difflib import get_close_matches  # slow import, needed only for errors
 
     by_lower = {name.lower(): name for name in known}
     found = get_close_matches(word[:LONGEST].lower(), by_lower, n=most, cutoff=alike)

@@ -1,4 +1,4 @@
-"""Judgements and the report of a run, shared by scenarios, comparisons and checks."""
+"""Results of a run: single judgements, and their report; for scenarios, comparisons and checks."""
 
 from dataclasses import dataclass
 
@@ -26,11 +26,11 @@ class Judgement:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Outcome of all judgements of one run.
+    """Result of one run of a scenario, with all judgements.
 
     Attributes:
         name: Name of the scenario.
-        file: Name of its file, as it was given.
+        file: Name of the scenario's file, as the user gave it.
         judgements: The judgements, in the order of the file.
         lasted: Duration of the run in seconds, on the clock of the run.
         failure: Reason why the run ended early; empty if it ran to its end.
@@ -48,5 +48,5 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether every judgement passed."""
+        """Whether the run ended normally and every judgement passed."""
         return not self.failure and all(judgement.ok for judgement in self.judgements)

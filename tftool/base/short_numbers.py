@@ -1,4 +1,4 @@
-"""Short text for counts, durations, rates and sizes, and JSON-safe numbers."""
+"""Short texts for counts, durations, rates and sizes, and numbers that are valid in JSON."""
 
 import math
 
@@ -6,12 +6,12 @@ from tftool.base.stamps import Duration, as_seconds
 
 
 def count(number: int, word: str) -> str:
-    """Return a number with its noun: "1 link", "2,104 links"."""
+    """Return a number with its noun, in singular or plural: "1 link", "2,104 links"."""
     return f"{number:,} {word}" if number == 1 else f"{number:,} {word}s"
 
 
 def short_duration(duration: Duration) -> str:
-    """Format nanoseconds as "0.02 s", "2.0 s", "3.5 min", "2.1 h" or "4.0 d"."""
+    """Format a duration of nanoseconds as "0.02 s", "2.0 s", "3.5 min", "2.1 h" or "4.0 d"."""
     number = as_seconds(duration)
     size = abs(number)
     if size < 0.995:
@@ -25,14 +25,14 @@ def short_duration(duration: Duration) -> str:
 
 
 def short_rate(rate: float) -> str:
-    """Format hertz as "0.50 Hz", "62.7 Hz" or "1000 Hz"."""
+    """Format a rate in hertz as "0.50 Hz", "62.7 Hz" or "1000 Hz"."""
     if rate < 0.995:
         return f"{rate:.2f} Hz"
     return f"{rate:.1f} Hz" if rate < 999.95 else f"{rate:.0f} Hz"
 
 
 def short_size(size: int) -> str:
-    """Format bytes as "17 bytes", "1.2 KB", "4.7 MB" or "2.0 GB"."""
+    """Format a number of bytes as "17 bytes", "1.2 KB", "4.7 MB" or "2.0 GB"."""
     for unit, many in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("KB", 1e3)):
         if size >= many:
             return f"{size / many:.1f} {unit}"

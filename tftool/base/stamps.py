@@ -7,28 +7,28 @@ import math
 from typing import SupportsIndex, TypeAlias
 
 Stamp: TypeAlias = int
-"""A moment in nanoseconds since the clock's epoch; 0 in a question means latest."""
+"""A time in nanoseconds since the clock's epoch; in a query 0 means the latest."""
 
 Duration: TypeAlias = int
-"""A length of time in nanoseconds."""
+"""A duration in nanoseconds."""
 
 LATEST: Stamp = 0
-"""In a question: the latest time for which every link of the chain has data."""
+"""In a query: the latest time at which every link of the chain has data."""
 
 LAST_STAMP: Stamp = 2**63 - 1
-"""The last moment there is: stamps have 64 bits."""
+"""The largest stamp: stamps have 64 bits."""
 
 NANOSECONDS = 1_000_000_000
 """Nanoseconds in a second."""
 
 SIMULATED_BELOW: Stamp = 10**8 * NANOSECONDS
-"""Stamps below this count from a simulation's start, others from 1970."""
+"""Limit of simulated stamps: smaller stamps count from a simulation's start, larger from 1970."""
 
 CACHE_TIME: Duration = 10 * NANOSECONDS
-"""How far back a buffer remembers unless it is told otherwise; tf2's own figure."""
+"""Default time for which a buffer stores samples, as in tf2."""
 
 FRAME_TIMEOUT = 15.0
-"""Seconds without news after which a frame counts as dead (rviz's default)."""
+"""Seconds without a new sample after which a frame counts as dead, as in rviz."""
 
 
 def seconds(value: float) -> int:
@@ -47,17 +47,17 @@ def seconds(value: float) -> int:
     try:
         is_finite = math.isfinite(value)
     except TypeError as error:
-        # What it says of an array speaks of dimensions, not of the remedy.
+        # For an array, the original error does not name the remedy.
         if not hasattr(value, "__array__"):
             raise
         raise TypeError(
             "seconds takes one number, not an array: "
-            "np.rint(times * 1e9).astype(np.int64) makes stamps of many seconds"
+            "np.rint(times * 1e9).astype(np.int64) converts an array"
         ) from error
     if not is_finite:
         raise ValueError(f"{value!r} is not a finite number of seconds")
     whole = math.floor(value)
-    # The fraction is never negative, so half away from zero is half up.
+    # The fraction is not negative, so rounding half up is rounding half away from zero.
     return whole * NANOSECONDS + math.floor((value - whole) * 1e9 + 0.5)
 
 
@@ -67,18 +67,18 @@ def whole(stamp: object) -> Stamp:
     Raises:
         TypeError: If the stamp is a float, or not an integer.
     """
-    # Nearly always it is one, and to ask for a protocol takes microseconds before Python 3.12.
+    # Nearly all stamps are ints; before Python 3.12 a check of a protocol takes microseconds.
     if type(stamp) is int:
         return stamp
     if isinstance(stamp, SupportsIndex):
         return stamp.__index__()
     raise TypeError(
-        f"stamps are whole nanoseconds, not {stamp!r}: seconds(2.5) makes one of 2.5 seconds"
+        f"stamps are whole nanoseconds, not {stamp!r}: write seconds(2.5) for 2.5 seconds"
     )
 
 
 def as_seconds(stamp: int) -> float:
-    """Convert nanoseconds to seconds, split toward zero as tf2 does before adding."""
+    """Convert nanoseconds to float seconds, rounded as in tf2."""
     whole, rest = divmod(abs(stamp), NANOSECONDS)
     value = float(whole) + 1e-9 * float(rest)
     return -value if stamp < 0 else value

@@ -1,4 +1,4 @@
-"""Safe YAML: plain values only, and limits on size, depth and expansion.
+"""Safe reading of YAML: plain values only, with limits on size, depth and expansion.
 
 A few lines of YAML can expand to billions of values, by aliases of aliases and by merge keys. All
 YAML is read through this module. It counts the values of an alias again at each use.
@@ -10,17 +10,17 @@ from typing import Any
 import yaml
 
 LARGEST = 4 * 1024 * 1024
-"""Characters a text may have."""
+"""Maximum number of characters of a text."""
 
 DEEPEST = 100
-"""Levels of nesting a text may have."""
+"""Maximum depth of nesting."""
 
 MOST_VALUES = 200_000
-"""Values a text may have, with every alias written out."""
+"""Maximum number of values, with every alias expanded."""
 
 
 class TooMuch(yaml.MarkedYAMLError):
-    """Error for a YAML text that is too large, too deep, or expands to too much."""
+    """Error for a YAML text that is too large, too deep, or expands to too many values."""
 
     def __init__(self, problem: str, mark: Any = None) -> None:
         super().__init__(problem=problem, problem_mark=mark)
@@ -51,13 +51,15 @@ def events(
         raise TooMuch(f"more than {largest:,} characters are too many")
     values = 0
     sizes: dict[str, int] = {}
-    # Of each collection that is open: its anchor, and how many values there were before it.
+    # For each open collection: its anchor, and the number of values before it.
     opened: list[tuple[str | None, int]] = []
     for event in yaml.parse(text, loader):
         if isinstance(event, yaml.AliasEvent):
             if any(anchor == event.anchor for anchor, _ in opened):
-                raise TooMuch(f"*{event.anchor} stands inside what it stands for", event.start_mark)
-            # One that is unknown is refused by what reads the events.
+                raise TooMuch(
+                    f"*{event.anchor} is used inside its own definition", event.start_mark
+                )
+            # The reader of the events refuses an unknown alias.
             values += sizes.get(event.anchor or "", 1)
         elif isinstance(event, yaml.NodeEvent):
             if event.anchor is not None and isinstance(event, yaml.ScalarEvent):
@@ -90,7 +92,7 @@ def compose(text: str, loader: Any = yaml.SafeLoader) -> yaml.Node | None:
 
 
 def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
-    """Construct the plain value of a node.
+    """Return the plain value of a YAML node.
 
     Raises:
         yaml.YAMLError: If the node has a tag that is not one of YAML's own types.
@@ -99,7 +101,7 @@ def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
     try:
         return maker.construct_document(node)
     except (ValueError, ArithmeticError, AttributeError, TypeError) as error:
-        # PyYAML's own, for a value with a wrong tag: !!timestamp x.
+        # PyYAML raises these for a value with a wrong tag: !!timestamp x.
         tag = str(node.tag).rpartition(":")[2]
         problem = f"a value is not the {tag} that it is tagged as"
         if not isinstance(node, yaml.ScalarNode):
@@ -110,7 +112,7 @@ def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
 
 
 def load(text: str, loader: Any = yaml.SafeLoader) -> Any:
-    """Load the plain value of a YAML text.
+    """Return the plain value of a YAML text.
 
     Raises:
         yaml.YAMLError: If the text is not YAML, exceeds a limit, or has a wrong tag.

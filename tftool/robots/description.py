@@ -1,4 +1,4 @@
-"""Robot descriptions: links with their shapes, joints with their limits."""
+"""Values of a robot description: links with their shapes, joints with their limits."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from tftool.geometry.rigid import Transform, Vector3
 JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
 
 LIMITED_TYPES = ("revolute", "prismatic")
-"""Those that must say how far they go."""
+"""Types of joints that must have limits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class BoxShape:
 
 @dataclass(frozen=True, slots=True)
 class CylinderShape:
-    """A cylinder along z, centred on its origin; metres."""
+    """A cylinder along z, centred on its origin; radius and length in metres."""
 
     radius: float
     length: float
@@ -33,7 +33,7 @@ class CylinderShape:
 
 @dataclass(frozen=True, slots=True)
 class CapsuleShape:
-    """A cylinder along z with a hemisphere on each end; metres, `length` without the ends."""
+    """A cylinder along z with a hemisphere on each end; `length`, metres, is the cylinder's."""
 
     radius: float
     length: float
@@ -41,14 +41,14 @@ class CapsuleShape:
 
 @dataclass(frozen=True, slots=True)
 class SphereShape:
-    """A sphere centred on its origin; metres."""
+    """A sphere centred on its origin; radius in metres."""
 
     radius: float
 
 
 @dataclass(frozen=True, slots=True)
 class MeshShape:
-    """A surface in a separate file.
+    """A surface of triangles in a separate file.
 
     Attributes:
         filename: File name as written: `package://…`, `file://…`, or a relative path.
@@ -64,12 +64,12 @@ ShapeGeometry: TypeAlias = BoxShape | CylinderShape | CapsuleShape | SphereShape
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """Appearance of a surface.
+    """Colour and texture of a surface.
 
     Attributes:
-        name: Name; may be empty.
-        color: Red, green, blue and opacity from 0 to 1; None where it is not given.
-        texture: File name of a picture, empty without one.
+        name: Name of the material; may be empty.
+        color: Red, green, blue and opacity from 0 to 1; None if not given.
+        texture: File name of the picture on the surface; empty if there is none.
     """
 
     name: str
@@ -82,10 +82,10 @@ class LinkShape:
     """A visual or collision shape of a link.
 
     Attributes:
-        name: Name, often empty.
-        origin: Pose in the link.
-        geometry: Shape.
-        material: Material; None for collisions and where none is named.
+        name: Name of the shape; often empty.
+        origin: Pose of the shape in the link.
+        geometry: The shape.
+        material: Colour and texture; None for collisions, or if not given.
     """
 
     name: str
@@ -100,9 +100,9 @@ class RobotLink:
 
     Attributes:
         name: Name of the link and of its frame.
-        visuals: Drawn shapes.
+        visuals: Shapes to draw.
         collisions: Collision shapes.
-        mass: Kilograms; None without an inertial element.
+        mass: Mass in kilograms; None if not given.
     """
 
     name: str
@@ -118,7 +118,7 @@ class JointLimit:
     Attributes:
         lower: Smallest position.
         upper: Largest position.
-        effort: Newton metres, or newtons.
+        effort: Largest torque in newton metres, or force in newtons.
         velocity: Largest speed.
     """
 
@@ -130,7 +130,7 @@ class JointLimit:
 
 @dataclass(frozen=True, slots=True)
 class JointMimic:
-    """A joint that mimics another: position = multiplier · leader's position + offset."""
+    """Rule that a joint follows a leader: position = multiplier · leader's position + offset."""
 
     joint: str
     multiplier: float = 1.0
@@ -139,17 +139,17 @@ class JointMimic:
 
 @dataclass(frozen=True, slots=True)
 class RobotJoint:
-    """Joint between a link and its parent.
+    """Joint between a child link and its parent link.
 
     Attributes:
-        name: Name.
+        name: Name of the joint.
         type: One of `JOINT_TYPES`.
         parent: The parent link.
         child: The child link.
         origin: The child's pose in the parent at position zero.
-        axis: Unit vector in the joint's frame about which it turns or along which it slides.
-        limit: None for a joint without.
-        mimic: Joint that this joint follows, if any.
+        axis: Unit vector in the joint's frame; the joint turns about it or slides along it.
+        limit: Limits of position and speed; None if not given.
+        mimic: Rule by which the joint follows another joint; None if it does not.
     """
 
     name: str
@@ -163,33 +163,33 @@ class RobotJoint:
 
     @property
     def moves(self) -> bool:
-        """Whether the joint has one position: revolute, continuous or prismatic."""
+        """Whether the joint has a single position: it is revolute, continuous or prismatic."""
         return self.type in ("revolute", "continuous", "prismatic")
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """Minimum and maximum position; None for a joint without limits, such as a wheel."""
+        """Minimum and maximum position, radians or metres; None without limits (a wheel)."""
         if self.limit is None or self.type not in LIMITED_TYPES:
             return None
         return self.limit.lower, self.limit.upper
 
     @property
     def unit(self) -> str:
-        """Unit of the joint's position: rad or m."""
+        """Unit of the joint's position: "rad" or "m"."""
         return "m" if self.type == "prismatic" else "rad"
 
 
 @dataclass(frozen=True, slots=True)
 class RobotDescription:
-    """A robot description: a tree of links.
+    """A robot description: a tree of links, connected by joints.
 
     Attributes:
         name: The robot's name.
         root: The link that is not a joint's child.
-        links: Contents by name, in the order of the file.
-        joints: Contents by name, in the order of the file.
-        notes: Oddities that are still readable, as sentences.
-        text: Text, with xacro expanded.
+        links: Links by name, in the order of the file.
+        joints: Joints by name, in the order of the file.
+        notes: Sentences about faults that do not prevent reading.
+        text: Text of the description, with xacro expanded.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Triangles of mesh files: STL, OBJ and COLLADA, with the colours in the files."""
+"""Reader of triangles and colours from mesh files: STL, OBJ and COLLADA."""
 
 import struct
 from collections.abc import Iterator, Mapping
@@ -17,16 +17,16 @@ Indices: TypeAlias = npt.NDArray[np.int64]
 Rgb: TypeAlias = tuple[float, float, float]
 
 MOST_TRIANGLES = 4_000_000
-"""Triangles that one mesh may have."""
+"""Maximum number of triangles in a mesh."""
 
 
 class Mesh(NamedTuple):
-    """Triangles of one colour.
+    """Triangles of one colour in a mesh file.
 
     Attributes:
         points: Corners, metres, shape (n, 3).
         triangles: Three indices of corners each, shape (m, 3).
-        color: Red, green and blue from 0 to 1; None where the file gives none.
+        color: Red, green and blue from 0 to 1; None if the file has no colour.
     """
 
     points: Floats
@@ -39,16 +39,15 @@ def read_mesh(name: str, content: bytes) -> list[Mesh]:
 
     Args:
         name: Name of the file; the suffix selects the format.
-        content: Bytes; a stranger's.
+        content: Bytes of the file; untrusted.
 
     Raises:
-        MeshRefused: If its format is not read here, or the file is damaged.
+        MeshRefused: If the format is not supported, or the file is damaged.
     """
     suffix = PurePosixPath(name).suffix.lower()
     if suffix not in _READERS:
         raise MeshRefused(
-            f"'{name}' is not drawn on a terminal, which draws {', '.join(_READERS)}: "
-            "'tftool view' draws it"
+            f"'{name}' cannot be drawn on a terminal, only {', '.join(_READERS)}: use 'tftool view'"
         )
     try:
         meshes = _READERS[suffix](content)
@@ -89,7 +88,7 @@ def _obj(content: bytes) -> list[Mesh]:
             points.append([float(word) for word in words[1:4]])
         elif words[:1] == ["f"]:
             corners = [int(word.split("/")[0]) for word in words[1:]]
-            # Negative numbers count back from the corner read last.
+            # Negative numbers count backward from the last corner read.
             corners = [one - 1 if one > 0 else len(points) + one for one in corners]
             triangles += [(corners[0], *pair) for pair in pairwise(corners[1:])]
     return [Mesh(np.array(points, float).reshape(-1, 3), np.array(triangles).reshape(-1, 3))]

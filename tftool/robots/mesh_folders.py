@@ -1,8 +1,8 @@
-"""Mesh files of a robot: resolution of their names, limited to known folders.
+"""Search for a robot's mesh files, limited to known folders, for the browser's page.
 
-File names in a description are untrusted. Only files inside given or found folders are ever served:
-no absolute path, no `file://`, nothing reached by `..` or by a symbolic link out of them, and only
-the file types of meshes.
+File names in a description are untrusted. Only meshes and textures inside known folders
+are served: never an absolute path, `file://`, or a file outside that `..` or a symbolic link
+reaches.
 """
 
 import os
@@ -28,52 +28,52 @@ KINDS = {
     ".gif": "image/gif",
     ".webp": "image/webp",
 }
-"""The files that are served, by their ending, and their media types."""
+"""Media types of the files that are served, by the ending of the file's name."""
 
 SHAPES = (".stl", ".obj", ".dae", ".gltf", ".glb")
-"""Endings of meshes the page can draw."""
+"""Endings of mesh files that the browser's page can draw."""
 
 LARGEST = 256 * 1024 * 1024
-"""Bytes a served file may have."""
+"""Maximum size of a served file, bytes."""
 
 DEEPEST = 5
-"""How far below a given folder a package is looked for."""
+"""Number of folder levels below a given folder that are searched for a package."""
 
 UPWARDS = 3
-"""Folders above a package in which other packages of its workspace are searched."""
+"""Number of folders above a package that are searched for other packages of its workspace."""
 
 MOST_FOLDERS = 5000
-"""Folders that are looked at for one package."""
+"""Maximum number of folders that are searched for one package."""
 
 _PACKAGE = re.compile(r"package://([A-Za-z0-9_][\w.-]*)/(.+)", re.DOTALL)
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
 class MeshRefused(Exception):
-    """Error for a mesh that cannot be shown."""
+    """Error for a mesh that is not found, not supported or not allowed."""
 
 
 @dataclass(frozen=True, slots=True)
 class ServedFile:
-    """A file for the page, with its media type."""
+    """Bytes of a file for the browser's page, with the media type."""
 
     kind: str
     content: bytes
 
 
 class MeshFolders:
-    """Folders from which meshes are served.
+    """Folders from which meshes are served to the browser's page.
 
     Attributes:
-        roots: Each with its place in the addresses: `/mesh/<place>/<path below it>`.
+        roots: Folders with served files; a file's address is `/mesh/<index of its folder>/<path>`.
     """
 
     def __init__(self, description: Path | None = None, given: Sequence[Path] = ()) -> None:
         """Find the folders that may contain meshes.
 
         Args:
-            description: The file of the robot's description, where there is one: the package
-                around it counts, and those beside that one.
+            description: File of the robot's description, if any: its package and the packages
+                beside it are searched.
             given: Folders with packages, or packages themselves.
         """
         self.roots: list[Path] = []
@@ -82,7 +82,7 @@ class MeshFolders:
         self._packages: dict[str, Path | None] = {}
 
     def address(self, name: str) -> str:
-        """Return the path under which the page requests a mesh or texture.
+        """Return the address from which the browser's page requests a mesh or texture.
 
         Args:
             name: File name in the description: `package://…`, or a relative path.
@@ -98,10 +98,10 @@ class MeshFolders:
         return f"/mesh/{self.roots.index(root)}/{shown}"
 
     def read(self, address: str) -> ServedFile:
-        """Return the file of an address, including files that a mesh refers to.
+        """Return the file at an address; a mesh may also refer to files by relative addresses.
 
         Raises:
-            MeshRefused: If there is none that may be served.
+            MeshRefused: If there is no such file, or it may not be served.
         """
         match = re.fullmatch(r"/mesh/(\d{1,6})/(.+)", address)
         if match is None or int(match[1]) >= len(self.roots):
@@ -116,19 +116,19 @@ class MeshFolders:
             raise MeshRefused(f"'{path.name}' cannot be read: {error.strerror}.") from error
 
     def _place(self, name: str) -> tuple[Path, str]:
-        """Return the folder for a name, and the path within it."""
+        """Return the folder of a mesh named in the description, and the path within that folder."""
         match = _PACKAGE.fullmatch(name)
         if match:
             package = self._package(match[1])
             if package is None:
                 raise MeshRefused(
-                    f"package '{match[1]}' of '{name}' is not found: give the folder it is in with "
+                    f"package '{match[1]}' of '{name}' is not found: name its folder with "
                     "--meshes FOLDER"
                 )
             return package, match[2]
         if _SCHEME.match(name):
             raise MeshRefused(
-                f"'{name}' is not shown: only package:// and paths beside the description are"
+                f"'{name}' is not shown: only package:// and relative paths are allowed"
             )
         if name.startswith(("/", "\\")):
             raise MeshRefused(f"'{name}' is an absolute path, which is never shown")
@@ -138,7 +138,7 @@ class MeshFolders:
             except MeshRefused:
                 continue
             return root, name
-        # A path such as ../meshes/arm.stl means the package around the description.
+        # A path such as ../meshes/arm.stl refers to the package that contains the description.
         if self._beside is not None:
             for package in self._around():
                 path = Path(os.path.normpath(self._beside / name))
@@ -146,16 +146,14 @@ class MeshFolders:
                     return package, path.relative_to(package).as_posix()
         roots = self._relative_roots()
         if not roots:
-            raise MeshRefused(
-                f"'{name}' is not found: give the folder it is in with --meshes FOLDER"
-            )
+            raise MeshRefused(f"'{name}' is not found: name its folder with --meshes FOLDER")
         return roots[0], name
 
     def _relative_roots(self) -> list[Path]:
         return [*([] if self._beside is None else [self._beside]), *self._given]
 
     def _inside(self, root: Path, name: str) -> Path:
-        """Return the path below a folder, checked to stay inside it.
+        """Return the path of a file below a folder, checked to be inside the folder.
 
         Raises:
             MeshRefused: If the path leads outside, or is not a file of a known kind.
@@ -192,7 +190,7 @@ class MeshFolders:
         for package in self._around():
             if package.name == name or package_name(package) == name:
                 yield package
-        # Packages lie beside each other; other folders there are not served.
+        # Other packages are usually in the same folder; folders without package.xml are not served.
         for package in self._around():
             if (package.parent / name / "package.xml").is_file():
                 yield package.parent / name
@@ -201,7 +199,7 @@ class MeshFolders:
                 yield Path(entry) / inside / name
 
     def _around(self) -> list[Path]:
-        """Yield the packages around the description, the nearest first."""
+        """Return the packages that contain the description, the nearest first."""
         if self._beside is None:
             return []
         above = [self._beside, *self._beside.parents][:6]
@@ -209,7 +207,7 @@ class MeshFolders:
 
 
 def package_name(folder: Path) -> str:
-    """Return the name in a folder's package.xml; empty if there is none."""
+    """Return the package's name in a folder's package.xml; empty if there is none."""
     try:
         raw = (folder / "package.xml").read_bytes()
         if len(raw) > 1 << 20 or b"<!DOCTYPE" in raw or b"<!ENTITY" in raw:
@@ -220,7 +218,7 @@ def package_name(folder: Path) -> str:
 
 
 def packages_around(file: Path, name: str) -> Iterator[Path]:
-    """Yield packages of a name in the workspace of a file: its own, then those around it.
+    """Yield folders of a package in the workspace of a file, the nearest first.
 
     The search goes up from the file's package to the workspace's src, at most `UPWARDS` folders.
     """
@@ -240,7 +238,7 @@ def packages_around(file: Path, name: str) -> Iterator[Path]:
 
 
 def _below(folder: Path, name: str) -> Iterator[Path]:
-    """Yield packages of a name below a folder, the nearest first."""
+    """Yield folders of a package below a folder, the nearest first."""
     level: Iterable[Path] = [folder]
     seen = 0
     for _ in range(DEEPEST):

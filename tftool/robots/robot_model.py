@@ -1,4 +1,4 @@
-"""A robot from its description: joint positions to frames, as in robot_state_publisher."""
+"""Robot that computes the poses of its links from joint positions, as robot_state_publisher."""
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -21,7 +21,7 @@ from tftool.robots.description import RobotDescription, RobotJoint, RobotLink
 from tftool.robots.urdf import load_description
 
 MOST_NAMED = 12
-"""How many joints a refusal names."""
+"""Maximum number of joints that an error message lists."""
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 
@@ -36,7 +36,7 @@ class JointStates:
     """Positions of some joints at many times.
 
     Attributes:
-        names: The joints, in the order of the columns.
+        names: Names of the joints, in the order of the columns.
         stamps: Nanoseconds, shape (n,).
         positions: Radians or metres, shape (n, len(names)).
     """
@@ -81,9 +81,9 @@ class Robot:
     """A robot description that computes the poses of its links.
 
     A joint without a position is at zero if its limits allow that, else in their middle, as in
-    joint_state_publisher. A mimic joint follows its joint through any chain, unless it has a
-    position of its own. A planar joint stays at its origin; a floating joint has no frame, as
-    robot_state_publisher skips it.
+    joint_state_publisher. A mimic joint follows its leader, also through other mimic joints,
+    unless it has its own position. A planar joint stays at its origin; a floating joint has no
+    frame, as in robot_state_publisher.
     """
 
     def __init__(self, description: RobotDescription) -> None:
@@ -100,29 +100,29 @@ class Robot:
 
     @property
     def root(self) -> str:
-        """The root link, which is not a joint's child."""
+        """The name of the root link, which is not a joint's child."""
         return self.description.root
 
     @property
     def links(self) -> Mapping[str, RobotLink]:
-        """Every link by name."""
+        """All links, by name."""
         return self.description.links
 
     @property
     def joints(self) -> Mapping[str, RobotJoint]:
-        """Every joint by name."""
+        """All joints, by name."""
         return self.description.joints
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Return oddities of the description as sentences."""
+        """Return sentences about faults in the description that do not prevent reading."""
         return self.description.notes
 
     def positions(self, given: Mapping[str, float] | None = None) -> dict[str, float]:
-        """Return the position of every movable joint, in radians or metres.
+        """Return the position of every movable joint, radians or metres, by the joint's name.
 
         Args:
-            given: Positions by joint; limits are not enforced.
+            given: Positions by joint's name; limits are not enforced.
 
         Raises:
             UsageError: If a joint is unknown or does not move, or a position is not finite.
@@ -162,24 +162,24 @@ class Robot:
         )
 
     def joint_above(self, link: str) -> RobotJoint:
-        """Return the joint above a link.
+        """Return the joint whose child is the given link.
 
         Raises:
-            KeyError: If the frame is the root, or no link.
+            KeyError: If the link is the root, or unknown.
         """
         return self._above[link]
 
     def takes(self, name: str) -> bool:
-        """Whether a name is a movable joint's."""
+        """Whether a name belongs to a movable joint of the robot."""
         joint = self.joints.get(name)
         return joint is not None and joint.moves
 
     def moved(self, given: Mapping[str, float], stamp: Stamp = 0) -> tuple[TransformStamped, ...]:
-        """Return the poses of the links that one joint state moves.
+        """Return the poses, in their parents, of the links that one joint state moves.
 
-        As in robot_state_publisher, names that are no movable joint are ignored, and so are
-        positions that are not finite; a mimic joint follows its joint unless it has a position of
-        its own.
+        As in robot_state_publisher, names of other things than movable joints are ignored, and so
+        are positions that are not finite. A mimic joint follows its leader unless it has its own
+        position.
 
         Args:
             given: Positions by joint.
@@ -201,13 +201,12 @@ class Robot:
         return tuple(poses)
 
     def batch(self, names: Sequence[str], positions: npt.ArrayLike) -> tuple[JointColumns, ...]:
-        """Return the poses of the moved joints, for many joint states.
+        """Return the poses of all joints that the given joints move, for many joint states.
 
-        Mimic joints of given joints are included, other joints are not, as in
-        robot_state_publisher.
+        As in robot_state_publisher, joints that mimic a given joint are included.
 
         Args:
-            names: The joints, in the order of the columns.
+            names: Names of the joints, in the order of the columns.
             positions: Radians or metres, shape (n, len(names)).
 
         Raises:
@@ -230,19 +229,18 @@ class Robot:
     def motion(
         self, states: JointStates, wanted: Callable[[RobotJoint], bool] | None = None
     ) -> Iterator[tuple[RobotJoint, Records]]:
-        """Return the poses of moved joints in a buffer's sample layout.
+        """Yield the poses of moved joints for many joint states, as samples in a buffer's layout.
 
-        As in robot_state_publisher, names that are no movable joint are ignored, and a mimic joint
-        follows its joint unless it has a position of its own. A position that is not finite gives
-        no sample, but a gap.
+        As in robot_state_publisher, names of other things than movable joints are ignored, and a
+        mimic joint follows its leader unless it has its own position. A position that is not finite
+        leaves a gap in the samples.
 
         Args:
             states: Positions over time.
-            wanted: Requested joints; all if None.
+            wanted: Function that chooses the joints; None for all.
 
         Returns:
-            For each joint its samples, one a row, shape (n, 8), as `Buffer.set_records` takes
-            them.
+            For each joint its samples, one per row, shape (n, 8), as for `Buffer.set_records`.
         """
         places = [
             place
@@ -263,7 +261,7 @@ class Robot:
             yield joint, records
 
     def _moved(self, names: Sequence[str], columns: Floats) -> Iterator[tuple[RobotJoint, Floats]]:
-        """Return every joint that given ones move, with positions, shape (n,)."""
+        """Yield every joint that the given joints move, with its positions, shape (n,)."""
         given = {name: columns[:, place] for place, name in enumerate(names)}
         chosen = frozenset(given)
         for joint in self.joints.values():
@@ -277,12 +275,12 @@ class Robot:
     def buffer(
         self, given: Mapping[str, float] | JointStates | Iterable[JointStates] | None = None
     ) -> Buffer:
-        """Return a buffer with every frame.
+        """Return a buffer with the frames of all links.
 
         Args:
-            given: Positions by joint (see `positions`), or none: then every frame holds at all
-                times. Or joint states: then what moves has samples at their stamps, and a
-                joint they do not say, or that does not follow one they say, has none.
+            given: Positions by joint (see `positions`), or None: then all links are static. Or
+                joint states: then the moved links have samples at the states' stamps, and the
+                links of other movable joints have none.
 
         Raises:
             UsageError: See `positions`.
@@ -303,23 +301,23 @@ class Robot:
         return buffer
 
     def leader(self, name: str, given: Collection[str] = ()) -> str:
-        """Return the joint that determines a joint's position: its own name, unless it mimics
-        another.
+        """Return the name of the joint that determines a joint's position: its leader, or itself.
 
         Args:
             name: The joint.
-            given: Joints that have a position of their own, which wins.
+            given: Joints with their own positions, which do not follow a leader.
         """
         return self._leader(self.joints[name], frozenset(given))[0].name
 
     def drive(self, name: str) -> tuple[str, float, float]:
-        """Return the joint that determines a joint's position, if none is given.
+        """Return the joint that determines a joint's position, with a factor and an offset.
 
         Args:
             name: The joint.
 
         Returns:
-            The joint that decides; its position times the second plus the third is this one's.
+            Name of the determining joint, factor and offset: the position of `name` is the position
+            of that joint times the factor, plus the offset.
         """
         leader, factor, offset = self._leader(self.joints[name], frozenset())
         return leader.name, factor, offset
@@ -334,18 +332,18 @@ class Robot:
                 hint = f"; those that move are {', '.join(moving[:MOST_NAMED])}{more}"
             raise UsageError(f"robot '{self.name}' has no joint '{name[:100]}'{hint}")
         if not joint.moves:
-            raise UsageError(f"joint '{name}' is {joint.type}: it takes no position")
+            raise UsageError(f"joint '{name}' is {joint.type}: it has no position")
 
     def _leader(self, joint: RobotJoint, given: frozenset[str]) -> tuple[RobotJoint, float, float]:
-        """Return the joint that determines the position, with factor and offset."""
+        """Return the joint that determines a joint's position, with factor and offset."""
         factor, offset = 1.0, 0.0
         leader, seen = joint, {joint.name}
         while leader.name not in given and leader.mimic is not None:
             after = self.joints.get(leader.mimic.joint)
             if after is None or not after.moves:
-                break  # a mimic of nothing is a joint of its own
+                break  # the joint to mimic does not exist, so this joint has its own position
             if after.name in seen:
-                return joint, 1.0, 0.0  # so is one that mimics itself
+                return joint, 1.0, 0.0  # mimic joints in a loop have their own positions
             offset += factor * leader.mimic.offset
             factor *= leader.mimic.multiplier
             seen.add(after.name)
@@ -354,7 +352,7 @@ class Robot:
 
 
 def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> Robot:
-    """Read a robot description: URDF, or xacro with the extra of that name.
+    """Read a robot description: URDF, or xacro if the extra `xacro` is installed.
 
     Args:
         path: The file.
@@ -370,14 +368,14 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
 
 
 def set_still(buffer: Buffer, joint: RobotJoint, position: float = 0.0, prefix: str = "") -> None:
-    """Insert a joint's child as a static link into a buffer, with the joint as its source."""
+    """Insert the child of a joint into a buffer as a static link; the sender names the joint."""
     parent, child = prefix + joint.parent, prefix + joint.child
     pose = TransformStamped(0, parent, child, _pose(joint, position))
     buffer.set_transform_static(pose, joint_in_words(joint, position))
 
 
 def joint_in_words(joint: RobotJoint, position: float) -> str:
-    """Describe a joint and its position: "elbow (revolute, 0.5 rad)"."""
+    """Return a joint with its type and position as text: "elbow (revolute, 0.5 rad)"."""
     if not joint.moves:
         return f"{joint.name} ({joint.type})"
     return f"{joint.name} ({joint.type}, {position:.4g} {joint.unit})"
@@ -391,7 +389,7 @@ def _rest(joint: RobotJoint) -> float:
 
 
 def _pose(joint: RobotJoint, position: float) -> Transform:
-    """Return the child's pose in the parent."""
+    """Return the pose of a joint's child in its parent, at a position."""
     if joint.type in ("revolute", "continuous"):
         return joint.origin @ Transform(rotation=quaternion_from_axis_angle(joint.axis, position))
     if joint.type == "prismatic":
@@ -401,7 +399,7 @@ def _pose(joint: RobotJoint, position: float) -> Transform:
 
 
 def _poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
-    """Write the poses of many positions, shape (n,), into `poses`, shape (n, 7)."""
+    """Write the poses of a joint's child at many positions into `poses`, shape (n, 7)."""
     poses[:, :3] = joint.origin.translation
     turn = np.array(joint.origin.rotation)
     if joint.type == "prismatic":
@@ -410,7 +408,7 @@ def _poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
             poses[:, place] += positions * along[place]
         poses[:, 3:] = turn
         return poses
-    # Of turn · (axis · sin, cos) both products are the same for all positions.
+    # turn · (axis · sin, cos) is a sum of two products that are the same for all positions.
     quarter = batch.multiply(turn, np.array([*joint.axis, 0.0]))
     half = 0.5 * positions
     sine, cosine = np.sin(half), np.cos(half)

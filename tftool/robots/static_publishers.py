@@ -1,6 +1,6 @@
-"""Static transforms in launch files and scripts, read without running them.
+"""Reader of the static transforms in launch files and scripts, which does not run them.
 
-A launch file in Python is looked at as text: what it computes is not known, and is told.
+A launch file in Python is read as text: computed values are unknown, and are reported.
 """
 
 import ast
@@ -22,19 +22,19 @@ from tftool.geometry.notation.static_arguments import StaticArguments, of_line
 PUBLISHER: Final = "static_transform_publisher"
 
 LARGEST: Final = 16 * 1024 * 1024
-"""Bytes a file may have."""
+"""Maximum size of a file, bytes."""
 
 _EXECUTABLES: Final = ("exec", "executable", "node_executable", "type")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StaticFrames:
-    """Frames of a file that publishes static transforms.
+    """Static transforms that a launch file or script publishes, as a source of frames.
 
     Attributes:
         name: The file, as it was given.
-        links: Published links, in its order.
-        notes: Unreadable parts of it, as sentences.
+        links: Published links, in the order of the file.
+        notes: Sentences about parts that cannot be read.
         start: 0, as static transforms are valid at all times.
         end: 0.
     """
@@ -47,7 +47,7 @@ class StaticFrames:
 
     @property
     def buffer(self) -> Buffer:
-        """Return a buffer with all of them; for each child the last counts, as in tf2."""
+        """Return a buffer with all links; if a child has several, the last is used, as in tf2."""
         found = Buffer(NO_LIMIT)
         for one in self.links:
             sample = TransformStamped(0, one.parent, one.child, one.transform)
@@ -74,18 +74,18 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
 
 
 Remark = tuple[int, str]
-"""The line of a publisher that was passed over, and a sentence about it."""
+"""Line of a publisher that was skipped, and a sentence about it."""
 
 
 def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Remark], list[Remark]]:
-    """Return a file's static transforms, its mistakes, and what can only be known by running it.
+    """Return a file's static transforms, its mistakes, and the parts only known by running it.
 
     Raises:
         InputError: If the file cannot be read.
     """
     try:
         if path.stat().st_size > LARGEST:
-            raise InputError(f"'{name}' is larger than {LARGEST} bytes: it is no launch file.")
+            raise InputError(f"'{name}' is larger than {LARGEST} bytes: it is not a launch file.")
         text = read_named(path).decode("utf-8-sig", "replace")
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}.") from error
@@ -109,7 +109,7 @@ def _remark(name: str, line: int, why: str) -> Remark:
 
 
 Publisher = tuple[int, str | None]
-"""The line a publisher stands in, and its words; None where they are computed."""
+"""Line of a publisher, and its arguments as text; None if they are computed."""
 
 
 def _publishers(text: str, name: str) -> Iterator[Publisher]:
@@ -125,7 +125,7 @@ def _publishers(text: str, name: str) -> Iterator[Publisher]:
 def _of_shell(text: str) -> Iterator[Publisher]:
     number = 1
     for line in text.replace("\\\r\n", "\\\n").split("\n"):
-        # Continued lines were joined below.
+        # `_joined_line` adds the continuation lines.
         if PUBLISHER in line and not line.lstrip().startswith("#"):
             yield number, _joined_line(text, number)
         number += 1
@@ -153,7 +153,7 @@ def _of_xml(text: str, name: str) -> Iterator[Publisher]:
             found.append((parser.CurrentLineNumber, None if computed else f"{PUBLISHER} {words}"))
 
     def refuse(*_: Any) -> None:
-        raise InputError(f"'{name}': a <!DOCTYPE is not allowed: take it out.")
+        raise InputError(f"'{name}': <!DOCTYPE is not allowed: remove it.")
 
     parser.StartElementHandler = begin
     parser.StartDoctypeDeclHandler = refuse
@@ -161,13 +161,13 @@ def _of_xml(text: str, name: str) -> Iterator[Publisher]:
         parser.Parse(text.encode("utf-8", "replace"), True)
     except expat.ExpatError as error:
         raise InputError(
-            f"'{name}' is no XML: {expat.ErrorString(error.code)} in line {error.lineno}."
+            f"'{name}' is not XML: {expat.ErrorString(error.code)} in line {error.lineno}."
         ) from error
     return iter(found)
 
 
 def _of_yaml(text: str, name: str) -> Iterator[Publisher]:
-    # Not at the top: `tftool info` imports this room for every recording.
+    # Imported here because `tftool info` imports this module for every recording.
     import yaml
 
     from tftool.base import yaml_guard
@@ -175,7 +175,7 @@ def _of_yaml(text: str, name: str) -> Iterator[Publisher]:
     try:
         root = yaml_guard.compose(text)
     except yaml.YAMLError as error:
-        raise InputError(f"'{name}' is no YAML: {' '.join(str(error).split())}") from error
+        raise InputError(f"'{name}' is not YAML: {' '.join(str(error).split())}") from error
     waiting = [root]
     while waiting:
         node = waiting.pop()
@@ -197,7 +197,7 @@ def _of_python(text: str, name: str) -> Iterator[Publisher]:
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise InputError(f"'{name}' is no Python: {error}.") from error
+        raise InputError(f"'{name}' is not Python: {error}.") from error
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue

@@ -1,9 +1,9 @@
-"""Parser of robot descriptions: URDF to links and joints, or every mistake with its place.
+"""Parser of robot descriptions in URDF, which finds all mistakes with their positions.
 
-Rules are those of `urdfdom`, ROS's own reader: namespaces and unknown elements are ignored; a
-missing origin is zero, a missing axis is x; rpy rotates about fixed axes. Also refused are a
-document type (it could expand without bound), numbers that are not finite, and an axis of length
-zero on a movable joint.
+The rules are those of `urdfdom`, ROS's own reader: namespaces and unknown elements are ignored; a
+missing origin is zero, a missing axis is x; rpy rotates about fixed axes. In addition, this parser
+refuses a document type (it could expand without bound), numbers that are not finite, and an axis of
+length zero on a movable joint.
 """
 
 import contextlib
@@ -42,7 +42,7 @@ from tftool.robots.xacro_process import expand
 T = TypeVar("T")
 
 LARGEST = 64 * 1024 * 1024
-"""Bytes a description may have."""
+"""Maximum size of a description, bytes."""
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
@@ -51,16 +51,16 @@ _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
 def load_description(
     path: str | Path, arguments: Mapping[str, str] | None = None, *, plain: bool = False
 ) -> RobotDescription:
-    """Read a URDF file; xacro in a file named .xacro is expanded first.
+    """Read a URDF file; in a file named .xacro, xacro is expanded first.
 
     Args:
         path: The file.
-        arguments: Values of xacro arguments, as `name:=value` gives them. A xacro file can
+        arguments: Values of xacro arguments by name. A xacro file can
             evaluate Python expressions: do not expand files from strangers.
         plain: Whether to refuse a file that contains xacro.
 
     Raises:
-        InputError: If it cannot be read, or contains xacro and is not called .xacro.
+        InputError: If the file cannot be read, or contains xacro and is not named .xacro.
         DescriptionError: If it has mistakes; all of them, with line and column.
         UsageError: If it contains xacro and the extra `xacro` is not installed, or if
             arguments are given to a file without xacro.
@@ -80,12 +80,12 @@ def load_description(
         return parse_description(expand(Path(path), arguments or {}), f"{path} (expanded)")
     if arguments:
         given = ", ".join(f"{name}:={value}" for name, value in arguments.items())
-        raise UsageError(f"'{path}' contains no xacro, so it takes no arguments: leave out {given}")
+        raise UsageError(f"'{path}' contains no xacro, so it has no arguments: leave out {given}")
     return parse_description(text, str(path))
 
 
 def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -> str:
-    """Return a description with its xacro expanded; a plain one unchanged.
+    """Return the text of a description with its xacro expanded; without xacro, unchanged.
 
     Raises:
         InputError: If the file cannot be read or expanded.
@@ -96,10 +96,10 @@ def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -
 
 
 def is_xacro(text: str) -> bool:
-    """Whether a description must be expanded first.
+    """Whether a description contains xacro that must be expanded.
 
-    An expanded file may still declare xacro's namespace; an unexpanded one has
-    elements of it, or an attribute with `${…}` or `$(…)`.
+    An expanded file may still declare xacro's namespace. A file to expand has elements of that
+    namespace, or an attribute with `${…}` or `$(…)`.
     """
     parser = expat.ParserCreate("utf-8")
     found = False
@@ -115,14 +115,14 @@ def is_xacro(text: str) -> bool:
         parser.StartDoctypeDeclHandler = _refuse_doctype
         parser.Parse(_without_declaration(text).encode("utf-8", "surrogatepass"), True)
     except (expat.ExpatError, _Doctype):
-        return False  # the reader reports it with its place
+        return False  # the parser reports the mistake with its position
     return found
 
 
 def _without_declaration(text: str) -> str:
-    """Return a text with its XML declaration blanked out, as its encoding no longer applies.
+    """Return a text with its XML declaration blanked out: its encoding is not valid any more.
 
-    Other readers accept one after an empty line, or with a misspelt word.
+    Like other readers, this accepts a declaration after an empty line, or with a misspelt word.
     """
     found = _DECLARATION.match(text)
     if found is None:
@@ -139,11 +139,11 @@ def parse_description(text: str, name: str = "robot_description") -> RobotDescri
 
     Args:
         text: The whole text.
-        name: Its name in messages, usually its path.
+        name: Name of the description in messages, usually its path.
 
     Raises:
         DescriptionError: If it has mistakes; all of them, with line and column.
-        UnexpandedXacro: If it has elements of xacro, which its publisher has to expand.
+        UnexpandedXacro: If it has elements of xacro, which the publisher of the text must expand.
     """
     if "<xacro:" in text and is_xacro(text):
         raise UnexpandedXacro(
@@ -164,7 +164,7 @@ def _text_of(path: Path) -> str:
     declared = re.match(rb"""\s*<\?xml[^>]*encoding=["']([\w.-]+)["']""", raw)
     encoding = declared.group(1).decode("ascii") if declared else "utf-8-sig"
     try:
-        # An encoding such as "hex" is one of Python's and none of XML's.
+        # Python's codecs such as "hex" are not text encodings.
         return raw.decode("utf-8-sig" if encoding.lower() in ("utf-8", "utf8") else encoding)
     except LookupError as error:
         raise InputError(
@@ -176,7 +176,7 @@ def _text_of(path: Path) -> str:
 
 @dataclass(slots=True)
 class _Element:
-    """One XML element and its position (line and column from 0)."""
+    """An XML element and its position (line and column from 0)."""
 
     tag: str
     attributes: dict[str, str]
@@ -192,11 +192,11 @@ class _Element:
 
 
 class _Unreadable(Exception):
-    """Signal that a part could not be read; its mistake is already recorded."""
+    """Signal that a part of the description cannot be read; its mistake is already recorded."""
 
 
 class _Reader:
-    """One pass over a text, which collects mistakes and builds the description."""
+    """Reader of one description, which collects mistakes and builds the description's values."""
 
     def __init__(self, text: str, name: str) -> None:
         self.text = text
@@ -254,12 +254,12 @@ class _Reader:
         parser.EndElementHandler = end
         parser.StartDoctypeDeclHandler = _refuse_doctype
         try:
-            # utf-8 is named above, so a declaration of another encoding has no say any more.
+            # The parser was created for UTF-8, so a declared encoding must not be used.
             plain = _without_declaration(self.text)
             parser.Parse(plain.encode("utf-8", "surrogatepass"), True)
         except _Doctype:
             line, column = parser.CurrentLineNumber - 1, parser.CurrentColumnNumber
-            self._refuse(line, column, "a <!DOCTYPE is not allowed: take it out")
+            self._refuse(line, column, "<!DOCTYPE is not allowed: remove it")
         except expat.ExpatError as error:
             said = expat.ErrorString(error.code) or "it cannot be read"
             self._refuse(error.lineno - 1, error.offset, f"this is not XML: {said}")
@@ -273,7 +273,7 @@ class _Reader:
 
     @contextlib.contextmanager
     def _left_out(self) -> Iterator[None]:
-        """Convert mistakes that leave every frame in place to notes.
+        """Convert mistakes that do not affect frames to notes, within a `with` block.
 
         urdfdom continues after mistakes in a link's appearance or mass, so robots run with such
         files.
@@ -289,7 +289,7 @@ class _Reader:
             self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
-        """Return the position of an attribute; that of the element if it is not found."""
+        """Return the position of an element's attribute; if not found, that of the element."""
         wanted = re.compile(rf"(?<![\w:]){re.escape(attribute)}\s*=\s*(\"[^\"]*\"|'[^']*')")
         column = element.column
         for line in range(element.line, min(element.line + 20, len(self.lines))):
@@ -567,7 +567,7 @@ class _Reader:
             way = " → ".join([*(joint.parent for joint in loop), loop[0].parent])
             self._note(places[loop[0].name], f"the links run in a loop: {way}")
         roots = [name for name in links if name not in joint_above]
-        # A joint that could not be read would have joined two of them.
+        # Only if every joint was read, several roots are a mistake: an unread one joins two trees.
         every_joint_read = len(joints) == sum(1 for _ in robot.all("joint"))
         if len(roots) > 1 and every_joint_read:
             shown = _list([f"'{root}'" for root in roots[:10]])
@@ -616,7 +616,7 @@ class _Reader:
 
 
 class _Doctype(Exception):
-    """Signal of a document type, which could expand without bound."""
+    """Signal of a document type in the XML, which could expand without bound."""
 
 
 def _refuse_doctype(*_declared: object) -> None:
@@ -628,7 +628,7 @@ def _end(joint: _Element, tag: str) -> _Element:
 
 
 def _loops(joint_above: Mapping[str, RobotJoint]) -> list[list[RobotJoint]]:
-    """Return every loop of joints once."""
+    """Return the joints of every loop in the tree, each loop once."""
     done: set[str] = set()
     loops = []
     for start in joint_above:

@@ -1,4 +1,4 @@
-"""xacro in a separate process: a description may run Python code that never ends.
+"""Expansion of xacro in a separate process, because xacro can run Python code that never ends.
 
 The process gets the path and the arguments on its command line, and prints one JSON object.
 """
@@ -21,10 +21,10 @@ from tftool.base.errors import InputError, UsageError
 from tftool.robots.mesh_folders import packages_around
 
 TIME_LIMIT: Final = 20.0
-"""Seconds that an expansion may take."""
+"""Maximum duration of an expansion, seconds."""
 
 MEMORY_LIMIT: Final = 1 << 30
-"""Bytes of address space it may take beyond what Python and xacro themselves do."""
+"""Memory, bytes of address space, that an expansion may use in addition to Python and xacro."""
 
 _NO_PACKAGE = re.compile(r"Package not found: (\S+)")
 _NO_ARGUMENT = re.compile(r"Undefined substitution argument (\w+)")
@@ -33,7 +33,7 @@ _MACRO = re.compile(r"<xacro:macro[^>]*\bname\s*=\s*[\"'](\w+)")
 
 
 def expand(path: Path, arguments: Mapping[str, str]) -> str:
-    """Return a description's text with its xacro expanded.
+    """Return the text of a description with its xacro expanded in another process.
 
     Args:
         path: The file; included files are relative to it.
@@ -73,8 +73,8 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
 
 
 def _main(path: str, arguments: str) -> None:
-    """Expand a file, in the child process."""
-    # What expressions of the file print goes nowhere: stdout is for the answer alone.
+    """Expand a file in the child process; print the result as JSON."""
+    # Discard output of the file's expressions: stdout is for the result only.
     with os.fdopen(os.dup(1), "w", encoding="utf-8") as answer:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         json.dump(_expanded(path, json.loads(arguments)), answer)
@@ -87,7 +87,7 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
     found: dict[str, str] = {}
 
     def get_path(name: str) -> str:
-        # Asked for again with every file that is included.
+        # xacro calls this again for every included file.
         if name not in found:
             around = next(packages_around(Path(path), name), None)
             found[name] = str(installed(name)) if around is None else str(_as_installed(around))
@@ -96,9 +96,9 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
     packages.get_path = get_path
     _bound_memory()
     try:
-        # What a file includes lies beside it, wherever it is read from.
+        # Included files are relative to this file, not to the working folder.
         xacrodoc.xacro.init_stacks(str(Path(path).resolve()))
-        # Names of meshes stay as written: what finds them comes later, or never.
+        # Names of meshes stay unchanged: `mesh_folders` resolves them later, if needed.
         expanded = XacroDoc.from_file(path, subargs=arguments, resolve_packages=False)
         if not expanded.dom.getElementsByTagName("link"):
             macros = _MACRO.findall(Path(path).read_text(encoding="utf-8", errors="replace"))
@@ -108,24 +108,24 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
                     f"({', '.join(macros[:5])}): name the file that uses them"
                 }
         return {"text": str(expanded.dom.toprettyxml(indent="  "))}
-    except BaseException as error:  # xacro raises whatever an expression in the file raises.
+    except BaseException as error:  # expressions in the file can raise anything
         if _lacks_memory(error):
             return {"error": f"it needs more than {MEMORY_LIMIT >> 30} GB of memory"}
         return {"error": " ".join(str(error).split()) or type(error).__name__}
 
 
 def _as_installed(package: Path) -> Path:
-    """Return a package's share folder: the sources, with nested folders that CMake installs.
+    """Return a package's folder as installed: with the nested folders that CMake would install.
 
     `install(DIRECTORY description/urdf DESTINATION share/…)` puts urdf/ beside package.xml. A
-    temporary folder of links reproduces that; without such lines the source folder is used.
+    temporary folder of links reproduces this; without such lines the source folder is returned.
     """
     try:
         text = (package / "CMakeLists.txt").read_text(encoding="utf-8", errors="replace")
     except OSError:
         return package
     words = (word for found in _INSTALLED.findall(text) for word in found.split())
-    # A slash at the end installs what is inside, under another name at times: left alone.
+    # A folder with a final slash is skipped: CMake installs its contents, maybe under another name.
     nested = [package / word for word in words if "/" in word.strip("/") and word[-1] != "/"]
     moved = {one.name: one for one in nested if one.is_dir() and package in one.parents}
     if not moved:
@@ -138,7 +138,7 @@ def _as_installed(package: Path) -> Path:
 
 
 def _lacks_memory(error: BaseException | None) -> bool:
-    """Whether an error is a MemoryError, or xacro's own caused by one."""
+    """Whether an error is a MemoryError, or was caused by one."""
     return error is not None and (
         isinstance(error, MemoryError)
         or _lacks_memory(error.__cause__ or error.__context__ or getattr(error, "exc", None))
@@ -146,7 +146,7 @@ def _lacks_memory(error: BaseException | None) -> bool:
 
 
 def _bound_memory() -> None:
-    # Not on Windows, where there is no such limit, and not where /proc tells nothing.
+    # Windows has no such limit; without /proc the memory in use is unknown.
     with contextlib.suppress(ImportError, OSError, ValueError):
         import resource
 

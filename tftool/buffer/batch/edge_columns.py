@@ -170,9 +170,9 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
         raise ValueError(f"{name} hold {given.max()} ns, which does not fit 64 bits")
     if kind not in "iu":
         remedy = {
-            "f": f"np.rint({name} * 1e9).astype(np.int64) makes them of seconds",
-            "M": f"{name}.astype('datetime64[ns]').astype(np.int64) makes them of dates",
-        }.get(kind, "seconds(2.5) makes one of 2.5 seconds")
+            "f": f"np.rint({name} * 1e9).astype(np.int64) converts seconds",
+            "M": f"{name}.astype('datetime64[ns]').astype(np.int64) converts dates",
+        }.get(kind, "write seconds(2.5) for 2.5 seconds")
         raise TypeError(f"{name} are whole nanoseconds (int64), not {given.dtype}: {remedy}")
     # Align the array too: rows in a file's bytes may begin at any address.
     return np.require(given, np.int64, ["C", "A"])
