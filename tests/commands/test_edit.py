@@ -114,7 +114,7 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (["-o", "b.mcap", "--restamp", "now"], 2, "takes 'log'"),
         (["-o", "b.mcap", "--everywhere"], 2, "--everywhere goes with"),
         (["-o", "b.mcap", "--record-time"], 2, "--record-time goes with"),
-        (["-o", "b.mcap", "--from", "9", "--to", "3"], 2, "--to lies before --from"),
+        (["-o", "b.mcap", "--from", "9", "--to", "3"], 2, "--to is before --from"),
         (["-o", "b.mcap", "--from", "900"], 2, "Nothing was recorded after --from: it ends "),
         (["-o", "b.mcap", "--from", "900", "--record-time"], 2, "recorded after --from"),
         (["-o", "b.mcap", "--to", "100000000"], 2, "Nothing was recorded before --to: it begins "),

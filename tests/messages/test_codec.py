@@ -199,10 +199,18 @@ def made(text):
         ("string data", struct.pack("<I", 4) + b"a\x00b\x00", "continues after its zero byte"),
         ("string<=2 data", struct.pack("<I", 4) + b"abc\x00", "longer than 2 characters"),
         ("float64 data", bytes(7), "8 bytes are announced and 7 have arrived"),
-        ("float64[] data", struct.pack("<I", 1 << 31), "announces 2147483648 items and 0 bytes"),
+        (
+            "float64[] data",
+            struct.pack("<I", 1 << 31),
+            "announces 2147483648 items, but only 0 bytes",
+        ),
         ("uint8[<=2] data", struct.pack("<I", 3) + b"abc", "3 items, but at most 2 are allowed"),
-        ("string[] data", struct.pack("<I", 100) + bytes(99), "announces 100 items and 99 bytes"),
-        ("std_msgs/Header[] d", struct.pack("<I", 9) + bytes(99), "announces 9 items and 99"),
+        (
+            "string[] data",
+            struct.pack("<I", 100) + bytes(99),
+            "announces 100 items, but only 99 bytes",
+        ),
+        ("std_msgs/Header[] d", struct.pack("<I", 9) + bytes(99), "announces 9 items, but only 99"),
         ("uint8 data", b"\x01" + bytes(8), "8 bytes are left over"),
         ("uint8[36] data", bytes(35), "36 bytes are announced and 35 have arrived"),
     ],
@@ -227,7 +235,7 @@ def test_a_header_of_another_encoding_is_refused(payload, told):
 def test_a_message_larger_than_we_read_is_refused_unread(monkeypatch):
     monkeypatch.setattr(layouts, "LARGEST", 100)
 
-    with pytest.raises(MalformedMessage, match="more than we read"):
+    with pytest.raises(MalformedMessage, match="more than the maximum"):
         codec(INTERFACES.message("std_msgs/String")).decode(CDR.header + bytes(100))
 
 
@@ -267,7 +275,7 @@ def test_an_empty_message_may_come_without_its_byte():
         ("std_msgs/Header[] data", "data", [5], "does not fit"),
         ("float64[] data", "data", array.array("d", [1.0]), ""),
         ("uint8[<=2] data", "data", array.array("B", [1, 2, 3]), "at most 2 values, not 3"),
-        ("float64[3] data", "data", np.zeros(2), "takes 3 values, not 2"),
+        ("float64[3] data", "data", np.zeros(2), "needs 3 values, not 2"),
     ],
 )
 def test_a_value_that_was_changed_in_place_and_does_not_fit_is_not_written(text, name, value, told):

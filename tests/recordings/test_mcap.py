@@ -171,7 +171,7 @@ def test_an_existing_recording_is_replaced_only_when_asked_to(tmp_path):
 def test_a_place_that_cannot_be_written_is_refused_with_a_sentence(tmp_path):
     with pytest.raises(InputError, match="there is no folder"):
         tftool.write_recording(tmp_path / "missing" / "a.mcap")
-    with pytest.raises(UsageError, match="no compression of MCAP"):
+    with pytest.raises(UsageError, match="not a compression of MCAP"):
         tftool.write_recording(tmp_path / "a.mcap", compression="rar")
     with pytest.raises(UsageError, match="has no suffix of a recording"):
         tftool.write_recording(tmp_path / "a.txt")

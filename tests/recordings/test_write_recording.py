@@ -83,11 +83,11 @@ def test_rosbags_reads_it(tmp_path, name, options):
 def test_what_cannot_be_written_leaves_nothing(tmp_path):
     with pytest.raises(UsageError, match="has no suffix of a recording"):
         tftool.write_recording(tmp_path / "a.txt")
-    with pytest.raises(UsageError, match="no compression of ROS 1 bags"):
+    with pytest.raises(UsageError, match="not a compression of ROS 1 bags"):
         tftool.write_recording(tmp_path / "a.bag", compression="zstd")
     with pytest.raises(UsageError, match="not compressed"):
         tftool.write_recording(tmp_path / "a.db3", compression="zstd")
-    with pytest.raises(UsageError, match="no storage"):
+    with pytest.raises(UsageError, match="not a storage"):
         tftool.write_recording(tmp_path / "a", storage="papyrus")
     with pytest.raises(InputError, match="no folder"):
         tftool.write_recording(tmp_path / "nowhere" / "a")

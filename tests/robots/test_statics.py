@@ -84,11 +84,11 @@ def test_what_is_computed_is_passed_over_and_said(tmp_path):
 @pytest.mark.parametrize(
     ("name", "text", "told"),
     [
-        ("a.launch.xml", "<launch><node", "no XML"),
+        ("a.launch.xml", "<launch><node", "not XML"),
         ("a.launch.xml", '<!DOCTYPE x [<!ENTITY a "b">]><launch>&a;</launch>', "DOCTYPE"),
         ("a.launch.xml", "<launch/>", "No static_transform_publisher"),
-        ("a.launch.yaml", "launch: [", "no YAML"),
-        ("a.launch.py", "def generate_launch_description():\n    (", "no Python"),
+        ("a.launch.yaml", "launch: [", "not YAML"),
+        ("a.launch.py", "def generate_launch_description():\n    (", "not Python"),
         ("a.sh", "static_transform_publisher 1 2 3\n", "8 words"),
         ("a.launch.xml", '<launch><node exec="static_transform_publisher" args="$(v)"/></launch>',
          "computed when it runs"),

@@ -1,6 +1,6 @@
-"""Paths, keys and headers of cached columns, without their arrays.
+"""Paths, keys and headers of a recording's cached columns, readable without numpy.
 
-The frames of a recording can be read from here in milliseconds, without numpy.
+With this module, the frame names of a cached recording are read in milliseconds.
 """
 
 import hashlib
@@ -16,10 +16,10 @@ from tftool.base.named_files import open_regular
 from tftool.recordings.find import METADATA, Found
 
 FORMAT: Final = 3
-"""Is raised whenever the same recording would give other columns, or they lie otherwise."""
+"""Version of the cache; raised when columns of the same recording would change, or their layout."""
 
 WORTHWHILE: Final = 4 << 20
-"""Bytes of a recording from which its columns are kept; shorter ones are read as quickly."""
+"""Size of a recording, bytes, from which its columns are cached; small ones are read quickly."""
 
 MAGIC: Final = b"tftool columns\n"
 SUFFIX: Final = ".columns"
@@ -29,9 +29,9 @@ _MOST_HEAD: Final = 64 << 20
 
 
 def default_folder() -> Path | None:
-    """Return the cache folder: in `XDG_CACHE_HOME`, else this system's usual place.
+    """Return the folder of the cache: in `XDG_CACHE_HOME`, else the system's usual place.
 
-    None if HOME is not set, and the system knows no home of the user.
+    None if HOME is not set and the system does not know the user's home.
     """
     given = os.environ.get("XDG_CACHE_HOME", "")
     if os.path.isabs(given):
@@ -49,11 +49,11 @@ def default_folder() -> Path | None:
 
 
 def key_of(found: Found, *, any_size: bool = False) -> str:
-    """Return a recording's cache key; "" if caching is not worthwhile.
+    """Return a recording's key in the cache; "" if caching is not worthwhile.
 
     Args:
         found: The recording.
-        any_size: Short ones too: completion alone caches their columns, as reading costs it most.
+        any_size: Whether small recordings are cached too, as completion needs.
 
     Raises:
         OSError: If a file of the recording cannot be read.
@@ -89,10 +89,10 @@ def _files(found: Found) -> Iterator[Path]:
 
 
 def head_size(start: bytes) -> int:
-    """Return the number of header bytes of an entry, from its first bytes.
+    """Return the number of header bytes of a cache entry, from the entry's first bytes.
 
     Raises:
-        ValueError: If the bytes do not begin as an entry does.
+        ValueError: If the bytes are not the beginning of an entry.
     """
     length = int.from_bytes(start[len(MAGIC) : len(MAGIC) + 8], "little")
     if not start.startswith(MAGIC) or not 0 < length <= _MOST_HEAD:
@@ -101,14 +101,14 @@ def head_size(start: bytes) -> int:
 
 
 def parsed_head(data: bytes, key: str) -> dict[str, Any]:
-    """Parse the header of an entry.
+    """Return the header of a cache entry.
 
     Args:
         data: Bytes of the entry before the columns.
         key: Key of the entry.
 
     Raises:
-        ValueError: If the head differs from the written one.
+        ValueError: If the header is damaged, or belongs to another recording.
     """
     start = len(MAGIC) + 12
     if head_size(data[:start]) != len(data):
@@ -123,7 +123,7 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
 
 
 def frames_kept(found: Found) -> list[str] | None:
-    """Return a recording's cached frame names, sorted; None if it is not cached."""
+    """Return the frame names of a recording from the cache, sorted; None if it is not cached."""
     folder = default_folder()
     if folder is None:
         return None

@@ -1,4 +1,4 @@
-"""One recorded stream of messages, its offered quality of service, and the interface of writers."""
+"""One recorded stream of messages, its quality of service, and the interface of file writers."""
 
 import re
 from dataclasses import dataclass, replace
@@ -34,7 +34,7 @@ _OFFERED: Final = """\
 """
 
 NUMBERS_BELOW: Final = 9
-"""Versions of rosbag2's metadata below this write policies as numbers."""
+"""Version of rosbag2's metadata from which QoS policies are words; before, they are numbers."""
 
 _POLICIES: Final = {
     "history": ("system_default", "keep_last", "keep_all", "unknown"),
@@ -52,9 +52,9 @@ class Offers:
     """Quality of service that a topic's publishers offered, as far as recorded.
 
     Attributes:
-        durability: "transient_local" if any offers it, "volatile", or empty if unknown.
-        reliability: "reliable" if any offers it, "best_effort", or empty.
-        count: Number of noted offers.
+        durability: "transient_local" if a publisher offers it, else "volatile"; empty if unknown.
+        reliability: "reliable" if a publisher offers it, else "best_effort"; empty if unknown.
+        count: Number of recorded offers.
     """
 
     durability: str = ""
@@ -64,7 +64,7 @@ class Offers:
 
 @lru_cache(maxsize=1024)
 def offers_of(text: str) -> Offers:
-    """Parse QoS profiles: numbers up to rosbag2's version 8, then words."""
+    """Parse recorded QoS profiles, whose policies are numbers or words."""
     found: dict[str, list[str]] = {"durability": [], "reliability": []}
     for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
         plain = word.strip("\"'")
@@ -85,18 +85,18 @@ def offers_of(text: str) -> Offers:
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """A stream of messages: a channel of MCAP, a row of `topics`, a connection of ROS 1.
+    """A recorded stream: a channel in MCAP, a row of `topics` in sqlite, a connection in ROS 1.
 
     Texts are as recorded: bytes that are not UTF-8 are kept as surrogates (`readable` shows them).
 
     Attributes:
-        topic: Name.
-        type: The messages' type.
-        encoding: Encoding of its messages: "cdr", "ros1", "json", "protobuf".
+        topic: Name of the topic.
+        type: Type of the messages.
+        encoding: Encoding of the messages: "cdr", "ros1", "json", "protobuf".
         schema_encoding: Language of the definition: "ros2msg", "ros1msg", "protobuf".
-        definition: The type's definition.
-        metadata: Further facts of the stream, by MCAP's keys: "offered_qos_profiles",
-            "topic_type_hash", and of ROS 1 "callerid", "latching", "md5sum".
+        definition: Definition of the type, as bytes.
+        metadata: Further facts about the stream, by MCAP's keys: "offered_qos_profiles",
+            "topic_type_hash", and for ROS 1 "callerid", "latching", "md5sum".
     """
 
     topic: str
@@ -107,35 +107,35 @@ class Channel:
     metadata: tuple[tuple[str, str], ...] = ()
 
     def extra(self, key: str) -> str:
-        """Return the metadata for a key; "" if there is none."""
+        """Return the channel's metadata for a key; "" if there is none."""
         return dict(self.metadata).get(key, "")
 
     @property
     def text(self) -> str:
-        """Return the definition if it is text; else ""."""
+        """Return the type's definition if it is text; else ""."""
         if self.schema_encoding not in _TEXTS:
             return ""
         return self.definition.decode("utf-8", "backslashreplace")
 
     @property
     def message_text(self) -> str:
-        """Return the definition if it lists fields as .msg files do; else ""."""
+        """Return the type's definition if it lists fields as .msg files do; else ""."""
         return self.text if self.schema_encoding in _MESSAGE_TEXTS else ""
 
     @property
     def node(self) -> str:
-        """Return the publishing node; "" if not recorded."""
+        """Return the name of the publishing node; "" if not recorded."""
         return self.extra("callerid")
 
     @property
     def offers(self) -> Offers:
-        """Return the offered quality of service."""
+        """Return the quality of service that the topic's publishers offered."""
         if self.extra("latching") == "1":
             return Offers(TRANSIENT_LOCAL, "", 1)
         return offers_of(self.extra("offered_qos_profiles"))
 
     def readable(self) -> "Channel":
-        """Return the stream with control characters escaped."""
+        """Return the channel with the control characters in its texts escaped."""
         texts = (
             self.topic,
             self.type,
@@ -159,14 +159,14 @@ def _readable(text: str) -> str:
 
 
 class ContainerWriter(Protocol):
-    """Writer of one file; it starts when made, and is closed by `finish`."""
+    """Writer of one recording file; the constructor creates it, and `finish` completes it."""
 
     @property
     def size(self) -> int:
-        """Bytes written so far, including buffered ones."""
+        """Bytes written so far, including buffered bytes."""
 
     def channel(self, channel: Channel) -> int:
-        """Register a stream; return its number for `write`."""
+        """Register a channel; return its number for `write`."""
 
     def write(
         self,
@@ -176,27 +176,27 @@ class ContainerWriter(Protocol):
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message."""
+        """Append a message to a channel."""
 
     def finish(self) -> None:
-        """Write the end of the file, and close it."""
+        """Write the end of the file (an index, for example), and close the file."""
 
     def abandon(self) -> None:
-        """Close the file without its end."""
+        """Close the file without writing its end."""
 
 
 def offers_text(static: bool) -> str:
-    """Return the QoS of a publisher of transforms as text.
+    """Return the QoS profile of a publisher of transforms, as recorded text.
 
     Args:
-        static: Whether late subscribers get the last message too.
+        static: Whether the publisher also sends its last message to late subscribers.
     """
     durability = "transient_local" if static else "volatile"
     return _OFFERED.format(depth=1 if static else 100, durability=durability)
 
 
 def restyled(text: str, version: int) -> str:
-    """Return offered QoS with policies in the form of a metadata version."""
+    """Return QoS profiles with policies in the form of a version of rosbag2's metadata."""
 
     def policy(match: "re.Match[str]") -> str:
         before, name, value = match.groups()

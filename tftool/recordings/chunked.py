@@ -1,4 +1,4 @@
-"""Files whose messages are packed in chunks: read by index or sequentially, and written."""
+"""Base classes to read and write files whose messages are packed in chunks: MCAP and ROS 1."""
 
 import io
 import itertools
@@ -31,24 +31,26 @@ from tftool.recordings.contract import Indexes, Stamps
 from tftool.recordings.decompression import Ahead, Packed, compressor, unpack, unpack_beginning
 
 FAULTS: Final = (InputError, struct.error, KeyError)
-"""Errors of a record that is damaged."""
+"""Exceptions that damaged records raise."""
 
 _MOST_NOTED: Final = 20
-_LARGE_PIECE: Final = 1 << 16  # bytes from which on joining costs more than a write of its own
+_LARGE_PIECE: Final = (
+    1 << 16
+)  # bytes; joining larger pieces costs more than writing them separately
 
 NOTHING_YET: Final = 2**64 - 1
-"""First log time of no messages."""
+"""First log time while there are no messages."""
 
 
 def reason_of(error: Exception) -> str:
-    """Return why a record cannot be read."""
+    """Return why a record cannot be read, as part of a sentence."""
     if isinstance(error, KeyError):
         return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
     return "a record is cut" if isinstance(error, struct.error) else str(error)
 
 
 class WalkedMessages:
-    """Messages found by a walk through records, as columns."""
+    """Columns of messages that were found by reading records one by one, without an index."""
 
     __slots__ = ("channels", "lengths", "log_times", "starts")
 
@@ -62,44 +64,44 @@ class WalkedMessages:
         return len(self.starts)
 
     def append(self, channel: int, log_time: int, start: int, length: int) -> None:
-        """Append a message: channel, log time, and its payload's offset and length."""
+        """Append a message: channel, log time, offset and length of its payload."""
         self.channels.append(channel)
         self.log_times.append(min(log_time, LAST_STAMP))
         self.starts.append(start)
         self.lengths.append(length)
 
     def extend(self, others: "WalkedMessages") -> None:
-        """Append messages."""
+        """Append the messages of another object of this class."""
         for name in self.__slots__:
             getattr(self, name).extend(getattr(others, name))
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """Return first and last log time; 0 if there is none."""
+        """Return the first and the last log time; 0 without messages."""
         return min(self.log_times, default=0), max(self.log_times, default=0)
 
 
 @dataclass(slots=True, eq=False)
 class Chunk:
-    """One chunk of a file with its index; see `Block`.
+    """One chunk of a file, with the facts in the file's index; see `Block`.
 
     Attributes:
-        reader: Reader of its file.
-        position: Offset of its record.
-        place: Offset of its packed data; 0 while unknown.
-        packed: Bytes of the data there.
-        size: Bytes of it unpacked.
+        reader: Reader of the file.
+        position: Offset of the chunk's record.
+        place: Offset of the compressed data; 0 while unknown.
+        packed: Size of the compressed data, bytes.
+        size: Size of the uncompressed data, bytes.
         method: Compression.
-        start: Log time of its first message.
-        end: Log time of its last message.
+        start: Log time of the first message.
+        end: Log time of the last message.
         crc: CRC of the uncompressed data; 0 for none.
         cut: Whether the file ends within the chunk.
-        length: Bytes of its record.
-        behind: Offset of the record after its message indexes.
-        indexes: For each channel where its message index begins, in MCAP.
-        counts: Number of messages of each channel, by the indexes; None if unknown.
+        length: Size of the chunk's record, bytes.
+        behind: Offset of the record after the chunk's message indexes.
+        indexes: Offset of each channel's message index, in MCAP.
+        counts: Number of messages of each channel, from the indexes; None if unknown.
         whole: Whether the chunk may be copied unchanged.
-        walked: Messages found by reading the chunk, if no index gives them.
+        walked: Messages found by reading the chunk's records, if there is no index.
     """
 
     reader: "ChunkedReader"
@@ -127,23 +129,23 @@ class Chunk:
 
     @property
     def owners(self) -> Collection[int]:
-        """Return the channels with messages in the chunk, by its indexes."""
+        """Return the numbers of the channels with messages in the chunk, from its indexes."""
         return self.indexes.keys() or (self.counts or {}).keys()
 
     def raw(self) -> Piece:
-        """Return the bytes of its record and of its message indexes."""
+        """Return the byte range of the chunk's record and its message indexes."""
         return Piece(self.reader.fileno(), self.position, self.behind - self.position)
 
     def table(self) -> MessageTable:
-        """Return its messages; of a damaged chunk those before the damage."""
+        """Return the chunk's messages; from a damaged chunk, the messages before the damage."""
         by_index = self.whole and self.counts and self.sound()
         found = self.reader.indexed_table(self) if by_index else None
         return self.reader.walked_table(self) if found is None else found
 
     def sound(self) -> bool:
-        """Whether the content is as written, as far as a checksum can show.
+        """Whether the chunk's content is undamaged, as far as a checksum can show.
 
-        The first calling thread finds it out; others must wait for its answer.
+        The first calling thread computes the checksum; other threads wait for its result.
         """
         if not self._is_examined:
             if self.is_packed:
@@ -157,12 +159,12 @@ class Chunk:
 
 
 class ChunkedReader(File):
-    """File of chunks; subclasses know how records are read. See `ContainerReader`.
+    """Base class of readers of files in chunks; see `ContainerReader`.
 
     Attributes:
         damage: Sentences about damage, each once, limited in number.
         is_indexed: Whether the file has an index.
-        schemas: Types by their numbers, where they have any: name, encoding, definition.
+        schemas: Name, encoding and definition of each message type, by number, in MCAP.
     """
 
     kind = ""
@@ -186,12 +188,12 @@ class ChunkedReader(File):
         self.style = style
         self.is_indexed = True
         self.schemas: dict[int, tuple[str, str, bytes]] = {}
-        self._numbers: dict[int, int] = {}  # of a channel: its place in `streams`
+        self._numbers: dict[int, int] = {}  # index in `streams`, by the channel's number
         self._chunks: list[Chunk] = []
         self._damaged: set[Chunk] = set()
         try:
             if self.up_to(0, len(self.magic)) != self.magic:
-                raise InputError(f"'{path}' is no {self.kind}{' file' * (self.kind == 'MCAP')}.")
+                raise InputError(f"'{path}' is not a {self.kind}{' file' * (self.kind == 'MCAP')}.")
         except BaseException:
             self.close()
             raise
@@ -199,12 +201,12 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Record damage."""
+        """Add a sentence about damage of the file."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 
     def note_chunk(self, chunk: Chunk, reason: str) -> None:
-        """Record the first damage of a chunk; later damage follows from it."""
+        """Note a chunk's first damage, which causes any later damage in the chunk."""
         chunk.whole = False
         if chunk not in self._damaged:
             self._damaged.add(chunk)
@@ -213,7 +215,7 @@ class ChunkedReader(File):
     # Channels
 
     def _learn(self, number: int, channel: Channel) -> None:
-        """Register a channel of a record; the first one with a number wins."""
+        """Register the channel of a record, unless its number is known already."""
         self.channels[number] = channel
         if len(self.streams) < MOST_STREAMS:
             self._numbers[number] = len(self.streams)
@@ -221,7 +223,7 @@ class ChunkedReader(File):
             self.counts.append(0)
 
     def _forget(self) -> None:
-        """Drop the known channels and chunks."""
+        """Drop all channels and chunks found so far."""
         for one in (self.channels, self.streams, self.counts, self._numbers, self._chunks):
             one.clear()
 
@@ -231,9 +233,9 @@ class ChunkedReader(File):
                 self.counts[self._numbers[channel]] += count
 
     def _scan(self, chunks: Iterator[Chunk]) -> None:
-        """List the contents of a file without an index, to its end or its damage.
+        """Find the channels and chunks of a file without an index, up to its end or damage.
 
-        A chunk is walked if its indexes do not tell all: its own records may describe channels.
+        A chunk's records are read only if its indexes are incomplete: they may describe channels.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -246,10 +248,10 @@ class ChunkedReader(File):
                 self._count(chunk.counts)
 
     def _note_end(self, position: int) -> None:
-        """Record where a sequentially read file is cut off.
+        """Note the offset at which a file that is read sequentially is cut off.
 
         Raises:
-            InputError: If nothing was found up to there.
+            InputError: If nothing was found before this offset.
         """
         found = sum(self.counts)
         self.damage.append(
@@ -262,29 +264,29 @@ class ChunkedReader(File):
             )
 
     def origin(self, number: int) -> Any:
-        """Return a channel's description in the file, for `adopt` of the container's writer."""
+        """Return a channel's description in the file, for `adopt` of the writer of this format."""
         raise NotImplementedError
 
     # A chunk's messages
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """Return the messages in some records.
+        """Yield the headers of all messages in some records.
 
         Args:
-            data: The records.
-            learns: Whether to register their channels.
+            data: Bytes of the records.
+            learns: Whether to register channels that the records describe.
 
         Raises:
-            InputError: At a record that is damaged; others of `FAULTS` likewise.
+            InputError: If a record is damaged; the other errors of `FAULTS` are possible too.
         """
         raise NotImplementedError
 
     def unpacked(self, chunk: Chunk, ahead: Ahead | None = None) -> "bytes | memoryview":
-        """Decompress a chunk; of a cut or damaged one return as many bytes as possible.
+        """Decompress a chunk; return as many bytes as possible if it is cut or damaged.
 
         Args:
             chunk: The chunk.
-            ahead: Pool that may be unpacking it already.
+            ahead: Pool of threads that may be decompressing the chunk already.
 
         Raises:
             InputError: If not even the compressed bytes can be read.
@@ -304,7 +306,7 @@ class ChunkedReader(File):
             return unpack_beginning(chunk.method, data, chunk.size)
 
     def examined(self, chunk: Chunk) -> bytes | None:
-        """Decompress a chunk and check its CRC; return None if it is cut or damaged."""
+        """Decompress a chunk and check its CRC; return None if it is cut off or damaged."""
         if chunk.cut or chunk in self._damaged:
             return None
         try:
@@ -317,7 +319,7 @@ class ChunkedReader(File):
         return data
 
     def check_crc(self, chunk: Chunk, crc: int) -> None:
-        """Compare a chunk's CRC with that of its data."""
+        """Compare the CRC of a chunk's data with that in the file; note a difference."""
         if crc != chunk.crc:
             self.note(
                 f"The CRC of the chunk at byte {chunk.position} is wrong: its messages are "
@@ -326,7 +328,7 @@ class ChunkedReader(File):
             chunk.whole = False
 
     def walked_table(self, chunk: Chunk) -> MessageTable:
-        """Walk through a chunk: return its messages, and register the channels in its records."""
+        """Return the messages in a chunk's records; register the channels they describe."""
         heads: list[MessageHead] = []
         data = self.examined(chunk)
         if data is None:
@@ -346,7 +348,7 @@ class ChunkedReader(File):
         return found
 
     def indexed_table(self, chunk: Chunk) -> MessageTable | None:
-        """Return a sound chunk's messages as columns; None if its indexes are incomplete."""
+        """Return an undamaged chunk's messages as columns; None if its indexes are incomplete."""
         data = np.frombuffer(self.unpacked(chunk), dtype=np.uint8)
         try:
             parts = list(self._parts(chunk, data))
@@ -360,7 +362,7 @@ class ChunkedReader(File):
             if (begins < ends).any():
                 return None
             for gap in np.flatnonzero(begins > ends).tolist():
-                # Records between messages were read before, unless they are messages.
+                # Other records between messages are known; a message means an incomplete index.
                 between = data[ends[gap] : begins[gap]].tobytes()
                 if any(True for _ in self._heads(between, learns=False)):
                     return None
@@ -371,23 +373,23 @@ class ChunkedReader(File):
             return None
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Return the message facts in a chunk's indexes.
+        """Yield the places of messages in a chunk, from the chunk's indexes.
 
         Returns:
-            For each channel its number, and of each message where the record and the payload
-            begin, and the payload's length, shape (n,).
+            For each channel its number, and for each message the offsets of the record and of the
+            payload, and the payload's length, shape (n,).
 
         Raises:
-            InputError: If the index does not point at messages; also the others of `FAULTS`.
+            InputError: If the index does not point to messages; other `FAULTS` are possible too.
         """
         raise NotImplementedError
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, publish times and sequences of messages, by payload offset."""
+        """Return log times, publish times and sequence numbers, by payload offsets."""
         raise NotImplementedError
 
     def known(self, messages: MessageTable) -> MessageTable:
-        """Return the messages whose channel is known."""
+        """Return the messages whose channel is known; note others as damage."""
         is_known = np.isin(messages.channels, list(self.channels))
         if is_known.all():
             return messages
@@ -395,12 +397,12 @@ class ChunkedReader(File):
         return messages.chosen(np.flatnonzero(is_known))
 
     def _walk(self, chunk: Chunk, *, learns: bool) -> None:
-        """Walk through a chunk's records and collect its messages.
+        """Read a chunk's records one by one; store the messages in `chunk.walked`.
 
         Args:
             chunk: The chunk.
-            learns: Whether to count them, and to learn of channels: those that were found when
-                the file was opened stay as they are.
+            learns: Whether to count the messages, and to register new channels. Known channels are
+                not changed.
         """
         found = chunk.walked = WalkedMessages()
         try:
@@ -413,13 +415,13 @@ class ChunkedReader(File):
         if learns:
             self._count(Counter(found.channels))
         if chunk.cut or len(found):
-            # The announced end may not have been reached.
+            # The chunk may end before the end that its record gives.
             chunk.start, chunk.end = found.span
 
     # Batches
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the number of messages of some streams, as the file counts them."""
+        """Return the number of messages of some streams, from the file's counts."""
         return sum(self.counts[number] for number in wanted)
 
     def _chosen(self, wanted: Collection[int]) -> dict[int, int]:
@@ -429,7 +431,7 @@ class ChunkedReader(File):
     def _chunk_batches(
         self, chosen: dict[int, int], batch_of: "Callable[[Chunk, Ahead], Batch | None]"
     ) -> Iterator[tuple[Chunk, Batch | None]]:
-        """Yield every chunk with its messages of chosen channels, if any."""
+        """Yield every chunk with a batch of its messages of chosen channels, or None."""
         read = [
             chunk.walked is not None or any(owner in chosen for owner in chunk.owners)
             for chunk in self._chunks
@@ -453,7 +455,7 @@ class ChunkedReader(File):
                 yield chunk, batch if batch is not None and len(batch) else None
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the part of a chunk to decompress ahead; None if it is read otherwise."""
+        """Return the data of a chunk to decompress ahead of reading; None if there is none."""
         if chunk.cut or not chunk.is_packed:
             return None
         return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size
@@ -461,7 +463,7 @@ class ChunkedReader(File):
     def _rest_of(
         self, chunk: Chunk, chosen: dict[int, int], ahead: Ahead | None = None
     ) -> Batch | None:
-        """Return the messages found by walking through a chunk, whatever its index says."""
+        """Return chosen messages found by reading a chunk's records, without its index."""
         if chunk.walked is None:
             if not chunk.place:
                 return None
@@ -481,7 +483,7 @@ class ChunkedReader(File):
 
 
 def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
-    """Return the stream of each channel; -1 for channels not chosen."""
+    """Return the stream number of each channel; -1 for channels that are not chosen."""
     owners = np.frombuffer(channels, dtype=np.uint32)
     if not chosen:
         return np.full(len(owners), -1, dtype=np.int32)
@@ -492,27 +494,27 @@ def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
 
 
 class ChunkedWriter:
-    """File of chunks being written; subclasses know its records. See `ContainerWriter`.
+    """Base class of writers of files in chunks; see `ContainerWriter`.
 
-    A chunk is written to the file when it is closed, by its size or by `flush`; the file can be
-    read up to there, whatever happens afterwards.
+    A chunk is written when it is full, or by `flush`. Up to the last written chunk, the file can be
+    read even if the program crashes.
 
     Attributes:
-        method: Compression of its chunks.
-        position: Bytes in the file so far.
-        counts: Messages by channel.
-        first_free: The first number for channels that come without one.
+        method: Compression of the chunks.
+        position: Number of bytes in the file so far.
+        counts: Number of messages by channel.
+        first_free: First number for channels without a given number.
     """
 
     first_free = 0
 
     def __init__(self, path: Path, method: str, *, with_crc: bool = False) -> None:
-        """Create the file; an existing one is replaced.
+        """Create the file; replace an existing file.
 
         Args:
-            path: Path.
-            method: Compression of its chunks.
-            with_crc: Whether to compute the CRC of all that is written.
+            path: Path of the file.
+            method: Compression of the chunks.
+            with_crc: Whether to compute the CRC of all written bytes.
 
         Raises:
             UsageError: If the compression is not installed.
@@ -522,7 +524,9 @@ class ChunkedWriter:
         self._pack: Callable[[bytes], bytes] = compressor(method)
         self._known: dict[Channel, int] = {}
         self._channel_records: dict[int, bytes] = {}
-        self._defined: set[int] = set()  # channels whose records are in the file or the chunk
+        self._defined: set[int] = (
+            set()
+        )  # channels whose records are in the file or the current chunk
         self.counts: dict[int, int] = {}
         self.position = 0
         self._with_crc = with_crc
@@ -539,11 +543,11 @@ class ChunkedWriter:
 
     @property
     def size(self) -> int:
-        """Bytes written so far, those buffered for the chunk included."""
+        """Bytes written so far, including the bytes buffered for the current chunk."""
         return self.position + self._length
 
     def abandon(self) -> None:
-        """Close the file unfinished; its content can be read up to its end."""
+        """Close the file without its index; readers can still read it sequentially."""
         self._file.close()
 
     def _keep(self, piece: bytes) -> None:
@@ -556,7 +560,7 @@ class ChunkedWriter:
         self.position = self._file.seek(self.position + piece.length)
 
     def _put(self, *pieces: bytes) -> None:
-        """Append to the file, or on failure remove the incomplete part."""
+        """Append bytes to the file; if that fails, remove the incomplete part."""
         for run in _runs(pieces):
             view = memoryview(run)
             while view:
@@ -568,7 +572,7 @@ class ChunkedWriter:
 
 
 def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
-    """Join small pieces so that they are written together; keep large ones."""
+    """Join small pieces of bytes, so that they are written together; yield large ones unchanged."""
     small: list[bytes] = []
     for piece in pieces:
         if len(piece) < _LARGE_PIECE:

@@ -1,8 +1,8 @@
-"""Cache of decoded columns in the user's cache folder.
+"""Cache of recordings' decoded columns, in the user's cache folder.
 
-The key of an entry is made of its recording's files: paths, sizes, times, and the bytes at both
-ends. An incomplete or altered entry counts as missing: it may be cut, belong to another program, or
-be in the middle of being written.
+The key of an entry is computed from the recording's files: paths, sizes, times, and their first and
+last bytes. An incomplete or changed entry counts as missing: another process may be writing it, or
+the file may belong to another program.
 """
 
 import contextlib
@@ -23,10 +23,10 @@ from tftool.recordings.contract import Edge, Publisher, Transforms
 from tftool.recordings.find import Found
 
 MOST_BYTES: Final = 1 << 30
-"""Bytes of the whole cache: entries not used for longest go first."""
+"""Maximum size of the whole cache, bytes; the least recently used entries are removed first."""
 
 LARGEST: Final = MOST_BYTES // 2
-"""Bytes of one recording's entry."""
+"""Maximum size of one recording's entry, bytes."""
 
 
 class ColumnCache:
@@ -37,13 +37,13 @@ class ColumnCache:
 
         Args:
             folder: Folder of the entries.
-            most_bytes: Bytes of all of them.
+            most_bytes: Maximum size of all entries, bytes.
         """
         self.folder = folder
         self._most_bytes = most_bytes
 
     def load(self, key: str) -> Transforms | None:
-        """Return the entry for a key; None if it is missing or damaged."""
+        """Return the cached columns of a key; None if the entry is missing or damaged."""
         if not key:
             return None
         path = self.folder / f"{key}{SUFFIX}"
@@ -56,16 +56,16 @@ class ColumnCache:
                 if file.readinto(data) != size:
                     return None
             found = _unpacked(data, key)
-            # The least recently used file, by this time, is removed first.
+            # Entries are removed by this time, the least recently used first.
             os.utime(path)
         except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None
         return found
 
     def store(self, key: str, transforms: Transforms) -> bool:
-        """Store columns under a key; return whether that was possible.
+        """Store columns under a key; return whether this was possible.
 
-        A full disk, or a folder that may not be written to, is no failure of the question.
+        A full disk or a read-only folder raises no error.
         """
         if not key or len(transforms) * 68 > min(LARGEST, self._most_bytes):
             return False
@@ -87,7 +87,7 @@ class ColumnCache:
         return True
 
     def _prune(self) -> None:
-        """Remove the least recently used entries, and incomplete ones."""
+        """Remove the least recently used entries above the limit, and incomplete entries."""
         entries = []
         newest = 0.0
         for path in self.folder.iterdir():
@@ -95,7 +95,7 @@ class ColumnCache:
                 with contextlib.suppress(OSError):
                     status = path.stat()
                     if not stat.S_ISREG(status.st_mode):
-                        continue  # none of ours
+                        continue  # not an entry
                     entries.append((status.st_mtime, status.st_size, path))
                     newest = max(newest, status.st_mtime)
         total = sum(size for _, size, _ in entries)
@@ -103,14 +103,14 @@ class ColumnCache:
             is_left = path.suffix == ".part" and newest - used > 3600
             if not is_left and (total <= self._most_bytes or path.suffix == ".part"):
                 continue
-            # Another process may have been quicker, or hold it open.
+            # Another process may have removed the entry, or keep it open.
             with contextlib.suppress(OSError):
                 path.unlink()
                 total -= size
 
 
 def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
-    """Return an entry's bytes: a JSON header, then all columns, the widest first."""
+    """Yield the bytes of a cache entry: a JSON header, then all columns, the widest first."""
     edges = transforms.edges
     columns: list[np.ndarray[Any, Any]] = [
         transforms.log_times,
@@ -147,10 +147,10 @@ def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
 
 
 def _unpacked(data: bytearray, key: str) -> Transforms:
-    """Parse the columns of an entry.
+    """Return the columns in the bytes of a cache entry.
 
     Raises:
-        ValueError: If the bytes differ from the written ones.
+        ValueError: If the bytes are incomplete or damaged.
     """
     start = head_size(bytes(data[: len(MAGIC) + 12]))
     head = parsed_head(bytes(data[:start]), key)
@@ -160,7 +160,7 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
         raise ValueError("cut")
     if zlib.crc32(memoryview(data)[start:]) != head["check"]:
         raise ValueError("damaged")
-    # One piece each, with rows of every edge: they may be many.
+    # One array for the rows of all edges, because there may be many edges.
     wide = np.frombuffer(data, "<i8", messages + 8 * rows, start)
     narrow = np.frombuffer(data, "<i4", messages + rows, start + wide.nbytes)
     records, places = wide[messages:].reshape(rows, 8), narrow[messages:]
@@ -176,10 +176,10 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
 
 
 class KeptColumns:
-    """Cached columns of one recording."""
+    """Cached columns of one recording, valid while its files do not change."""
 
     def __init__(self, cache: ColumnCache, found: Found) -> None:
-        """Record the current state of the recording's files.
+        """Compute the recording's key from the current state of its files.
 
         Args:
             cache: Cache of the columns.
@@ -190,11 +190,11 @@ class KeptColumns:
         self._key = self._key_now()
 
     def load(self) -> Transforms | None:
-        """Return the columns, if cached."""
+        """Return the recording's columns from the cache; None if they are not cached."""
         return self._cache.load(self._key)
 
     def store(self, transforms: Transforms) -> None:
-        """Store the columns, unless the files have changed meanwhile."""
+        """Store the recording's columns, unless its files have changed meanwhile."""
         if self._key and self._key_now() == self._key:
             self._cache.store(self._key, transforms)
 

@@ -1,4 +1,4 @@
-"""Decoding of recorded messages into columns of transforms per edge, which grow while reading."""
+"""Growing columns of transforms, one set per edge, filled while a recording is read."""
 
 from array import array
 from collections import Counter
@@ -18,25 +18,25 @@ from tftool.messages.transform_rows import (
 from tftool.recordings.contract import Edge, Indexes, Publisher, Stamps, Transforms
 
 MOST_EDGES: Final = 100_000
-"""Edges of one recording; further ones are only counted."""
+"""Maximum number of edges of a recording; transforms of further edges are only counted."""
 
 _NEVER: Final = 2**62, 0
 _FEWEST: Final = 16
-_MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
-_FREELY: Final = 1 << 22  # rows of all edges that are allocated however few have come
-_RECORD: Final = 64  # bytes of a transform's
+_MOST_AHEAD: Final = 16  # maximum ratio of allocated rows to rows read so far
+_FREELY: Final = 1 << 22  # rows of all edges that may be allocated regardless of that ratio
+_RECORD: Final = 64  # bytes of a transform's record
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Batch:
-    """Messages of a recording within one piece of its bytes.
+    """Messages of a recording that are in one buffer of bytes.
 
     Attributes:
         buffer: The bytes.
-        starts: Offset of each message, shape (n,).
-        lengths: Bytes of each, shape (n,); all of them lie in the buffer.
+        starts: Offset of each message in the buffer, shape (n,).
+        lengths: Length of each message, bytes, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
-        senders: Each one's publisher, a number of the reader's, shape (n,).
+        senders: Index of each message's stream in the reader's `streams`, shape (n,).
     """
 
     buffer: Bytes
@@ -54,7 +54,7 @@ class Batch:
         return self.buffer[start : start + int(self.lengths[number])].tobytes()
 
     def chosen(self, which: "Stamps | slice") -> "Batch":
-        """Return the messages at some indices."""
+        """Return a batch of the messages at some indices."""
         return Batch(
             self.buffer,
             self.starts[which],
@@ -65,7 +65,7 @@ class Batch:
 
 
 def in_order(batches: Sequence[Batch]) -> Batch:
-    """Merge batches of one buffer into one, in the order of the messages' offsets."""
+    """Merge batches of one buffer into a single batch, ordered by the messages' offsets."""
     if len(batches) == 1:
         return batches[0]
     starts, lengths, log_times, senders = (
@@ -77,10 +77,10 @@ def in_order(batches: Sequence[Batch]) -> Batch:
 
 
 class _Column:
-    """An array that grows in place: memory not yet written costs nothing.
+    """An array that grows in place; memory that was never written costs nothing.
 
     Attributes:
-        count: Rows that are in it.
+        count: Number of rows in use.
     """
 
     __slots__ = ("_rows", "count")
@@ -90,11 +90,11 @@ class _Column:
         self.count = 0
 
     def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
-        """Append rows to be written, and return them.
+        """Append rows, and return them, to be written.
 
         Args:
             count: Number of rows.
-            share: Part of the recording read so far, 0 to 1.
+            share: Fraction of the recording read so far, 0 to 1.
         """
         first = self.count
         self.count = needed = first + count
@@ -111,51 +111,51 @@ class _Column:
 
 
 def _wanted(needed: int, share: float, freely: int) -> int:
-    """Return the number of rows to make room for.
+    """Return the number of rows to allocate for a growing column.
 
     Args:
-        needed: Smallest number of rows.
-        share: Part of the recording read so far, 0 to 1.
+        needed: Minimum number of rows.
+        share: Fraction of the recording read so far, 0 to 1.
         freely: Number of rows that may be allocated in any case.
     """
-    # The rest is known roughly; to copy the rows so far costs more than addresses
-    # that are never used.
+    # Extrapolate from the fraction read: copying rows later costs more than memory that is
+    # allocated but never used.
     most = max(needed * _MOST_AHEAD, freely)
     likely = int(needed / share * 1.02) if share * most > needed else needed * _MOST_AHEAD
     return max(likely, needed * 3 // 2, _FEWEST)
 
 
 def _room(size: int) -> Bytes:
-    """Allocate bytes to be written."""
-    # A small page costs as much as a hundred transforms.
+    """Allocate bytes that the caller will write."""
+    # The first write to a small page costs as much as a hundred transforms.
     pages = large_pages(size + PAGE, size + PAGE) if size >= PAGE else None
     if pages is None:
         return np.empty(size, dtype=np.uint8)
     whole = np.frombuffer(pages, dtype=np.uint8)
-    # The first whole page: the system maps large pages at multiples of their size only.
+    # Start at the first whole large page: the system aligns them to their size.
     first = -whole.ctypes.data % PAGE
     return whole[first : first + size]
 
 
-# What `Growing.state` holds, by place; the native scan has the same.
+# Indices in `Growing.state`; the native scan uses the same.
 _COUNT, _LAST, _ORDERED, _KEPT, _SLASHED, _MOVED = range(6)
 
 
 class Growing:
-    """Columns of one edge while reading.
+    """Growing columns of one edge, filled while a recording is read.
 
     Attributes:
         parent: Parent frame, as in `Edge`.
         child: Child frame, as in `Edge`.
         static: As in `Edge`.
-        records: Samples in the layout of histories, which take them uncopied; with room.
-        messages: Number of the message of each sample; with room.
-        state: Read and written by the native scan as well: how many rows there are; the last
-            message; whether those have come in order; how many rows from the first on a history
-            would keep as they are, as far as that was looked at; how many had a slash left out
-            of their names; and how often the columns were put elsewhere.
-        first: The first message, and a number that grows with the place of the
-            transform in it.
+        records: Samples in the layout of `History`, which uses them without a copy; with free rows.
+        messages: Number of the message of each sample; with free rows.
+        state: Six numbers, shared with the native scan: number of rows; number of the last
+            message; whether the messages came in order; number of rows at the beginning that
+            are known to be valid for `History`; number of transforms whose leading slash was
+            removed; and how often the columns were moved in memory.
+        first: Number of the first message, and a number that increases with the position of
+            the transform in the message.
     """
 
     __slots__ = ("child", "first", "messages", "parent", "records", "state", "static")
@@ -174,43 +174,43 @@ class Growing:
 
         Args:
             count: Number of rows to add.
-            share: Part of the recording read so far, 0 to 1.
+            share: Fraction of the recording read so far, 0 to 1.
             freely: Number of rows that may be allocated in any case.
 
         Returns:
-            For how many there is room now that there was none for.
+            Number of rows that were added.
         """
         there, before = self.state[_COUNT], len(self.messages)
         needed = there + count
         if needed <= before:
             return 0
-        # One that came once may never come again.
+        # An edge with one transform may never get a second.
         rows = _wanted(needed, share, freely if there else 0)
-        # Both in one piece of memory, whose end alone is not used.
+        # Both columns are in one piece of memory, so that only its end is unused.
         split = rows * _RECORD
         room = _room(split + rows * self.messages.itemsize)
         records, self.records = self.records, room[:split].view(np.int64).reshape(rows, 8)
         messages, self.messages = self.messages, room[split:].view(np.int32)
-        # Only rows that hold something: the rest of the memory is never touched.
+        # Copy only rows in use: other memory is never written, and costs nothing.
         self.records[:there] = records[:there]
         self.messages[:there] = messages[:there]
-        # The native scan holds the addresses: it asks for them anew when this has changed.
+        # The native scan caches the addresses, and reads them again when this number changes.
         self.state[_MOVED] += 1
         return rows - before
 
     def room(
         self, first: tuple[int, int], last: int, count: int, share: float = 1.0
     ) -> tuple[Records, Indexes]:
-        """Return rows for transforms, and the numbers of their messages.
+        """Append rows for transforms; return them with the column of their message numbers.
 
         Args:
-            first: First of the messages, which are in order, and the index in it.
-            last: Last of the messages.
+            first: Number of the first message, and the index of the transform in it.
+            last: Number of the last message.
             count: Number of transforms.
-            share: Part of the recording read so far, 0 to 1.
+            share: Fraction of the recording read so far, 0 to 1.
         """
         state = self.state
-        # Threads may deliver batches in another order; such an edge is sorted at the end.
+        # Threads may deliver batches out of order; such an edge is sorted at the end.
         if state[_LAST] > first[0]:
             state[_ORDERED] = 0
         self.first = min(self.first, first)
@@ -225,24 +225,24 @@ class Growing:
         self.state[_SLASHED] += count
 
     def finished(self) -> Edge:
-        """Return the edge as a value, in the order of the messages."""
+        """Return the edge's columns as an `Edge`, in the order of the messages."""
         count, _, ordered, kept, slashed, _ = self.state
         records, messages = self.records[:count], self.messages[:count]
         if not ordered:
-            # Stable: one message may bring an edge twice.
+            # Stable, because one message may have two transforms of an edge.
             order = np.argsort(messages, kind="stable")
             records, messages, kept = records[order], messages[order], 0
         return Edge(self.parent, self.child, self.static, slashed, records, messages, kept)
 
 
 class Table:
-    """Columns of all edges while reading, and the messages they came in."""
+    """Growing columns of all edges, and of the messages that contain their transforms."""
 
     def __init__(self, expected: int = 0) -> None:
-        """Start empty.
+        """Create an empty table.
 
         Args:
-            expected: About how many messages are to come.
+            expected: Approximate number of messages in the recording; 0 if unknown.
         """
         self._edges: dict[tuple[str, str, bool], Growing] = {}
         self._expected = expected
@@ -251,10 +251,10 @@ class Table:
         self._left_out = 0
         self._freely = _FREELY
         self.refused: Counter[str] = Counter()
-        """Count of refused messages by the reason."""
+        """Number of refused messages, by reason."""
 
     def note(self, log_times: Stamps, senders: Indexes) -> int:
-        """Number messages; return the number of the first."""
+        """Append messages' log times and senders; return the number of the first message."""
         first = self._log_times.count
         share = self.share(first + len(log_times))
         self._log_times.room(len(log_times), share)[:] = log_times
@@ -262,7 +262,7 @@ class Table:
         return first
 
     def share(self, messages: int) -> float:
-        """Return the fraction of the recording that `messages` messages make up."""
+        """Return the fraction of the recording that a number of messages makes up."""
         return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
@@ -281,15 +281,15 @@ class Table:
 
     @property
     def spare(self) -> int:
-        """Return how many more edges are allowed."""
+        """Return how many more edges the table may have."""
         return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:
-        """Reserve a row for one more transform of an edge in that message."""
+        """Add a row for one more transform of an edge, in the message with that number."""
         self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
 
     def leave_out(self, count: int) -> None:
-        """Count transforms without an edge."""
+        """Count transforms that are left out because there are too many edges."""
         self._left_out += count
 
     def append(
@@ -301,7 +301,7 @@ class Table:
         stamp: Stamp,
         seven: tuple[float, ...],
     ) -> None:
-        """Append one transform of a message, with its position in the message."""
+        """Append one transform; `message` is its message's number and its position there."""
         edge = self.edge(parent, child, static, 1)
         if edge is None:
             return
@@ -311,7 +311,7 @@ class Table:
         records.view(np.float64)[0, 1:] = seven
 
     def finished(self, publishers: tuple[Publisher, ...]) -> Transforms:
-        """Return everything as columns."""
+        """Return the columns of all edges and messages."""
         damage = [
             f"{count} {'message was' if count == 1 else 'messages were'} left out: {reason}"
             for reason, count in sorted(self.refused.items(), key=lambda one: (-one[1], one[0]))
@@ -321,7 +321,7 @@ class Table:
                 f"{self._left_out} transforms were left out: there are more than "
                 f"{MOST_EDGES} pairs of frames."
             )
-        # By first appearance: threads and order of cutting must not change the answer.
+        # Order edges by first appearance: the result must not depend on threads.
         edges = sorted(self._edges.values(), key=lambda edge: edge.first)
         return Transforms(
             tuple(edge.finished() for edge in edges),
@@ -333,12 +333,12 @@ class Table:
 
 
 def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
-    """Return the number that begins at each offset, aligned or not.
+    """Return the numbers that begin at some byte offsets, which need not be aligned.
 
     Args:
         buffer: The bytes.
-        places: Offset of each number, shape (n,), all of it within the buffer.
-        kind: Type, "<u4".
+        places: Offset of each number, shape (n,); every number ends within the buffer.
+        kind: numpy's name of the type, for example "<u4".
     """
     size = np.dtype(kind).itemsize
     # Overlapping views with a stride of one byte: unaligned words without a copy.

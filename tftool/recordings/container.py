@@ -1,4 +1,4 @@
-"""Interface of containers: streams of messages, in pieces of bytes."""
+"""Interface of containers (recording files): their streams, and batches of messages."""
 
 import os
 import zlib
@@ -19,14 +19,14 @@ from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import LARGEST
 
 MOST_STREAMS: Final = 65_536
-"""Streams of one recording that are read; those beyond are left out."""
+"""Maximum number of streams read from one recording; further streams are left out."""
 
 LARGEST_TOLD: Final = 1 << 26
-"""Bytes of the largest record that describes a stream: copies are made of it."""
+"""Maximum size of a record that describes a stream, bytes, because the record is copied."""
 
 
 def check_told(count: int) -> None:
-    """Refuse a record that describes a stream and exceeds the size limit.
+    """Raise an error if a record that describes a stream exceeds the size limit.
 
     Raises:
         InputError: If the size is too large.
@@ -38,12 +38,12 @@ def check_told(count: int) -> None:
 
 
 class Taken(NamedTuple):
-    """One message with everything its container stores about it.
+    """One message with everything that its container stores about it.
 
     Attributes:
         channel: Number of the channel in its file.
         log_time: Time of reception, nanoseconds.
-        payload: Bytes.
+        payload: Bytes of the message.
         publish_time: Time of publication, nanoseconds; `log_time` if not recorded.
         sequence: Publisher's sequence number; 0 if not recorded.
     """
@@ -61,8 +61,8 @@ class MessageHead(NamedTuple):
     Attributes:
         channel: Number of the channel.
         log_time: Time of reception, nanoseconds.
-        first: Offset of its payload.
-        last: Offset of the end.
+        first: Offset of the payload.
+        last: Offset of the payload's end.
         publish_time: Time of publication, nanoseconds.
         sequence: Publisher's sequence number.
     """
@@ -77,16 +77,16 @@ class MessageHead(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MessageTable:
-    """Messages of a chunk as columns, in order.
+    """Messages as columns, in order, usually of one chunk.
 
     Attributes:
-        data: The bytes that their payloads are in.
-        channels: The number of each one's channel, shape (n,).
+        data: Bytes that contain the payloads.
+        channels: Number of each message's channel, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
         publish_times: Times of publication, nanoseconds, shape (n,).
         sequences: Publishers' sequence numbers, shape (n,).
         starts: Offset of each payload, shape (n,).
-        lengths: Bytes of the payload, shape (n,).
+        lengths: Length of each payload, bytes, shape (n,).
     """
 
     data: Bytes
@@ -102,18 +102,18 @@ class MessageTable:
 
     @property
     def owners(self) -> list[int]:
-        """Channels with messages in the block, in order of first appearance."""
+        """Channels with messages in the table, in order of first appearance."""
         channels, firsts = np.unique(self.channels, return_index=True)
         found: list[int] = channels[np.argsort(firsts)].tolist()
         return found
 
     def payload(self, number: int) -> bytes:
-        """Return the bytes of one message."""
+        """Return the bytes of one message, by its index."""
         start = int(self.starts[number])
         return self.data[start : start + int(self.lengths[number])].tobytes()
 
     def message(self, number: int) -> Taken:
-        """Return one message."""
+        """Return one message, by its index, with everything stored about it."""
         return Taken(
             int(self.channels[number]),
             int(self.log_times[number]),
@@ -124,7 +124,7 @@ class MessageTable:
 
     @classmethod
     def of(cls, data: bytes, heads: Sequence[MessageHead]) -> "MessageTable":
-        """Return messages by their headers; `data` holds their payloads."""
+        """Return a table of messages from their headers; `data` contains their payloads."""
         rows = zip(*heads, strict=True) if heads else [()] * 6
         channels, log_times, firsts, lasts, publish_times, sequences = rows
         starts = np.array(firsts, dtype=np.int64)
@@ -139,19 +139,19 @@ class MessageTable:
         )
 
     def chosen(self, which: Stamps) -> "MessageTable":
-        """Return the messages at some indices."""
+        """Return a table of the messages at some indices."""
         columns = (self.channels, self.log_times, self.publish_times, self.sequences)
         rest = (self.starts, self.lengths)
         return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
 
     def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
-        """Copy payloads, each after its own header.
+        """Copy the payloads, each after a new header.
 
         Args:
-            heads: One item for each message.
+            heads: The header of each message, shape (n,).
 
         Returns:
-            The bytes, and where each head begins, shape (n,).
+            The bytes, and the offset of each header, shape (n,).
         """
         size = heads.dtype.itemsize
         ends = np.cumsum(self.lengths + size)
@@ -163,56 +163,56 @@ class MessageTable:
         for which in np.split(order, cuts):
             length = int(self.lengths[which[0]])
             if length:
-                # As single items: numpy then copies a payload in one go.
+                # Treat each payload as one large item, which numpy copies in one step.
                 rows = _items(self.data, length)[self.starts[which]]
                 _items(found, length)[places[which] + size] = rows
         return found, places
 
 
 def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
-    """Return each run of so many bytes, at every offset, as one item."""
+    """Return a view in which the bytes from each offset on, `size` in number, are one item."""
     return np.ndarray((len(data) - size + 1,), f"V{size}", buffer=data.data, strides=(1,))
 
 
 class Block(Protocol):
-    """Consecutive messages of a file: a chunk, rows, or messages outside chunks."""
+    """Consecutive messages of a file: a chunk, rows of a database, or messages outside chunks."""
 
     @property
     def start(self) -> Stamp:
-        """Log time of the first message."""
+        """Log time of the block's first message, nanoseconds."""
 
     @property
     def end(self) -> Stamp:
-        """Log time of the last message."""
+        """Log time of the block's last message, nanoseconds."""
 
     @property
     def counts(self) -> Mapping[int, int] | None:
-        """Return the number of messages per channel; None if that needs a full parse."""
+        """Return the number of messages per channel; None if the block must be parsed for it."""
 
     @property
     def whole(self) -> bool:
-        """Whether the block may be copied as it is."""
+        """Whether the block may be copied unchanged."""
 
     def sound(self) -> bool:
-        """Whether the content is as written, as far as a checksum can show."""
+        """Whether the block's content is undamaged, as far as a checksum can show."""
 
     def table(self) -> MessageTable:
-        """Return its messages in order; of a damaged block those before the damage."""
+        """Return the block's messages in order; from a damaged block, those before the damage."""
 
 
 _STEP: Final = 1 << 19
-"""Bytes at a time: they are still in the processor's cache when they are read back."""
+"""Bytes copied in one step: few enough to stay in the processor's cache until read again."""
 
 _one, _other = bytearray(_STEP), bytearray(_STEP)
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Byte range of an open file.
+    """Byte range of an open file, to be copied.
 
     Attributes:
-        file: The file's number.
-        place: Offset of the first.
+        file: Descriptor of the file.
+        place: Offset of the first byte.
         length: Number of bytes.
     """
 
@@ -223,24 +223,24 @@ class Piece:
     def copy_to(self, file: int, place: int, crc: int | None = None) -> int:
         """Copy the bytes to another file, read them back, and compare.
 
-        Measured on 2 GB: 1.1 times the time of `copy_file_range` alone, which is slow if the two
-        places have different offsets in their pages.
+        On 2 GB this took 1.1 times the time of `copy_file_range`, which is slow if the two ranges
+        have different offsets in their memory pages.
 
         Args:
-            file: The other file's number; it is open for writing and reading.
-            place: Offset in it at which to write them.
-            crc: CRC of the preceding bytes, if one is wanted.
+            file: Descriptor of the other file, open for writing and reading.
+            place: Offset in the other file at which to write.
+            crc: CRC of the preceding bytes; None if no CRC is needed.
 
         Returns:
-            The CRC with theirs; 0 if none is wanted.
+            The CRC including the copied bytes; 0 if no CRC is needed.
 
         Raises:
-            InputError: If the file has become shorter, or other bytes are read back.
+            InputError: If the file has become shorter, or the bytes read back differ.
             OSError: If the bytes cannot be written.
         """
         done = 0
         while done < self.length:
-            # Up to a multiple of the step in the other file: whole pages are written faster.
+            # End at a multiple of the step in the other file: whole pages are written faster.
             count = min(_STEP - (place + done) % _STEP, self.length - done)
             read = memoryview(_one)[:count]
             count = os.preadv(self.file, [read], self.place + done)
@@ -256,7 +256,7 @@ class Piece:
         return crc or 0
 
     def crc(self) -> int:
-        """Return the CRC, computed in steps.
+        """Return the CRC of the bytes, computed in steps.
 
         Raises:
             InputError: If the file has become shorter.
@@ -278,19 +278,19 @@ class Piece:
 
 
 def _begin_alike(count: int) -> bool:
-    """Whether written bytes and those read back are equal."""
-    # Compared whole where that can be, as that makes no copy.
+    """Whether the first `count` bytes written and read back are equal."""
+    # Compare whole buffers if possible, which makes no copy.
     return _one == _other if count == _STEP else _one[:count] == _other[:count]
 
 
 class CopiedAttachment(NamedTuple):
-    """An MCAP file's attachment to copy to another file.
+    """An attachment of an MCAP file, to be copied to another file.
 
     Attributes:
-        piece: Bytes of the record.
-        times: Log time and creation time, packed.
-        names: Name and media type, packed.
-        size: Bytes of the attachment.
+        piece: Byte range of the record.
+        times: Log time and creation time, as bytes of the record.
+        names: Name and media type, as bytes of the record.
+        size: Size of the attachment, bytes.
     """
 
     piece: Piece
@@ -301,11 +301,11 @@ class CopiedAttachment(NamedTuple):
 
 @dataclass(slots=True)
 class Extras:
-    """Contents of a file besides messages.
+    """Contents of a file other than messages.
 
     Attributes:
-        attachments: MCAP's attachments, which stay in their file.
-        metadata: MCAP's metadata records, each the body.
+        attachments: MCAP's attachments, as byte ranges of their file.
+        metadata: Bodies of MCAP's metadata records.
     """
 
     attachments: list[CopiedAttachment] = field(default_factory=list)
@@ -316,11 +316,11 @@ class Container(Protocol):
     """One file of a recording, or several read as one.
 
     Attributes:
-        kind: In words.
-        size: Bytes.
-        start: Log time of the first message; 0 where there is none.
+        kind: Name of the container in sentences.
+        size: Size of the files, bytes.
+        start: Log time of the first message; 0 without messages.
         end: Log time of the last message.
-        streams: Streams; a batch refers to them by index.
+        streams: All streams; a batch refers to them by index.
     """
 
     kind: str
@@ -331,39 +331,39 @@ class Container(Protocol):
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages per stream."""
+        """Return the number of messages of each stream."""
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the approximate number of messages of some streams; 0 if unknown."""
+        """Return the approximate number of messages in some streams; 0 if unknown."""
 
     @property
     def damage(self) -> list[str]:
-        """Return the damage found so far, as sentences; reading on may find more damage."""
+        """Return sentences about the damage found so far; further reading may find more."""
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams in the recording's order.
+        """Yield the messages of some streams in batches, in the recording's order.
 
         A batch's buffer is valid until the next batch, which reuses its memory.
 
         Args:
             wanted: Numbers of streams.
-            progress: Called with the progress.
-            head: Number of bytes needed of each message, all if None; more may be given.
+            progress: Function called with the number of bytes read.
+            head: Number of bytes needed from each message; None for all. Batches may have more.
         """
 
     def close(self) -> None:
-        """Close the file."""
+        """Close the files."""
 
 
 class ContainerReader(Container, Protocol):
-    """One file of a recording, also readable sequentially.
+    """One file of a recording that can also be read sequentially, for editing.
 
     Attributes:
-        container: "mcap", "db3" or "bag".
-        channels: Its streams by the numbers they have in the file, exactly as recorded; more may
-            come up while it is read.
+        container: Name of the format: "mcap", "db3" or "bag".
+        channels: Streams exactly as recorded, by their numbers in the file; reading may find
+            more.
         extras: Contents other than messages; complete once everything is read.
         style: Options for a writer that writes the container in the same way.
     """
@@ -381,9 +381,9 @@ class File:
     """A file read at given offsets, never beyond its size when it was opened.
 
     Attributes:
-        path: Path.
-        size: Bytes when it was opened; it may grow while it is read.
-        read: Bytes read so far.
+        path: Path of the file.
+        size: Size of the file when it was opened, bytes; a recorder may still append to it.
+        read: Number of bytes read so far.
     """
 
     def __init__(self, path: Path) -> None:
@@ -421,7 +421,7 @@ class File:
         return found
 
     def into(self, place: int, room: memoryview) -> None:
-        """Read bytes from an offset into a buffer, and fill it.
+        """Fill a buffer with the bytes from an offset.
 
         Raises:
             InputError: If the file is shorter.

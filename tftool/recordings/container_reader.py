@@ -1,4 +1,4 @@
-"""Columns of an open container: transforms, headers, clock and messages of chosen topics."""
+"""Reader of an open recording's transforms, headers, clock and messages as columns."""
 
 import re
 import struct
@@ -30,21 +30,24 @@ from tftool.recordings.foreign_transforms import decoder_of, is_foreign
 from tftool.recordings.message_cutter import AnyCutter, Cutter, Decoding, cutter
 
 TRANSFORM_TYPES: Final = ("tf2_msgs/TFMessage", "tf/tfMessage")
-"""Types whose messages are lists of transforms, short."""
+"""Types of messages that are lists of transforms, in short form."""
 
 MOST_UNPACKED: Final = 1 << 26
-"""Bytes of messages that were compressed each by itself, held at once but for the last one."""
+"""Maximum size, bytes, of decompressed messages held at once, where rosbag2 compressed each message
+by itself; the last message may exceed the limit.
+"""
 
 CLOCK_TYPE: Final = "rosgraph_msgs/Clock"
 
 LAYOUTS: Final[Mapping[str, Layout]] = {"cdr": CDR, "ros1": ROS1}
-"""Layout of messages by a topic's encoding."""
+"""Byte layout of messages, by the encoding of their topic."""
 
 _HEAD_BYTES = 16 + LONGEST_NAME
 _COMMENT = re.compile(r"#.*")
 _HEADER_FIELD = re.compile(r"(std_msgs/(msg/)?|roslib/)?Header\s+\w+\s*$")
 
-# Where a recording has no definitions, as rosbag2's sqlite files before 2023.
+# Types of sensor_msgs that begin with a header, for recordings without definitions, such as
+# rosbag2's sqlite files before 2023.
 _SENSORS = """BatteryState CameraInfo CompressedImage FluidPressure Illuminance Image Imu JointState
 Joy LaserScan MagneticField MultiDOFJointState MultiEchoLaserScan NavSatFix PointCloud PointCloud2
 Range RelativeHumidity Temperature TimeReference"""
@@ -60,13 +63,13 @@ _WITH_HEADER = frozenset(f"sensor_msgs/{name}" for name in _SENSORS.split()) | {
 
 
 def short_type(name: str) -> str:
-    """Return a type's name in ROS 2's short form, without the "msg" in the middle."""
+    """Return a type's name without "msg" in the middle: "std_msgs/String"."""
     package, middle, last = name.partition("/msg/")
     return f"{package}/{last}" if middle else name
 
 
 class Recorded:
-    """An open recording: its contents are known, and its messages are read on demand.
+    """An open recording, whose messages are read on demand.
 
     Reading raises `InputError` if nothing can be read; other damage is listed in `damage`, and
     never raises.
@@ -76,10 +79,10 @@ class Recorded:
     """
 
     def __init__(self, name: str, container: Container) -> None:
-        """Examine a container's contents.
+        """Examine the streams of a container.
 
         Args:
-            name: Name as it was given.
+            name: Name of the recording, as the user gave it.
             container: Files of the recording.
         """
         self.name = name
@@ -93,27 +96,27 @@ class Recorded:
 
     @property
     def kind(self) -> str:
-        """Container's name for sentences."""
+        """Name of the container, for sentences."""
         return self._container.kind
 
     @property
     def size(self) -> int:
-        """Size of all its files in bytes."""
+        """Size of all files of the recording, bytes."""
         return self._container.size
 
     @property
     def start(self) -> Stamp:
-        """Log time of the first message; 0 if there is none."""
+        """Log time of the first message, nanoseconds; 0 without messages."""
         return self._container.start
 
     @property
     def end(self) -> Stamp:
-        """Log time of the last message; 0 if there is none."""
+        """Log time of the last message, nanoseconds; 0 without messages."""
         return self._container.end
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return the damage of the files as sentences."""
+        """Return sentences about damage of the files."""
         return (*self._container.damage, *self._notes)
 
     def _note(self, damage: str) -> None:
@@ -122,12 +125,12 @@ class Recorded:
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the names of its topics, without counting messages, which may be slow."""
+        """Return the names of all topics, without counting messages, which may be slow."""
         return frozenset(stream.topic for stream in self._container.streams)
 
     @property
     def topics(self) -> tuple[RecordedTopic, ...]:
-        """Return every topic, by name, each once."""
+        """Return all topics, sorted by name."""
         first: dict[str, Channel] = {}
         counts: dict[str, int] = {}
         static: dict[str, bool] = {}
@@ -150,13 +153,13 @@ class Recorded:
 
     @property
     def publishers(self) -> tuple[Publisher, ...]:
-        """Return every stream of messages, by topic and node."""
+        """Return all publishers (streams of messages), sorted by topic and node."""
         return tuple(sorted(set(self._senders), key=lambda one: (one.topic, one.node)))
 
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> Transforms:
-        """Return all transforms: of named topics, else of all whose type contains them.
+        """Return the transforms on the given topics, or on all topics with transforms if None.
 
         Odometry and PoseStamped are read as transforms if their topics are named.
         """
@@ -196,13 +199,13 @@ class Recorded:
         return table.finished(self._senders)
 
     def _gives(self, stream: Channel, topics: Collection[str] | None) -> bool:
-        """Whether a stream's messages are read for their transforms."""
+        """Whether a stream's messages must be read to return the transforms of `topics`."""
         return _has_transforms(stream) if topics is None else stream.topic in topics
 
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> dict[str, Headers]:
-        """Return headers by topic: of named topics, else of all whose type begins with one."""
+        """Return the headers of messages, by topic; None selects all topics with headers."""
         found: dict[str, _Heads] = {}
         of_stream: dict[int, _Heads] = {}
         for number, stream in enumerate(self._container.streams):
@@ -237,7 +240,7 @@ class Recorded:
         return np.frombuffer(read, dtype=np.int64), np.frombuffer(received, dtype=np.int64)
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
-        """Yield the messages of some topics in the recording's order."""
+        """Yield the messages of some topics, in the recording's order."""
         numbers = {n for n, one in enumerate(self._container.streams) if one.topic in topics}
         for batch in self._batches(numbers):
             for number in range(len(batch)):
@@ -250,7 +253,7 @@ class Recorded:
     def _batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams, decompressed where rosbag2 compressed each one."""
+        """Yield batches of some streams; decompress messages that rosbag2 compressed one by one."""
         for batch in self._container.batches(wanted, progress, head):
             start = int(batch.starts[0])
             if batch.buffer[start : start + 4].tobytes() == ZSTD_MAGIC:
@@ -264,7 +267,7 @@ class Recorded:
 
 
 class _Heads:
-    """Headers of one topic while reading."""
+    """Headers of one topic's messages, collected while reading."""
 
     def __init__(self, stream: Channel) -> None:
         self._topic = stream.topic
@@ -277,8 +280,8 @@ class _Heads:
         self._known: dict[bytes, int] = {}
 
     def append(self, head: bytes, log_time: int) -> None:
-        """Append a header from a message's first bytes; ignore a message that is too short."""
-        begin = 4  # behind CDR's header, or ROS 1's sequence number
+        """Append the header in a message's first bytes; ignore a message that is too short."""
+        begin = 4  # after CDR's header, or after ROS 1's sequence number
         order = ">" if self._is_cdr and head[:2] == b"\x00\x00" else "<"
         if len(head) < begin + 12:
             return
@@ -299,7 +302,7 @@ class _Heads:
         self._frames.append(place)
 
     def finished(self) -> Headers:
-        """Return the headers as columns."""
+        """Return the collected headers as columns."""
         return Headers(
             self._topic,
             self._type,
@@ -311,7 +314,7 @@ class _Heads:
 
 
 def _unpacked(batch: Batch) -> Iterator[Batch]:
-    """Yield messages decompressed one by one, in pieces; empty where that fails."""
+    """Yield batches of messages that are decompressed one by one; damaged messages are empty."""
     pieces: list[bytes] = []
     first = held = 0
     for number in range(len(batch)):
@@ -330,7 +333,7 @@ def _unpacked(batch: Batch) -> Iterator[Batch]:
 def _by_cutter(
     batch: Batch, of_stream: dict[int, AnyCutter]
 ) -> "Iterator[tuple[AnyCutter, slice | Stamps]]":
-    """Group a batch's messages by the cutter that decodes them."""
+    """Yield a batch's messages in groups, each with the cutter that decodes its transforms."""
     first = int(batch.senders[0])
     if (batch.senders == first).all():
         yield of_stream[first], slice(None)
@@ -357,7 +360,7 @@ def _has_transforms(stream: Channel) -> bool:
 
 
 def is_static(stream: Channel) -> bool:
-    """Whether a stream's transforms are static: by its name, not by a stamp of 0."""
+    """Whether a stream's transforms are static: by the topic's name or latching, not by stamps."""
     last = stream.topic.rpartition("/")[2]
     if last == "tf_static":
         return True

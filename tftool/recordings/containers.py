@@ -25,18 +25,18 @@ PACKED_SUFFIX: Final = ".zstd"
 
 @dataclass(frozen=True, slots=True)
 class ContainerFormat:
-    """One container format.
+    """One container format, with its reader and its writer.
 
     Attributes:
         name: Name in code: "mcap", "db3", "bag".
-        words: Name in words.
+        words: Name in sentences.
         magic: First bytes of a file.
         suffix: Ending of a file's name.
-        storage: rosbag2's name for it; "" where rosbag2 does not record it.
-        reader_at: Module and class of its reader: they are imported when a file is opened.
-        writer_at: Module and class of its writer.
-        options: Options of its writer beside a path.
-        encoding: The only encoding of messages that it holds: "cdr" or "ros1"; "" for any.
+        storage: rosbag2's name of the format; "" if rosbag2 cannot record it.
+        reader_at: Module and class of the reader, imported when a file is opened.
+        writer_at: Module and class of the writer.
+        options: Names of the writer's options other than the path.
+        encoding: The only supported encoding of messages: "cdr" or "ros1"; "" for any.
         keeps_sequences: Whether publish time and sequence number of a message are stored.
     """
 
@@ -52,11 +52,11 @@ class ContainerFormat:
     keeps_sequences: bool = False
 
     def open(self, path: Path, *, by_index: bool = True) -> "ContainerReader":
-        """Open a file for reading.
+        """Open a file of this format for reading.
 
         Args:
-            path: Path.
-            by_index: Whether the file is read by its index; otherwise from front to back.
+            path: Path of the file.
+            by_index: Whether the file is read by its index; otherwise from beginning to end.
 
         Raises:
             InputError: If the file cannot be read.
@@ -66,7 +66,7 @@ class ContainerFormat:
         return found
 
     def create(self, path: Path, **options: Any) -> "ContainerWriter":
-        """Create a file, with those options that the container has.
+        """Create a file of this format; options that the writer does not have are ignored.
 
         Raises:
             UsageError: If the container has no such compression, or a package is missing.
@@ -77,13 +77,12 @@ class ContainerFormat:
         return found
 
     def create_like(self, path: Path, style: Mapping[str, Any], *, profile: str) -> Any:
-        """Create the file of an edit, for messages that are encoded already.
+        """Create an output file of an edit, for messages that are already encoded.
 
         Args:
-            path: Path.
-            style: `style` of the reader of the same container whose file is edited; empty for
-                another container.
-            profile: Profile of its messages if the style has none: "ros1" or "ros2".
+            path: Path of the file.
+            style: `style` of the input's reader if it has the same format; else empty.
+            profile: Profile of the messages if the style has none: "ros1" or "ros2".
 
         Raises:
             OSError: If the file cannot be written.
@@ -133,14 +132,14 @@ CONTAINERS: Final = (
         encoding="ros1",
     ),
 )
-"""Every container; those that a folder of rosbag2's may hold have a storage."""
+"""All container formats; those that rosbag2 can record have a storage."""
 
 SUFFIXES: Final = (*(one.suffix for one in CONTAINERS), PACKED_SUFFIX)
-"""Endings of the names of recorded files."""
+"""Endings of the names of recording files."""
 
 
 def container_of(path: Path) -> str:
-    """Return the container for a file name; "" for a folder.
+    """Return the name of the container for a file's name; "" for a folder.
 
     Raises:
         UsageError: If this container cannot be written.
@@ -158,25 +157,25 @@ def container_of(path: Path) -> str:
 
 
 def container_named(name: str) -> ContainerFormat:
-    """Return the container by its name in code."""
+    """Return the container format with a name in code."""
     return next(one for one in CONTAINERS if one.name == name)
 
 
 def container_stored(storage: str) -> ContainerFormat:
-    """Return the container that is rosbag2's storage of that name.
+    """Return the container format with a name as rosbag2's storage.
 
     Raises:
-        UsageError: If there is none.
+        UsageError: If rosbag2 has no such storage.
     """
     for one in CONTAINERS:
         if one.storage == storage and storage:
             return one
-    known = " and ".join(one.storage for one in CONTAINERS if one.storage)
-    raise UsageError(f"'{storage}' is no storage of rosbag2: {known} are.")
+    known = " or ".join(one.storage for one in CONTAINERS if one.storage)
+    raise UsageError(f"'{storage}' is not a storage of rosbag2: use {known}.")
 
 
 def library_name() -> str:
-    """Return the library name written into files."""
-    # The package stands above every room: it is asked, not imported.
+    """Return tftool's name and version, as written into files."""
+    # Rooms must not import the package `tftool` itself, so its version is read here.
     version: str = sys.modules["tftool"].__version__
     return f"tftool {version}"

@@ -1,8 +1,8 @@
-"""Values and columns of recorded frames.
+"""Values and columns of recorded frames, topics and messages.
 
-A recording is finite and complete. Moments are whole nanoseconds; *stamps* are those in headers,
-*log times* are the times of reception by the recorder. Columns hold values exactly as recorded,
-including not-a-number, zero quaternions, stamps of 0 and leading slashes.
+A recording is finite and complete. Times are whole nanoseconds: *stamps* are the times in headers,
+*log times* are the times of reception by the recorder. Columns contain values exactly as recorded,
+including NaN, zero quaternions, stamps of 0 and leading slashes.
 """
 
 from dataclasses import dataclass
@@ -17,10 +17,10 @@ Stamps: TypeAlias = npt.NDArray[np.int64]
 """Nanoseconds, shape (n,)."""
 
 Floats: TypeAlias = npt.NDArray[np.float64]
-"""Numbers."""
+"""Floating-point numbers of any shape."""
 
 Indexes: TypeAlias = npt.NDArray[np.int32]
-"""Places in another column or list, shape (n,)."""
+"""Indices in another column or list, shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,12 +29,12 @@ class RecordedTopic:
 
     Attributes:
         name: Name as recorded; some ROS 2 recordings have `tf` without a slash.
-        type: Name of the message type as ROS 2 writes it short: "tf2_msgs/TFMessage". As
-            recorded where it is not a ROS type: "foxglove.FrameTransform".
-        encoding: "cdr", "ros1", "json", "protobuf", or whatever else is recorded.
-        count: Number of messages, up to the damage if there is any.
-        definition: The text of the message definition; empty where the recording has none.
-        transforms: Whether the type carries transforms.
+        type: Message type in short form: "tf2_msgs/TFMessage"; types other than ROS's as
+            recorded: "foxglove.FrameTransform".
+        encoding: "cdr", "ros1", "json", "protobuf", or another recorded encoding.
+        count: Number of messages; in a damaged recording up to the damage.
+        definition: Text of the message definition; empty if not recorded.
+        transforms: Whether messages of this type contain transforms.
         static: Whether the transforms are static.
     """
 
@@ -49,16 +49,16 @@ class RecordedTopic:
 
 @dataclass(frozen=True, slots=True)
 class Publisher:
-    """One stream of messages on a topic: a connection of ROS 1, a channel of MCAP.
+    """One stream of messages on a topic: a connection in ROS 1, a channel in MCAP.
 
     Attributes:
         topic: Name of the topic.
-        node: Name of its node, "/robot_state_publisher"; empty where it is not recorded
-            (ROS 2 records it nowhere).
-        durability: Offer to late subscribers: "transient_local" (ROS 1's
-            latching too), "volatile", or empty where that is not recorded.
-        reliability: "reliable", "best_effort", or empty.
-        offers: Number of publishers' QoS offers that the recorder noted for the topic.
+        node: Name of the publishing node, "/robot_state_publisher"; empty if not recorded, as
+            always in ROS 2.
+        durability: "transient_local" if late subscribers get the last messages (also ROS 1's
+            latching), else "volatile"; empty if not recorded.
+        reliability: "reliable" or "best_effort"; empty if not recorded.
+        offers: Number of publishers whose QoS was recorded for the topic.
     """
 
     topic: str
@@ -75,18 +75,18 @@ class Publisher:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edge:
-    """All transforms of one parent, child and kind, in the recording's order.
+    """All transforms of one parent and child, static or moving, in the recording's order.
 
     Attributes:
-        parent: Name as recorded, without the one leading slash it may have.
-        child: Child frame.
-        static: Whether the samples came on a static topic.
+        parent: Parent frame, as recorded but without a leading slash.
+        child: Child frame, without a leading slash.
+        static: Whether the transforms came on a static topic.
         slashed: Number of transforms with a leading slash in a name.
-        records: One row a transform, int64, shape (n, 8): the stamp, and bit by bit the
-            seven doubles x y z (metres) and x y z w (quaternion).
-        messages: The message each came in: a place in `Transforms.log_times`.
-        kept: Number of rows from the first on are known to be as a buffer keeps them: each newer
-            than the one before, finite, and with a unit quaternion of tf2's sign.
+        records: One row per transform, int64, shape (n, 8): the stamp, and the bits of the seven
+            doubles x y z (metres) and x y z w (quaternion).
+        messages: Message of each transform: an index into `Transforms.log_times`.
+        kept: Number of rows at the beginning that a buffer stores unchanged: with increasing
+            stamps, finite numbers, and unit quaternions of tf2's sign.
     """
 
     parent: str
@@ -106,31 +106,31 @@ class Edge:
 
     @property
     def stamps(self) -> Stamps:
-        """Stamps in nanoseconds, shape (n,); a view."""
+        """Stamps of all transforms, nanoseconds, shape (n,); a view."""
         return self.records[:, 0]
 
     @property
     def translations(self) -> Floats:
-        """Translations in metres, shape (n, 3); a view."""
+        """Translations of all transforms, metres, shape (n, 3); a view."""
         return self.records.view(np.float64)[:, 1:4]
 
     @property
     def rotations(self) -> Floats:
-        """Quaternions x y z w as recorded, shape (n, 4); a view."""
+        """Quaternions x y z w of all transforms as recorded, shape (n, 4); a view."""
         return self.records.view(np.float64)[:, 4:]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transforms:
-    """All transforms of a source in columns per edge, and the messages they came in.
+    """All transforms of a recording as columns per edge, and the messages that contain them.
 
     Attributes:
-        edges: One for each parent, child and kind, in the order they first came up.
-        log_times: When each message was received, nanoseconds, shape (m,), in the order
-            of the recording (which need not be that of time).
-        senders: The publisher of each message: a place in `publishers`, shape (m,).
+        edges: All edges, in the order of their first transform.
+        log_times: Time of reception of each message, nanoseconds, shape (m,), in the order of
+            the recording, which may differ from the order of time.
+        senders: Publisher of each message: an index into `publishers`, shape (m,).
         publishers: Publishers of transforms.
-        damage: Unreadable parts of them, as sentences.
+        damage: Sentences about parts that could not be read.
     """
 
     edges: tuple[Edge, ...]
@@ -152,7 +152,7 @@ class Transforms:
 
 
 def median(column: Stamps) -> float:
-    """Return numpy's median of at least one whole number, three times as fast for few."""
+    """Return the median of a column of whole numbers; for few, three times as fast as numpy's."""
     half = len(column) // 2
     if len(column) % 2:
         return float(np.partition(column, half)[half])
@@ -162,15 +162,15 @@ def median(column: Stamps) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Headers:
-    """Headers of a topic's messages, in the recording's order.
+    """Headers of one topic's messages as columns, in the recording's order.
 
     Attributes:
         topic: Name of the topic.
-        type: Type.
+        type: Type of the messages.
         stamps: Nanoseconds, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
         names: The frame names that occur, as recorded (slashes included).
-        frames: Frame of each message: a place in `names`, shape (n,).
+        frames: Frame of each message: an index into `names`, shape (n,).
     """
 
     topic: str
@@ -195,8 +195,8 @@ class RawMessage:
 
     Attributes:
         log_time: Time of reception, nanoseconds.
-        sender: Publisher.
-        payload: Bytes, in the topic's encoding.
+        sender: Publisher of the message.
+        payload: Bytes of the message, in the topic's encoding.
     """
 
     log_time: Stamp
@@ -205,7 +205,7 @@ class RawMessage:
 
 
 class Progress(Protocol):
-    """Callback for the progress of reading."""
+    """Function that is called with the progress of reading."""
 
     def __call__(self, done: int, total: int) -> None:
         """Report that `done` of `total` bytes are read."""

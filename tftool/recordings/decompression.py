@@ -1,4 +1,4 @@
-"""Compression and decompression of a recording's pieces; sizes are checked before allocation."""
+"""Compression and decompression of parts of recordings; sizes are checked before allocation."""
 
 import bz2
 import contextlib
@@ -15,31 +15,32 @@ if TYPE_CHECKING:
 
 
 LARGEST: Final = 3 << 27
-"""Bytes of the largest piece that is read or unpacked: lz4 holds twice as many, and who looks at
-its one message once more, which is below 2 GB."""
+"""Maximum size of a part that is read or decompressed, bytes. lz4 needs twice this memory, and a
+reader of a single message three times, which is still below 2 GB.
+"""
 
 MOST_GAIN: Final = 1100
-"""Largest ratio of a piece's size to its packed size; known files stay below it."""
+"""Maximum ratio of uncompressed to compressed size; known files are below it."""
 
 _SLACK: Final = 1 << 20
 
 LARGEST_DAMAGED: Final = 1 << 26
-"""Bytes that are unpacked of a damaged piece, which is held twice."""
+"""Maximum size that is decompressed from a damaged part, bytes; memory for it is needed twice."""
 
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
-_WAITING: Final = 3  # pieces that no thread has begun with, at least
+_WAITING: Final = 3  # minimum number of parts that wait for a thread
 _LARGEST_KEPT: Final = 31 << 20
 
 Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
-"""A piece: how it is packed, what reads its bytes, and how many it says it will be."""
+"""A compressed part: compression, function that reads its bytes, and stated uncompressed size."""
 
 
 def unpack(method: str, packed: bytes, size: int) -> bytes:
-    """Decompress a piece of known size.
+    """Decompress a part of a recording whose uncompressed size is known.
 
     Args:
-        method: "", "none", "zstd", "lz4" or "bz2", as the container writes it.
+        method: "", "none", "zstd", "lz4" or "bz2", as in the container.
         packed: Compressed bytes.
         size: Stated number of uncompressed bytes.
 
@@ -64,15 +65,15 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
 
 
 class _Room:
-    """Memory reused for decompressed pieces, as new memory is slower."""
+    """Memory for a decompressed part; it is reused, because new memory is slower."""
 
     def __init__(self) -> None:
         self._bytes = bytearray()
         self._zstd: Any = None
 
     def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
-        """Decompress a piece like the function `unpack`; valid until the next call."""
-        # Reading happens in the thread as well: it waits for the disk without Python's lock.
+        """Decompress a part like the function `unpack`; the result is valid until the next call."""
+        # The thread also reads the file: waiting for the disk does not hold the GIL.
         packed = read()
         if method == "zstd":
             check_size(len(packed), size)
@@ -80,7 +81,7 @@ class _Room:
                 if self._read(packed, size):
                     return memoryview(self._bytes)[:size]
             except Exception:
-                # The other one names the damage.
+                # `unpack` below raises an error that names the damage.
                 pass
         return unpack(method, packed, size)
 
@@ -98,10 +99,10 @@ class _Room:
 
 
 class _Coming:
-    """A piece being decompressed.
+    """A part that is being decompressed, or waits for it.
 
     Attributes:
-        room: Memory to write to.
+        room: Memory for the result.
         future: Future of the result.
     """
 
@@ -111,8 +112,8 @@ class _Coming:
         self.future: Future[bytes | memoryview] = pool.submit(room.unpack, *piece)
 
     def unpack_here(self) -> None:
-        """Decompress the piece in this thread, if no other has started it."""
-        # A future that cannot be cancelled is being unpacked by a thread.
+        """Decompress the part in the current thread, if no other thread has started it."""
+        # If the future cannot be cancelled, a thread is decompressing the part.
         if not self.future.cancel():
             return
         self.future = Future()
@@ -123,25 +124,25 @@ class _Coming:
 
 
 class Ahead:
-    """Threads that read and decompress pieces ahead of the reader; a context manager.
+    """Threads that read and decompress parts of a file ahead of the reader; a context manager.
 
-    Reading and unpacking release Python's lock, so that on two processors unpacking ahead costs no
-    time. Nothing else runs in a thread. A caller that needs a piece before it is ready unpacks a
-    later one meanwhile: so every processor is busy, and none runs two threads.
+    Reading and decompressing release the GIL, so that on two processors decompression ahead costs
+    no time. If the caller needs a part before it is ready, the caller decompresses a later part
+    meanwhile: every processor is busy, and none runs two threads.
     """
 
     def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:
-        """Take the list of pieces to decompress.
+        """Create the pool for the parts of one file.
 
         Args:
-            keys: Distinct names of the pieces, in the order in which they will be asked
-                for; some may be passed over.
-            packed: Tells of a piece; None where it is not to be unpacked ahead. Is called in the
-                thread that asks, not long before that piece is asked for.
+            keys: Distinct keys of the parts, in the order of reading; the reader may skip parts.
+            packed: Function that returns the part of a key, or None if it must not be
+                decompressed ahead. It is called in the reader's thread, shortly before the part
+                is read.
         """
         self._keys = iter(keys)
         self._packed = packed
-        # In the order of their keys; None for pieces that are not unpacked ahead.
+        # By key, in order; None for parts that are not decompressed ahead.
         self._coming: dict[object, _Coming | None] = {}
         self._spare: list[_Room] = []
         self._lent: _Room | None = None
@@ -156,9 +157,9 @@ class Ahead:
             self._pool.shutdown(wait=True, cancel_futures=True)
 
     def take(self, key: object) -> "Future[bytes | memoryview] | None":
-        """Return the future of a decompressed piece; None if it was not started.
+        """Return the future of a part's bytes; None if it is not decompressed ahead.
 
-        A piece taken before must not be looked at any more: its memory is used again.
+        The bytes of the part taken before must not be used any more: their memory is reused.
         """
         if self._lent is not None:
             self._spare.append(self._lent)
@@ -169,7 +170,7 @@ class Ahead:
         self._lent = found.room
         self._start()
         for other in self._coming.values():
-            # The piece asked for is there: nothing more to help with.
+            # The wanted part is ready, so this thread need not help any more.
             if found.future.done():
                 break
             if other is not None:
@@ -177,21 +178,21 @@ class Ahead:
         return found.future
 
     def _come_to(self, key: object) -> _Coming | None:
-        """Return the piece of a key; skip earlier ones and start others in their place."""
+        """Return the part of a key; drop earlier parts and start later ones in their place."""
         self._start()
         while self._coming:
             passed = next(iter(self._coming))
             found = self._coming.pop(passed)
             if passed == key:
                 return found
-            # What a thread is unpacking now keeps its memory until that is done.
+            # The memory of a part that a thread is decompressing cannot be reused yet.
             if found is not None and (found.future.cancel() or found.future.done()):
                 self._spare.append(found.room)
             self._start()
         return None
 
     def _start(self) -> None:
-        """Start as many pieces as there are threads, and some more."""
+        """Start the decompression of as many parts as there are threads, and some more."""
         while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
             key = next(self._keys, None)
             if key is None:
@@ -214,7 +215,7 @@ def _processors() -> int:
 
 
 def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
-    """Decompress as much as possible of a cut or damaged piece; may return nothing."""
+    """Decompress as much as possible of a cut or damaged part; the result may be empty."""
     size = min(size, LARGEST, most_of(len(packed)))
     if method in ("", "none"):
         return packed[:size]
@@ -224,7 +225,7 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
             return _beginning_of_zstd(packed, size)
         found, broken = _in_steps(method, packed, size, len(packed))
         if broken < len(packed) and method != "bz2":
-            # Of the step in which it broke nothing came out. A block of bz2 is all wrong then.
+            # Repeat the failed step byte by byte; this does not help with bz2's large blocks.
             found, _ = _in_steps(method, packed, size, broken)
     except InputError:
         return b""
@@ -234,7 +235,7 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
 def _beginning_of_zstd(packed: bytes, size: int) -> bytes:
     found, decompressor = bytearray(), zstandard().ZstdDecompressor()
     with contextlib.suppress(Exception), decompressor.stream_reader(packed) as it:
-        # Of the step in which it breaks nothing comes out.
+        # The step that fails returns nothing, so steps are small.
         while len(found) < size and (more := it.read(min(4096, size - len(found)))):
             found += more
     return bytes(found)
@@ -244,7 +245,7 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
     """Decompress in large steps up to an offset, and byte by byte after it.
 
     Returns:
-        The unpacked bytes, and the begin of the step that failed; the end if none did.
+        The decompressed bytes, and the offset of the step that failed, or the end.
 
     Raises:
         InputError: If the compression is unknown.
@@ -253,7 +254,7 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
     while start < len(packed) and len(found) < size and not stream.eof:
         step = 4096 if start < coarse else 1
         try:
-            # In a few bytes there may be more than is wanted of all.
+            # A few compressed bytes may expand to more than the wanted size.
             data = packed[start : start + step]
             while data or not (stream.eof or stream.needs_input or len(found) >= size):
                 found += stream.decompress(data, max_length=size - len(found))
@@ -265,15 +266,15 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
 
 
 def most_of(packed: int) -> int:
-    """Return the size limit of a decompressed piece, far above real ones."""
+    """Return the maximum plausible uncompressed size of `packed` bytes."""
     return MOST_GAIN * packed + _SLACK
 
 
 def check_size(packed: int, size: int) -> None:
-    """Refuse a declared size beyond any real one.
+    """Raise an error if the stated uncompressed size is implausible (a decompression bomb).
 
     Raises:
-        InputError: If the size is that of a bomb.
+        InputError: If the size is too large for `packed` bytes.
     """
     if size > LARGEST or size > most_of(packed):
         raise InputError(
@@ -300,15 +301,15 @@ def lz4_frame() -> Any:
         raise _missing("lz4", "lz4") from None
     import numpy as np
 
-    # It takes new memory for every piece, twice, and to get and clear that takes twice as long as
-    # to unpack. C's allocator of Linux keeps pieces that were freed, and gives them out again, up
-    # to the size of the largest that it had back from the system; this one is never written.
+    # lz4 allocates memory twice for every part, which takes twice as long as decompression. Linux's
+    # malloc reuses freed memory only up to the largest size it has freed before: allocate and free
+    # a large array once. Its memory is never written.
     np.empty(_LARGEST_KEPT, dtype=np.uint8)
     return lz4.frame
 
 
 def _missing(method: str, package: str) -> UsageError:
-    # Some Pythons have no wheel of it, so that the plain install leaves it out.
+    # Some Python versions have no wheel of the package, so it is not always installed.
     return UsageError(
         f"Recordings compressed with {method} need a package that is missing here: "
         f"pip install {package}"
@@ -324,7 +325,7 @@ def _whole(method: str, packed: bytes, size: int) -> bytes:
         found: bytes = module.ZstdDecompressor().decompress(packed, max_output_size=size)
         return found
     if method == "lz4":
-        # One byte more than wanted shows whether there is more.
+        # One byte more than stated, to detect data that is too long.
         unpacked: bytes = lz4_frame().LZ4FrameDecompressor().decompress(packed, max_length=size + 1)
         return unpacked
     if method == "bz2":
@@ -341,11 +342,11 @@ def _stream(method: str) -> Any:
 
 
 ZSTD_LEVEL: Final = 1
-"""Higher levels cost a recorder more than they save on its disk."""
+"""Compression level of zstd. Higher levels cost a recorder more time than they save on its disk."""
 
 
 def compressor(method: str) -> Callable[[bytes], bytes]:
-    """Return the compressor of a method: "", "none", "zstd", "lz4" or "bz2".
+    """Return a function that compresses bytes by a method: "", "none", "zstd", "lz4" or "bz2".
 
     Raises:
         UsageError: If there is no such method, or its package is not installed.
@@ -359,15 +360,15 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
         return packed
     if method == "lz4":
         frame = lz4_frame()
-        # ROS 1 reads frames of independent blocks alone, without their size in front.
+        # ROS 1 can only read frames with independent blocks and without a stored size.
         return lambda piece: bytes(
             frame.compress(piece, block_linked=False, content_checksum=True, store_size=False)
         )
-    raise UsageError(f"'{method}' is an unknown compression: none, zstd, lz4 and bz2 are known.")
+    raise UsageError(f"'{method}' is an unknown compression: use none, zstd, lz4 or bz2.")
 
 
 def best_compression() -> str:
-    """Return the compression of a new MCAP file: zstd where installed."""
+    """Return the compression for a new MCAP file: "zstd" if installed, else "none"."""
     try:
         zstandard()
     except UsageError:

@@ -1,4 +1,4 @@
-"""Frames added to a recording from its robot description where tf lacks them."""
+"""Frames of a recorded robot description, added where the recorded transforms lack them."""
 
 import re
 from collections import Counter
@@ -26,12 +26,12 @@ _MOST_DESCRIPTIONS: Final = 8
 
 @dataclass(frozen=True, slots=True)
 class DescribedFrames:
-    """Frames taken from a description because tf lacks them.
+    """Names of the frames that were added from a robot description.
 
     Attributes:
-        still: Frames that hold at all times.
+        still: Frames with static links.
         moving: Frames that joint states move.
-        gaps: Frames that neither tf nor joint states place.
+        gaps: Frames whose pose neither tf nor joint states contain.
         prefix: Prefix of a link's name in the name of its frame.
     """
 
@@ -42,7 +42,7 @@ class DescribedFrames:
 
 
 def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
-    """Return the topics with a robot description."""
+    """Return the topics that contain a robot description."""
     return [
         topic
         for topic in topics
@@ -57,20 +57,19 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
     """Return the first valid description on a topic.
 
     Returns:
-        The robot; None where there are placeholders alone, as a simulator's driver sends for robots
-        that it knows itself.
+        The robot; None if there are only placeholders, as some simulators send.
 
     Raises:
         InputError: If the message is not a string.
-        DescriptionError: If all have mistakes; those of the first.
+        DescriptionError: If all descriptions have mistakes; it has the mistakes of the first.
     """
     kind = INTERFACES.message("std_msgs/msg/String")
     codec = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR)
     first: DescriptionError | None = None
-    # It is latched and comes first: the rest of a long recording need not be read for it.
+    # A description is latched, and so among the first messages: do not read the whole recording.
     for message in islice(source.messages([topic.name]), _MOST_DESCRIPTIONS):
         if len(message.payload) > LARGEST:
-            raise InputError(f"'{topic.name}' holds no description that can be read")
+            raise InputError(f"'{topic.name}' has no description that can be read")
         text = codec.decode(message.payload).data
         if _PLACEHOLDER.fullmatch(text.strip()):
             continue
@@ -84,7 +83,7 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
 
 
 def prefix_of(robot: Robot, frames: Collection[str]) -> str:
-    """Return the prefix of frame names before link names, set on robot_state_publisher."""
+    """Return the prefix that robot_state_publisher was set to put before the names of links."""
     known = frozenset(frames)
     if not known or any(link in known for link in robot.links):
         return ""
@@ -98,7 +97,7 @@ def prefix_of(robot: Robot, frames: Collection[str]) -> str:
 
 
 def missing_motion(robot: Robot, frames: Collection[str], prefix: str) -> list[str]:
-    """Return the movable joints whose frames tf lacks."""
+    """Return the names of the movable joints whose frames tf lacks."""
     return [
         joint.name
         for joint in robot.joints.values()
@@ -119,8 +118,8 @@ def add_described(
         buffer: Buffer with the recorded transforms.
         robot: The description.
         joints: The joint states of the same recording.
-        frames: The children that tf gave, which are left as they are.
-        prefix: Prefix of the names of links in those of frames.
+        frames: Child frames in the recorded transforms, which are not changed.
+        prefix: Prefix before a link's name in the name of its frame.
 
     Returns:
         The added frames, and the missing ones.

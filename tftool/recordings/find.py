@@ -1,6 +1,7 @@
-"""Kind of a source named on the command line: decided by content, never by suffix.
+"""Search for the recording, scenario or other source that a word on the command line names.
 
-Only names, sizes and the first bytes are examined here.
+The kind of a source is decided by content, never by suffix. Only names, sizes and the first bytes
+of files are examined.
 """
 
 import contextlib
@@ -21,24 +22,24 @@ from tftool.recordings.poses.pose_options import options_of, path_behind_prefix
 from tftool.recordings.remote_files import is_url
 
 METADATA = "metadata.yaml"
-"""Name of the description that rosbag2 writes beside its files."""
+"""Name of the file with rosbag2's description of a recording."""
 
 ACTIVE: Final = ".active"
-"""Ending of a file's name until its recorder has finished it, as in ROS 1."""
+"""Ending of a file's name while its recorder writes it, as in ROS 1."""
 
 MOST_FILES = 10_000
-"""Files of one folder or glob that are looked at."""
+"""Maximum number of files in a folder or glob."""
 
 HEAD: Final = 4096
-"""First bytes of a file by which its kind is decided."""
+"""Number of bytes at the beginning of a file that decide its kind."""
 
 _MOST_NAMES = 4
 BESIDE = ("-wal", "-shm", "-journal")
-"""Endings of the files that sqlite has beside a database."""
+"""Endings of the additional files that sqlite writes for a database."""
 _MCAP_MANGLED = (b"\x89MCAP0\n", b"\x89MCAP0\r\r\n")
 _OLD_BAG = b"#ROSRECORD"
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
-"""Bytes that no text has: control characters but blanks, line ends and the colours' escape."""
+"""Bytes that do not occur in text: control characters except white space and ESC."""
 _LFS = b"version https://git-lfs"
 _OTHERS = {
     b"\x1f\x8b": "a gzip archive: unpack it first (gunzip)",
@@ -54,7 +55,7 @@ _OTHERS = {
 
 
 class Kind(Enum):
-    """Return the kind of a source for sentences."""
+    """Kind of a source; the value is its name in sentences."""
 
     SCENARIO = "scenario"
     DESCRIPTION = "robot description"
@@ -69,7 +70,7 @@ class Kind(Enum):
 
     @property
     def is_recording(self) -> bool:
-        """Whether `open_recording` can read this kind."""
+        """Whether `open_recording` can read a source of this kind."""
         return self not in (Kind.SCENARIO, Kind.DESCRIPTION, Kind.STATICS)
 
 
@@ -78,10 +79,10 @@ _RECORDINGS: Final = (*_CONTAINERS, Kind.ZSTD)
 
 
 def container_in(path: Path, kind: Kind) -> ContainerFormat:
-    """Return the container of a file of that kind.
+    """Return the container of a file of some kind.
 
     Raises:
-        InputError: If files of that kind are no recordings.
+        InputError: If files of that kind are not recordings.
     """
     found = _CONTAINERS.get(kind)
     if found is None:
@@ -91,14 +92,14 @@ def container_in(path: Path, kind: Kind) -> ContainerFormat:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A source named by a word.
+    """A source found by a word: its kind and its files.
 
     Attributes:
-        name: The word.
-        kind: Kind. ROSBAG2 is a folder with rosbag2's metadata.
-        paths: The file or the folder; of SEVERAL, each of its recordings in the order of
-            their names, files and folders.
-        passed_over: Files beside them, in the folder or of the glob, that are not recordings.
+        name: The word, as the user gave it.
+        kind: Kind of the source. ROSBAG2 is a folder with rosbag2's metadata.
+        paths: The file or folder; for SEVERAL, the files and folders of all recordings, sorted
+            by name.
+        passed_over: Other files in the folder or of the glob, which are not recordings.
     """
 
     name: str
@@ -107,7 +108,7 @@ class Found:
     passed_over: tuple[Path, ...] = ()
 
     def told(self) -> list[str]:
-        """Return notes as sentences: skipped files, the convention of pose files."""
+        """Return sentences about skipped files, and about the convention of pose files."""
         if self.kind is Kind.POSES:
             from tftool.recordings.poses.pose_formats import convention_of
 
@@ -132,26 +133,26 @@ def names_a_path(word: str) -> bool:
     try:
         return os.path.lexists(word) or bool(_globbed(word) or path_behind_prefix(word)[0])
     except ValueError:
-        return False  # a zero character
+        return False  # the word contains a zero character
 
 
 def _meant(path: Path) -> str:
-    """Return the path one folder deeper, as in a workspace's src, if it exists."""
+    """Return a hint if the path exists one folder deeper, as in a workspace's src; else ""."""
     if path.is_absolute() or ".." in path.parts:
         return ""
     with contextlib.suppress(OSError):
         below = [os.path.join(one, path) for one in sorted(os.listdir())]
-        # What cannot be looked into is not it.
+        # Skip folders that cannot be read.
         found = next((one for one in below if os.path.exists(one)), "")
         return f" Did you mean '{found}'?" if found else ""
     return ""
 
 
 def find(word: str) -> Found:
-    """Return the source named by a path or glob.
+    """Return the source that a path or glob names.
 
     Raises:
-        InputError: If there is nothing, or nothing we read; it names the content instead.
+        InputError: If there is no such source, or it cannot be read; the text says what it is.
     """
     path = Path(word)
     try:
@@ -166,7 +167,7 @@ def find(word: str) -> Found:
                 raise InputError(f"'{word}' is a broken link to {os.readlink(path)}")
             if word.startswith(("ws://", "wss://")):
                 raise InputError(
-                    f"'{word}' is a robot's Foxglove server, and a file is needed here: "
+                    f"'{word}' is a robot's Foxglove server, but a file is needed: "
                     f"'tftool record -o run.mcap {word}' writes one."
                 )
             if is_url(word):
@@ -194,7 +195,7 @@ def find(word: str) -> Found:
 
 
 def _kind_with_options(word: str, path: Path) -> Kind:
-    """Return the kind of one file; refuse options for pose files for other kinds.
+    """Return the kind of one file; refuse options for pose files if it is another kind.
 
     Raises:
         UsageError: If options of pose files are given for another file.
@@ -204,12 +205,12 @@ def _kind_with_options(word: str, path: Path) -> Kind:
         return Kind.POSES
     kind = kind_of_file(path)
     if kind is not Kind.POSES:
-        options.refuse(f"'{word}' is a {kind.value} and no pose file")
+        options.refuse(f"'{word}' is a {kind.value}, not a pose file")
     return kind
 
 
 def _prefixed(word: str, path: Path) -> Found:
-    """Return the pose file of NAME=FILE.
+    """Return the pose file in the word NAME=FILE.
 
     Raises:
         InputError: If the file is something else.
@@ -222,7 +223,7 @@ def _prefixed(word: str, path: Path) -> Found:
 
 _DESCRIBING = {".urdf", ".xacro"}
 _WRITTEN = {*_DESCRIBING, ".yaml", ".yml", ".xml", ".py"}
-"""Suffixes of files that people write, and no recorder."""
+"""Suffixes of files that people write by hand, so that they are never recordings."""
 
 
 def kind_of_file(path: Path) -> Kind:
@@ -291,19 +292,19 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
     if not is_scenario and _are_poses(path, head):
         return Kind.POSES
     if not is_scenario and path.suffix in SUFFIXES:
-        raise InputError(f"'{path}' is text, and not a recording as its name says.")
+        raise InputError(f"'{path}' is text, not a recording as its suffix says.")
     return Kind.SCENARIO
 
 
 def _are_poses(path: Path, head: bytes) -> bool:
-    # Its readers import what no other kind of file needs at start-up.
+    # Imported here because pose readers import packages that other files do not need.
     from tftool.recordings.poses.pose_formats import recognised
 
     return recognised(head, str(path)) is not None
 
 
 def _is_text(head: bytes) -> bool:
-    """Whether the beginning of a file is UTF-8; its last character may be incomplete."""
+    """Whether the first bytes of a file are UTF-8 text; the last character may be incomplete."""
     try:
         head.decode()
     except UnicodeDecodeError as error:
@@ -324,7 +325,7 @@ def _is_metadata(path: Path) -> bool:
 
 
 def _folder(word: str, path: Path) -> Found:
-    """Return the contents of a folder: one rosbag2 recording, or several recordings."""
+    """Return the recording or recordings in a folder."""
     if (path / METADATA).exists():
         return Found(word, Kind.ROSBAG2, (path,))
     entries = sorted(path.iterdir())
@@ -336,7 +337,7 @@ def _folder(word: str, path: Path) -> Found:
         )
     if len(paths) == 1:
         return Found(word, kinds.pop(), paths, others)
-    # The parts of one recording whose metadata is lost, else recordings of their own.
+    # Files with a common stem are parts of one recording without metadata, else separate ones.
     stored = [kind for kind, one in _CONTAINERS.items() if one.storage]
     is_split = kinds in [{kind} for kind in stored] and len({_stem(one) for one in paths}) == 1
     if is_split:
@@ -357,10 +358,10 @@ def _several(word: str, matches: list[str]) -> Found:
 def _recordings(
     entries: list[Path],
 ) -> tuple[tuple[Path, ...], set[Kind], tuple[Path, ...]]:
-    """Sort files and folders into recordings, possible recordings, and other files.
+    """Return the recordings among some paths, their kinds, and the other paths.
 
     Raises:
-        PermissionError: If none is known to be one, and some may not be read.
+        PermissionError: If there is no recording, and some files must not be read.
     """
     if len(entries) > MOST_FILES:
         raise InputError(
@@ -378,12 +379,12 @@ def _recordings(
             elif (entry / METADATA).exists():
                 kind = Kind.ROSBAG2
         except PermissionError as error:
-            # It may be one: who opens it tells that it is left out.
+            # It may be a recording: code that opens it will report that it cannot be read.
             found.append(entry)
             refused = refused or error
             continue
         except (InputError, OSError):
-            pass  # as a link to nothing, or to itself
+            pass  # for example a broken link
         if kind is Kind.ROSBAG2 or kind in _RECORDINGS:
             found.append(entry)
             kinds.add(kind)
@@ -395,10 +396,10 @@ def _recordings(
 
 
 def refusal(path: Path, error: OSError) -> InputError:
-    """Return the sentence for one of several files that cannot be opened.
+    """Return the error for one of several files that cannot be opened.
 
     Raises:
-        OSError: The error itself, if it is none of this file: too many are open.
+        OSError: The given error, if the file is not its cause: too many files are open.
     """
     if error.errno in (errno.EMFILE, errno.ENFILE):
         raise error

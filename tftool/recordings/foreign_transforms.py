@@ -1,4 +1,4 @@
-"""Transforms in other messages than TFMessage, decoded one message at a time.
+"""Decoders of transforms in types other than TFMessage, for one message at a time.
 
 Sources: foxglove.dev's schemas of FrameTransform and FrameTransforms; common_interfaces.
 """
@@ -16,7 +16,7 @@ from tftool.messages.layouts import CDR, ROS1
 
 
 class Shaped(NamedTuple):
-    """One transform: stamp, names, and x y z, x y z w."""
+    """One transform: its stamp, frame names, position x y z and quaternion x y z w."""
 
     stamp: Stamp
     parent: str
@@ -31,13 +31,13 @@ _DOUBLE = struct.Struct("<d")
 
 
 def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decoder | None":
-    """Return the decoder from a type's messages to transforms; None if there is none.
+    """Return a function that decodes transforms from messages of a type; None if there is none.
 
     Args:
-        kind: The type, short.
+        kind: Type of the messages, in short form.
         encoding: Encoding of the messages.
         definition: The type's definition, as recorded.
-        topic: Topic, which names a PoseStamped's child frame.
+        topic: Name of the topic, used as the child frame of a PoseStamped.
 
     Raises:
         InputError: If the type's definition is wrong or missing.
@@ -58,7 +58,7 @@ def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decode
 
 
 def is_foreign(kind: str, encoding: str) -> bool:
-    """Whether a type contains transforms in another form than TFMessage."""
+    """Whether messages of a type contain transforms, but are not TFMessages."""
     package, _, name = kind.replace("/", ".").rpartition(".")
     if package in ("foxglove", "foxglove_msgs") and name in _FOXGLOVE:
         return encoding in ("protobuf", "json")
@@ -112,7 +112,7 @@ _READERS: Final[dict[str, Callable[[Any, str], Shaped]]] = {
 }
 
 
-# foxglove's
+# Foxglove's types
 
 
 def _json(payload: bytes, several: bool) -> list[Shaped]:
@@ -147,7 +147,7 @@ def _protobuf(payload: bytes, several: bool) -> list[Shaped]:
 def _of_protobuf(payload: bytes) -> Shaped:
     seconds = nanoseconds = 0
     names = ["", ""]
-    # Protobuf leaves out zeros; a rotation that is missing altogether turns nothing.
+    # Protobuf omits zeros; without any rotation field, the rotation is the identity.
     place, turn = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]
     turned = False
     for number, value in _fields(payload):
@@ -159,7 +159,7 @@ def _of_protobuf(payload: bytes) -> Shaped:
                     nanoseconds = int(count)
         elif number in (2, 3):
             if not isinstance(value, bytes):
-                raise ValueError("a name is no text")
+                raise ValueError("a name is not text")
             names[number - 2] = value.decode("utf-8", "backslashreplace")
         elif number in (4, 5):
             target = place if number == 4 else turn
@@ -182,7 +182,7 @@ def _checked(stamp: int) -> Stamp:
 
 
 def _fields(payload: bytes) -> Iterator[tuple[int, Any]]:
-    """Yield each protobuf field's number and value: varints as numbers, others as bytes."""
+    """Yield the number and value of each protobuf field; a value is an integer or bytes."""
     position, size = 0, len(payload)
     while position < size:
         key, position = _varint(payload, position)

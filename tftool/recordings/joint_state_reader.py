@@ -1,4 +1,4 @@
-"""Reading of joint positions from recorded messages in bulk."""
+"""Reader of joint positions from recorded JointState messages, in bulk."""
 
 import struct
 from collections import Counter
@@ -16,17 +16,17 @@ from tftool.robots.robot_model import JointStates
 JOINT_STATE: Final = "sensor_msgs/JointState"
 
 MOST_JOINTS: Final = 10_000
-"""Names one message may have."""
+"""Maximum number of joint names in a message."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecordedJoints:
-    """Joint states of a recording.
+    """Joint states of a recording, with counts of messages that were ignored.
 
     Attributes:
         states: Joint states grouped by the list of joint names in the messages, in the order in
             which the lists were first seen.
-        ignored: Number of messages without positions, by the reason as a sentence.
+        ignored: Number of ignored messages, by the reason as a sentence.
     """
 
     states: tuple[JointStates, ...] = ()
@@ -41,7 +41,7 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
         namespace: Namespace of the robot's description: `/arm` for `/arm/robot_description`.
 
     Returns:
-        `joint_states` of that namespace; where there is none, of all namespaces.
+        `joint_states` of that namespace; if there is none, those of all namespaces.
     """
     named = [
         topic.name
@@ -55,13 +55,13 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
 
 
 def read_joint_states(source: Recorded, topics: Sequence[str]) -> RecordedJoints:
-    """Read the JointState messages of some topics.
+    """Return the joint states in the JointState messages of some topics.
 
     As in robot_state_publisher, a message with different numbers of names and positions is ignored.
 
     Args:
         source: The recording.
-        topics: Names of topics it has.
+        topics: Names of topics in the recording.
     """
     encodings = {topic.name: topic.encoding for topic in source.topics}
     groups: dict[tuple[tuple[str, ...], str], list[tuple[bytes, bytes]]] = {}
@@ -87,15 +87,15 @@ def read_joint_states(source: Recorded, topics: Sequence[str]) -> RecordedJoints
 
 @dataclass(frozen=True, slots=True)
 class _Template:
-    """Offsets in a message, and the bytes that identify messages of the same layout.
+    """Byte offsets in a JointState message, and the bytes that all messages of its layout share.
 
     Attributes:
-        order: "<" or ">".
-        head: The bytes from the stamp to the positions: frame, names, number of positions.
+        order: Byte order, "<" or ">".
+        head: Bytes between the stamp and the positions: frame, names, number of positions.
         begin: Offset of the positions.
-        end: Offset of their end.
-        names: The joints.
-        problem: Reason why it holds no positions; empty if it does.
+        end: Offset of the end of the positions.
+        names: Names of the joints.
+        problem: Reason why the message has no valid positions; else empty.
     """
 
     order: str
@@ -106,18 +106,18 @@ class _Template:
     problem: str = ""
 
     def fits(self, payload: bytes) -> bool:
-        """Whether another message has the same offsets."""
+        """Whether another message has the same layout."""
         return len(payload) >= self.end and payload.startswith(self.head, 12)
 
 
 def _template(payload: bytes, *, is_cdr: bool) -> _Template:
-    """Parse one message up to its positions.
+    """Parse a JointState message up to its positions.
 
     Raises:
-        struct.error: If it is cut off.
-        ValueError: If it is not a JointState.
+        struct.error: If the message is cut off.
+        ValueError: If the message is not a JointState.
     """
-    # The stamp is behind CDR's header with the byte order, or ROS 1's sequence number.
+    # The stamp is after CDR's header, which has the byte order, or after ROS 1's sequence number.
     order = "<" if not is_cdr or payload[1:2] in (b"\1", b"\3") else ">"
     number = struct.Struct(f"{order}I")
     place = 12
@@ -160,7 +160,7 @@ def _template(payload: bytes, *, is_cdr: bool) -> _Template:
 
 
 def _columns(names: tuple[str, ...], order: str, rows: list[tuple[bytes, bytes]]) -> JointStates:
-    """Return the joint states of messages in one byte order, each its stamp and its positions."""
+    """Return joint states from the bytes of stamps and positions, all in one byte order."""
     stamps, positions = (b"".join(column) for column in zip(*rows, strict=True))
     times = np.frombuffer(stamps, dtype=f"{order}u4").reshape(-1, 2).astype(np.int64)
     found = np.frombuffer(positions, dtype=f"{order}f8").astype(np.float64)

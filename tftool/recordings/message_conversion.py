@@ -1,4 +1,4 @@
-"""Channels of ROS 2 types, and conversion of messages between ROS 1's and ROS 2's encoding."""
+"""Channels of ROS 2 types, and conversion of messages between the encodings of ROS 1 and ROS 2."""
 
 import re
 from collections.abc import Callable
@@ -27,11 +27,11 @@ _TO_ROS2: Final = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 
 
 class Conversion(NamedTuple):
-    """Conversion of a stream to the other profile.
+    """Conversion of a channel between ROS 1 and ROS 2.
 
     Attributes:
-        channel: Stream after the conversion.
-        payload: Each message's bytes as they are written then.
+        channel: The channel after the conversion.
+        payload: Function that converts the bytes of a message.
     """
 
     channel: Channel
@@ -39,7 +39,7 @@ class Conversion(NamedTuple):
 
 
 def as_ros2(channel: Channel) -> Conversion:
-    """Return the conversion of a ROS 1 stream to ROS 2.
+    """Return the conversion of a ROS 1 channel to ROS 2.
 
     Raises:
         InputError: If the type is unknown, or the messages have another encoding.
@@ -71,11 +71,11 @@ def as_ros2(channel: Channel) -> Conversion:
 
 
 def as_ros1(channel: Channel) -> Conversion:
-    """Return the conversion of a ROS 2 stream to ROS 1.
+    """Return the conversion of a ROS 2 channel to ROS 1.
 
     Raises:
-        InputError: If its type is not known, ROS 1 has nothing like it, or its messages are
-            written another way.
+        InputError: If the type is unknown or has no equivalent in ROS 1, or the messages have
+            another encoding.
     """
     if channel.encoding == "ros1":
         return Conversion(channel, bytes)
@@ -105,7 +105,7 @@ def as_ros1(channel: Channel) -> Conversion:
 
 
 def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
-    """Return a stream's type, and the definitions by which its messages are read."""
+    """Return a channel's type, and the definitions needed to read its messages."""
     if channel.encoding != encoding:
         raise InputError(
             f"its messages are written as '{channel.encoding}', which is not converted here"
@@ -118,7 +118,7 @@ def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
         INTERFACES.message(full)
         return full, INTERFACES
     if encoding == "ros1":
-        # ROS 2 dropped the number that ROS 1 counts headers with; reading leaves it out, too.
+        # ROS 2's header has no sequence number, and the reader omits ROS 1's.
         text = _SEQUENCE.sub(r"\1", text)
     interfaces = Interfaces()
     interfaces.define(full, text)
@@ -130,12 +130,12 @@ TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
 
 
 def ros2_channel(topic: str, kind: str, *, static: bool = False) -> Channel:
-    """Return the channel of a known type, as ROS 2 records it.
+    """Return a channel with a known type, as ROS 2 records it.
 
     Args:
-        topic: Name.
-        kind: The type: "tf2_msgs/msg/TFMessage".
-        static: Whether late subscribers get the last message too.
+        topic: Name of the topic.
+        kind: Type of the messages: "tf2_msgs/msg/TFMessage".
+        static: Whether late subscribers also get the last message.
 
     Raises:
         InputError: If the type is not known.

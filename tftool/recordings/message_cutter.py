@@ -1,4 +1,4 @@
-"""Decoding of recorded messages into columns: natively if built, else in numpy."""
+"""Decoders of recorded messages into columns of transforms: native if built, else in numpy."""
 
 from typing import Final, TypeAlias
 
@@ -20,21 +20,23 @@ from tftool.recordings.columns import Batch, Growing, Table
 from tftool.recordings.contract import Indexes
 from tftool.recordings.foreign_transforms import Decoder
 
-_PER_LENGTH: Final = 16  # layouts of one length that are tried before messages are walked singly
+_PER_LENGTH: Final = (
+    16  # layouts per message length; messages of further layouts are parsed one by one
+)
 _TEMPLATE_BYTES: Final = 16_000_000
-_FEW: Final = 256  # messages that wait for others: an array operation costs a microsecond
+_FEW: Final = 256  # messages to collect: an array operation costs a microsecond at least
 _LITTLE_HEADER: Final = 0x00000100
-_MOST_SCANNED: Final = 1 << 32  # bytes of a buffer whose places fit 32 bits
+_MOST_SCANNED: Final = 1 << 32  # size of a buffer whose offsets fit into 32 bits
 
 MOST_WAITING: Final = 1 << 26
-"""Bytes of messages that wait for others, but for the last one."""
+"""Maximum size of the collected messages, bytes; the last message may exceed it."""
 
 
 class Cutter:
-    """Decoder of transforms of one layout and kind into a table.
+    """Base class of decoders of transforms, from messages of one byte layout into a table.
 
-    What the kinds of it have in common: messages wait until there are some, and those that are
-    odd in any way are walked one by one.
+    Messages are collected until there are enough for array operations. Unusual messages are parsed
+    one by one.
     """
 
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
@@ -42,22 +44,22 @@ class Cutter:
         self._layout = layout
         self._static = static
         self._waiting: list[tuple[Batch, Indexes]] = []
-        # Messages and bytes that wait; both are bounded.
+        # Number and size of the collected messages; both are limited.
         self._count = self._held = 0
 
     def add(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages now, or buffer them until there are more.
+        """Decode messages now, or collect them until there are more.
 
         Args:
             batch: The messages.
-            numbers: Numbers in the table, shape (n,).
+            numbers: Number of each message in the table, shape (n,).
         """
-        # Those that wait go first: columns are in the order of the recording.
+        # Decode collected messages first: columns are in the order of the recording.
         if len(batch) >= _FEW:
             self.flush()
             self._cut_first(batch, numbers)
         elif len(batch):
-            # Only their bytes are kept, not the whole chunk they lie in.
+            # Copy the messages' bytes, so that the whole chunk can be freed.
             self._waiting.append((_compacted(batch), numbers))
             self._count += len(batch)
             self._held += int(batch.lengths.sum())
@@ -65,7 +67,7 @@ class Cutter:
                 self.flush()
 
     def flush(self) -> None:
-        """Decode everything buffered."""
+        """Decode all collected messages."""
         if not self._waiting:
             return
         waiting, self._waiting = self._waiting, []
@@ -85,26 +87,26 @@ class Cutter:
         self._cut_first(joined, np.concatenate([numbers for _, numbers in waiting]))
 
     def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages; if there may be too many edges, the first ones are kept."""
-        # Even if each byte were part of the smallest transform, all would find room.
+        """Decode messages; if there may be too many edges, use the first ones."""
+        # Even with transforms of minimum size, there cannot be too many new edges.
         if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
             self._cut(batch, numbers)
             return
-        # How many transforms they can have, up to each of them.
+        # Maximum number of transforms up to each message.
         most = np.cumsum(batch.lengths // SMALLEST)
         begin = done = 0
         while begin < len(batch):
-            # What these bring finds room in any order.
+            # These messages cannot have too many new edges, in any order.
             end = max(int(np.searchsorted(most, done + self._table.spare, "right")), begin + 1)
             self._cut(batch.chosen(slice(begin, end)), numbers[begin:end])
             begin, done = end, int(most[end - 1])
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages in the fastest order."""
+        """Decode messages, in any order that is fast."""
         raise NotImplementedError
 
     def _walk(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages one by one, including unusual ones."""
+        """Decode messages one by one, including unusual messages."""
         for number in range(len(batch)):
             payload = batch.payload(number)
             try:
@@ -121,7 +123,7 @@ class Cutter:
 
 
 class TemplateCutter(Cutter):
-    """Decoder in numpy: messages of equal layout are rows of one table."""
+    """Decoder in numpy, which treats messages of equal length as rows of one array."""
 
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)
@@ -130,7 +132,7 @@ class TemplateCutter(Cutter):
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
         lengths = batch.lengths
-        # A template for a single message costs more than to walk it.
+        # Parsing a single message costs less than making a template of it.
         if len(batch) == 1:
             self._walk(batch, numbers)
             return
@@ -143,12 +145,12 @@ class TemplateCutter(Cutter):
 
     def _cut_equal(self, batch: Batch, numbers: Indexes, length: int) -> None:
         """Decode messages of equal length."""
-        # Rows of whole words around the message, so that numpy compares 8 bytes at a time.
+        # Each row has whole words around a message, so that numpy compares 8 bytes at a time.
         begin, width = row_span(self._layout, length)
         if width < SMALLEST:
             self._walk(batch, numbers)
             return
-        # A row may begin before its message; the first message of a buffer has nothing there.
+        # A row may begin before its message: the buffer needs bytes before its first message.
         if int(batch.starts.min()) + begin < 0:
             buffer = np.concatenate([np.zeros(8, dtype=np.uint8), batch.buffer])
             batch = Batch(buffer, batch.starts + 8, batch.lengths, batch.log_times, batch.senders)
@@ -158,13 +160,13 @@ class TemplateCutter(Cutter):
         while len(rows):
             if tried == len(templates):
                 if self._layout is CDR and int(rows[0, 0]) >> 32 != _LITTLE_HEADER:
-                    # Big-endian CDR or an unknown header: rare enough to be walked one by one.
+                    # Big-endian CDR or an unknown header is rare: parse these messages one by one.
                     odd = rows[:, 0] >> np.uint64(32) != _LITTLE_HEADER
                     self._walk(batch.chosen(np.flatnonzero(odd)), numbers[odd])
                     rest = np.flatnonzero(~odd)
                     rows, numbers, batch = rows[rest], numbers[rest], batch.chosen(rest)
                     continue
-                # Names that change with every message would make a template each.
+                # If names change with every message, templates do not help.
                 if tried >= _PER_LENGTH or not self._learn(batch.payload(0), length):
                     self._walk(batch, numbers)
                     return
@@ -172,7 +174,7 @@ class TemplateCutter(Cutter):
             fits = template.fits(rows)
             if fits is None:
                 self._append(template, rows, numbers)
-                # What came last is likely to come next.
+                # Try the last matching template first next time.
                 templates.insert(0, templates.pop(tried))
                 return
             if fits.any():
@@ -182,12 +184,12 @@ class TemplateCutter(Cutter):
             tried += 1
 
     def _learn(self, payload: bytes, length: int) -> bool:
-        """Make a template of a message; return whether that is possible."""
+        """Make a template of a message; return whether this is possible."""
         try:
             walked = walk(self._layout, payload)
         except MalformedMessage:
             return False
-        # A hostile file may have a layout for each message: the memory of templates is bounded.
+        # Limit the memory of templates: a hostile file may have a new layout in each message.
         self._bytes += 4 * length
         if self._bytes > _TEMPLATE_BYTES:
             self._bytes = 0
@@ -207,7 +209,7 @@ class TemplateCutter(Cutter):
 
 
 class ScanCutter(Cutter):
-    """Native decoder."""
+    """Decoder in C, for the frequent cases; it returns unusual messages."""
 
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)
@@ -222,8 +224,8 @@ class ScanCutter(Cutter):
             return
         columns = map(np.ascontiguousarray, (batch.starts, batch.lengths, numbers))
         is_cdr = self._layout is CDR
-        # C cuts what it is sure of and returns the rest; `_aim` is called for each new pair of
-        # names.
+        # C decodes plain messages and returns the indices of others; it calls `_aim` for each
+        # new pair of names.
         left_out, odd = self._pairs.take(batch.buffer, *columns, is_cdr, self._aim)
         self._table.leave_out(left_out)
         if odd:
@@ -231,11 +233,11 @@ class ScanCutter(Cutter):
             self._walk(batch.chosen(which), numbers[which])
 
     def _aim(self, pair: int, message: int, rank: int) -> None:
-        """Return where a pair's transforms are written, with space reserved.
+        """Tell the native code where to write the transforms of a new pair of names.
 
         Args:
-            pair: Number.
-            message: Number of the message with the next one.
+            pair: Number of the pair.
+            message: Number of the message with the pair's next transform.
             rank: Index of the transform in the message.
         """
         number = self._of_pair.get(pair)
@@ -245,11 +247,11 @@ class ScanCutter(Cutter):
         names = self._named(pair)
         edge = self._table.edge(*names, self._static, 0)
         if edge is None:
-            # No room for another edge: its transforms are counted and dropped.
+            # There are too many edges: count and drop the transforms of this pair.
             self._pairs.lead(pair, -1, False)
             return
         edge.first = min(edge.first, (message, rank))
-        # Names with a slash and without are of one edge.
+        # Names with and without a leading slash belong to the same edge.
         number = self._numbers.setdefault(edge, len(self._edges))
         if number == len(self._edges):
             self._edges.append(edge)
@@ -263,27 +265,27 @@ class ScanCutter(Cutter):
         self._pairs.aim(number, edge.records, edge.messages, edge.state)
 
     def _named(self, pair: int) -> tuple[str, str]:
-        """Return both names of a pair in the form of `walk`."""
+        """Return parent and child of a pair as text, like `walk`."""
         raw = self._pairs.names(pair)
         if self._layout is CDR:
-            # CDR counts the closing zero among a string's bytes.
+            # In CDR a string's bytes include the final zero.
             raw = tuple(name.removesuffix(b"\x00") for name in raw)
         parent, child = (name.decode("utf-8", "backslashreplace") for name in raw)
         return parent, child
 
 
 AnyCutter: TypeAlias = "Cutter | Decoding"
-"""Whatever takes a topic's messages into a table."""
+"""Decoder of a topic's messages into a table."""
 
 
 def cutter(table: Table, layout: Layout, static: bool) -> Cutter:
-    """Return the fastest available decoder for messages of one layout and kind."""
+    """Return the fastest decoder for TFMessages of one byte layout, static or moving."""
     kind = TemplateCutter if SCAN is None else ScanCutter
     return kind(table, layout, static)
 
 
 class Decoding:
-    """Decoder of transforms in other message types, one by one, into a table."""
+    """Decoder of transforms in types other than TFMessage, one message at a time, into a table."""
 
     def __init__(self, table: Table, decode: Decoder, static: bool) -> None:
         self._table = table
@@ -302,11 +304,11 @@ class Decoding:
                 self._table.refused[str(error)] += 1
 
     def flush(self) -> None:
-        """Do nothing: no message is buffered."""
+        """Do nothing: no messages are collected."""
 
 
 def _compacted(batch: Batch) -> Batch:
-    """Copy messages to a new buffer, with space before each for a row."""
+    """Copy messages to a new buffer, with space before each message for its row."""
     pieces = []
     starts = np.empty(len(batch), dtype=np.int64)
     position = 0

@@ -223,7 +223,7 @@ def test_a_child_with_a_new_parent_stays_where_it_is(tmp_path, mcap):
                     for of in (before, after)
                 )
                 assert np.allclose(one.translation, two.translation, atol=1e-12)
-    with pytest.raises(UsageError, match="moves against"):
+    with pytest.raises(UsageError, match="moves relative to"):
         edit(
             [str(mcap)],
             tmp_path / "c.mcap",

@@ -56,7 +56,7 @@ def test_a_folder_is_replaced_only_if_it_holds_nothing_but_a_recording(tmp_path,
         (Edits(rename={"lasr": "x"}), "No frame 'lasr'"),
         (Edits(rename={"laser": "camera"}), "Two frames would be called 'camera'"),
         (Edits(reparent={("base_link", "laser"): "moon"}), "No frame 'moon'"),
-        (Edits(start=5, end=3), "--to lies before --from"),
+        (Edits(start=5, end=3), "--to is before --from"),
     ],
 )
 def test_what_is_not_in_the_recording_is_refused_with_what_is(tmp_path, mcap, edits, told):

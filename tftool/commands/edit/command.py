@@ -64,7 +64,7 @@ def _moments(
     low = start.stamp(epoch) if start is not None else None
     high = end.stamp(epoch) if end is not None else None
     if low is not None and high is not None and high < low:
-        raise UsageError("--to lies before --from.")
+        raise UsageError("--to is before --from.")
     return low, high
 
 

@@ -1,4 +1,4 @@
-"""Changes to a recording, by transform and by message."""
+"""Changes that an edit makes to the messages and transforms of a recording."""
 
 import struct
 from collections import Counter
@@ -31,31 +31,31 @@ from tftool.recordings.contract import Stamps
 from tftool.recordings.edit.tables import Kinds, MessageKind, Result, TableChange
 
 LinkName = tuple[str, str]
-"""Parent and child, each without a leading slash; "*" means any name."""
+"""Names of parent and child, each without a leading slash; "*" means any name."""
 
 _HEADER: Final = "std_msgs/msg/Header"
 
 
 @dataclass(frozen=True, slots=True)
 class Edits:
-    """Changes to make; names are those in the recording.
+    """Changes to make to a recording; all names are those in the recording.
 
     Attributes:
-        drop: Links to leave out.
-        rename: New names of frames.
-        prefix: Prefix of every name.
-        strip_slash: Whether to take leading slashes away.
-        poses: New numbers of links: x y z, and x y z w.
-        reparent: The parent that a link's child shall hang from, without being moved.
-        statics_first: Whether the statics come in one message for each of their channels, at
-            the beginning.
-        statics_from: Statics to take in place of those of the same children.
-        start: First moment to keep, nanoseconds.
-        end: Last moment to keep.
-        by_record_time: Whether these are log times, not stamps.
+        drop: Links to remove.
+        rename: New frame names, by old name.
+        prefix: Prefix to add to every frame name.
+        strip_slash: Whether to remove leading slashes from frame names.
+        poses: New poses of links: x y z, and x y z w.
+        reparent: New parent of a link's child; the child does not move.
+        statics_first: Whether to write the static transforms at the beginning, in one message
+            for each channel.
+        statics_from: Static transforms that replace those of the same children.
+        start: First time to keep, nanoseconds; None for the beginning.
+        end: Last time to keep; None for the end.
+        by_record_time: Whether `start` and `end` are log times; else stamps.
         shift: Nanoseconds to add to the stamps of moving links.
-        restamp: Whether stamps become log times.
-        everywhere: Whether names and stamps change in all messages with a header.
+        restamp: Whether to replace stamps by log times.
+        everywhere: Whether to change names and stamps in all messages with a header.
         split_every: Duration of each file; 0 for one file.
     """
 
@@ -77,26 +77,26 @@ class Edits:
 
     @property
     def cuts(self) -> bool:
-        """Whether only part of the time span is kept."""
+        """Whether the edit keeps only part of the time span."""
         return self.start is not None or self.end is not None
 
     @property
     def names(self) -> bool:
-        """Whether frame names change."""
+        """Whether the edit changes frame names."""
         return bool(self.rename or self.prefix or self.strip_slash)
 
     @property
     def stamps(self) -> bool:
-        """Whether stamps change."""
+        """Whether the edit changes stamps."""
         return bool(self.shift or self.restamp)
 
     @property
     def links(self) -> bool:
-        """Whether transforms change."""
+        """Whether the edit changes transforms."""
         return bool(self.drop or self.poses or self.reparent or self.names or self.stamps)
 
     def name(self, frame: str) -> str:
-        """Return a frame's new name."""
+        """Return the new name of a frame."""
         plain = stripped(frame)
         slash = frame[: len(frame) - len(plain)]
         plain = self.rename.get(plain, plain)
@@ -105,35 +105,35 @@ class Edits:
         return plain if self.strip_slash else slash + plain
 
     def stamp(self, stamp: Stamp, log_time: Stamp) -> Stamp:
-        """Return a new stamp; 0 means none, and stays."""
+        """Return the new value of a stamp; 0 means "no stamp", and is not changed."""
         if self.restamp:
             return log_time + self.shift
         return stamp + self.shift if stamp else stamp
 
 
 def fits(link: LinkName, wanted: LinkName) -> bool:
-    """Whether an option names this link."""
+    """Whether a link has the names that an option gives, where "*" means any name."""
     return all(word in ("*", name) for name, word in zip(link, wanted, strict=True))
 
 
 def carries_transforms(channel: Channel) -> bool:
-    """Whether a channel's messages are lists of transforms that can be edited here."""
+    """Whether a channel's messages are lists of transforms that an edit can change."""
     return short_type(channel.type) in TRANSFORM_TYPES and channel.encoding in LAYOUTS
 
 
 def carries_statics(channel: Channel) -> bool:
-    """Whether a channel's transforms are static."""
+    """Whether a channel's messages are lists of static transforms that an edit can change."""
     return carries_transforms(channel) and is_static(channel)
 
 
 class Window:
-    """Time span to keep.
+    """Time span that an edit keeps.
 
     Attributes:
-        start: First log time of messages without a stamp of their own.
-        end: Last one.
-        stamps: First and last stamp of messages with a header; None to go by log times.
-        links: First and last stamp of each moving link's transforms; log times where
+        start: First log time to keep, for messages without a stamp.
+        end: Last log time to keep, for messages without a stamp.
+        stamps: First and last stamp to keep, for messages with a header; None to use log times.
+        links: First and last stamp to keep of each moving link's transforms; log times if
             `stamps` is None.
     """
 
@@ -150,16 +150,16 @@ class Window:
         self.links = links
 
     def holds(self, moment: Stamp) -> bool:
-        """Whether a log time is kept."""
+        """Whether a message with this log time is kept."""
         return self.start <= moment <= self.end
 
     def holds_stamp(self, stamp: Stamp) -> bool:
-        """Whether a header's stamp is kept."""
+        """Whether a message with this stamp in its header is kept."""
         assert self.stamps is not None
         return self.stamps[0] <= stamp <= self.stamps[1]
 
     def holds_row(self, row: TransformRow, log_time: Stamp) -> bool:
-        """Whether a moving transform is kept."""
+        """Whether a transform of a moving link is kept."""
         span = self.links.get((stripped(row.parent), stripped(row.child)))
         if span is None:
             return self.holds(log_time)
@@ -167,28 +167,28 @@ class Window:
 
 
 Reparenting = Callable[[LinkName, Stamp], Transform | None]
-"""Pose of a link's parent in the new parent, at a stamp; None where that is not known."""
+"""Function that returns the pose of a link's old parent in the new parent at a stamp, or None."""
 
 
 class Changer:
-    """Editor of messages, with counts of its changes.
+    """Editor of a recording's messages, with counts of its changes.
 
     Attributes:
-        window: Moments to keep; None for all.
-        counts: Number of changes, by kind.
-        topics: Topics on which links are that change; None where that is not known.
-        passed_over: Topics whose names could not be changed, and why.
+        window: Time span to keep; None for all.
+        counts: Number of changes, by kind of change.
+        topics: Topics with links that change; None if unknown.
+        passed_over: Topics whose frame names cannot be changed, with the reason.
     """
 
     def __init__(
         self, edits: Edits, window: Window | None = None, reparenting: Reparenting | None = None
     ) -> None:
-        """Take the changes to make.
+        """Create an editor.
 
         Args:
-            edits: The edits.
-            window: Moments to keep; None for all.
-            reparenting: Transforms from new parents to old ones.
+            edits: Changes to make.
+            window: Time span to keep; None for all.
+            reparenting: Function for the poses of old parents in new parents.
         """
         self._edits = edits
         self.window = window
@@ -202,7 +202,7 @@ class Changer:
         self.topics: frozenset[str] | None = None
 
     def touches(self, channel: Channel) -> bool:
-        """Whether a channel's messages may change or be dropped, apart from a cut."""
+        """Whether messages of a channel may be changed or dropped, other than by a cut in time."""
         if carries_transforms(channel):
             if self.topics is not None:
                 return channel.topic in self.topics
@@ -210,7 +210,7 @@ class Changer:
         return self._edits.everywhere and (self._edits.names or self._edits.stamps)
 
     def keeps_all(self, start: Stamp, end: Stamp) -> bool:
-        """Whether a cut keeps all messages between two log times."""
+        """Whether the time span to keep contains all messages between two log times."""
         window = self.window
         return window is None or (
             window.stamps is None and window.start <= start and end <= window.end
@@ -245,7 +245,7 @@ class Changer:
     def _rewritten(
         self, before: TransformRows, after: Sequence[TransformRow | None]
     ) -> bytes | None:
-        """Return a message with other transforms; None if none is left."""
+        """Return the bytes of a message with changed transforms; None if no transform is left."""
         rows = [row for row in after if row is not None]
         if not rows and before.rows:
             self.counts["messages without a transform left"] += 1
@@ -277,7 +277,7 @@ class Changer:
         return change.finished()
 
     def _by_kind(self, change: TableChange, which: Stamps, channel: Channel) -> Stamps:
-        """Change the transforms of messages of one kind in bulk; return the other messages."""
+        """Change transforms of messages with the same frames in bulk; return the other messages."""
         edits, static = self._edits, carries_statics(channel)
         if edits.stamps or edits.reparent:
             return which
@@ -334,7 +334,7 @@ class Changer:
         return np.stack(found, axis=1)
 
     def _learned(self, payload: bytes, channel: Channel) -> "tuple[Result, Counter[str]]":
-        """Change one message, ignoring the cut, as an example of its kind."""
+        """Change one message as an example for messages with the same frames, without the cut."""
         layout, static = LAYOUTS[channel.encoding], carries_statics(channel)
         before, self.counts = self.counts, Counter()
         try:
@@ -351,7 +351,7 @@ class Changer:
             self.counts = before
 
     def row(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after the changes; None if it is dropped."""
+        """Return a transform after the changes and the cut; None if it is dropped."""
         edits = self._edits
         if self.window is not None:
             window = self.window
@@ -362,7 +362,7 @@ class Changer:
         return self.edited(old, log_time, static=static) if edits.links or self._replaced else old
 
     def edited(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after the changes, ignoring the cut."""
+        """Return a transform after the changes, without the cut; None if it is dropped."""
         edits = self._edits
         link = stripped(old.parent), stripped(old.child)
         if any(fits(link, wanted) for wanted in edits.drop):
@@ -407,7 +407,7 @@ class Changer:
         found = new_from_old @ Transform((x, y, z), (qx, qy, qz, qw))
         return (*found.translation, *found.rotation)
 
-    # Everything else
+    # Messages other than transforms
 
     def _kept(self, message: Taken, channel: Channel) -> bool:
         window = self.window
@@ -426,7 +426,7 @@ class Changer:
         return found
 
     def _other(self, message: Taken, channel: Channel) -> Taken:
-        """Change names and stamps of a message that is not a list of transforms."""
+        """Change frame names and stamps in a message that is not a list of transforms."""
         payload = message.payload
         if self._edits.stamps and self.has_header(channel):
             stamp = header_stamp(payload, channel.encoding)
@@ -457,7 +457,7 @@ class Changer:
 
 
 def header_stamp(payload: bytes, encoding: str) -> Stamp | None:
-    """Return the stamp of the header that a message begins with."""
+    """Return the stamp of the header at the beginning of a message; None if it is too short."""
     if len(payload) < 12:
         return None
     order = ">" if encoding == "cdr" and payload[:2] == b"\x00\x00" else "<"
@@ -472,18 +472,18 @@ def _with_stamp(payload: bytes, encoding: str, stamp: Stamp) -> bytes:
 
 
 class Renamer:
-    """Editor of frame names in messages of one type, wherever they contain a header."""
+    """Editor of frame names in messages of one type, in all headers they contain."""
 
     def __init__(self, codec: Codec | RecordedCodec, edits: Edits) -> None:
         self._codec = codec
         self._edits = edits
-        # A quick look at the bytes spares most messages the way through their fields.
+        # Search the bytes for the old names first: most messages need not be decoded.
         self._marks: Collection[bytes] = ()
         if not edits.prefix and not edits.strip_slash:
             self._marks = [name.encode() for name in edits.rename]
 
     def renamed(self, payload: bytes) -> bytes | None:
-        """Return the bytes with new names; None if none changes.
+        """Return a message's bytes with new frame names; None if none changes.
 
         Raises:
             MalformedMessage: If the payload is not a message of the type.
@@ -514,7 +514,7 @@ _NAMES: Final = ("frame_id", "child_frame_id")
 
 
 def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
-    """Return the function that renames frames in a channel's messages; None without headers.
+    """Return the editor of frame names in a channel's messages; None if they have no header.
 
     Raises:
         InputError: If the type is unknown.
@@ -535,7 +535,7 @@ def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
 
 
 def _has_header(interfaces: Interfaces, full: str) -> bool:
-    """Whether a type contains a header anywhere."""
+    """Whether a message type contains a header anywhere, also in nested messages."""
     waiting, seen = [full], {full}
     while waiting:
         for one in interfaces.structure(waiting.pop()).fields:

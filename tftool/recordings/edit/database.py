@@ -1,8 +1,8 @@
 """Editing of rosbag2's sqlite files: the file is copied, and changed rows are updated.
 
-Unchanged rows keep their bytes, numbers and order, foreign tables stay, and the file keeps its
-schema version. Edits that make new files (cuts, joins, statics at the start) write row by row
-instead, as in other containers.
+Unchanged rows keep their bytes, numbers and order; other tables and the schema version do not
+change. Edits that make new files (cuts, joins, statics at the start) write row by row instead, as
+in other containers.
 """
 
 import os
@@ -24,32 +24,32 @@ from tftool.recordings.edit.outputs import digest_table
 from tftool.recordings.rosbag2.read import Sqlite
 from tftool.recordings.rosbag2.write import translated
 
-_ROWS: Final = 2048  # read, then written, at a time
+_ROWS: Final = 2048  # rows that are read and then written in one step
 _LOWEST: Final = -(2**63)
 
 Change = Callable[[MessageTable, Mapping[int, Channel]], MessageTable]
 
 
 class Unsound(Exception):
-    """Error for a damaged copy, whose rows must be read one by one."""
+    """Signal that the copied database is damaged, so that its rows must be read one by one."""
 
 
 class EditedDatabase:
-    """A database edited in place; see also `EditedFile`, which is written row by row.
+    """A copied database that is edited in place; `EditedFile` is written row by row instead.
 
     Attributes:
         path: Path of the written file.
         container: "db3".
-        channels: Topics.
-        counts: Messages by topic, afterwards.
-        start: Log time of the first message, afterwards.
-        end: Log time of the last message.
+        channels: Topics, by number.
+        counts: Number of messages by topic, after the edit.
+        start: Log time of the first message, after the edit.
+        end: Log time of the last message, after the edit.
     """
 
     container = "db3"
 
     def __init__(self, path: Path, tape: Sqlite) -> None:
-        """Copy the file and verify the copy.
+        """Copy the input file to `path`, and verify the copy.
 
         Raises:
             OSError: If the file cannot be written.
@@ -71,7 +71,7 @@ class EditedDatabase:
         """Change the messages of some topics in one transaction.
 
         Args:
-            change: Changes messages of the file.
+            change: Function that changes messages.
             touched: Numbers of the topics whose messages may change.
 
         Raises:
@@ -79,11 +79,11 @@ class EditedDatabase:
             Unsound: If the database is damaged.
         """
         try:
-            # No journal: the file counts for nothing before it is whole and has its name.
+            # No journal is needed: an incomplete file never gets its final name.
             self._touched = touched
             self._base.execute("pragma journal_mode = off").fetchall()
             self._base.execute("pragma synchronous = off")
-            # Dropped bytes must not be found in the file any more.
+            # Overwrite deleted data, so that it cannot be recovered from the file.
             self._base.execute("pragma secure_delete = on").fetchall()
             with translated(self.path):
                 self._base.execute("begin")
@@ -105,7 +105,7 @@ class EditedDatabase:
         for ids, table in self._rows(self._base, touched):
             after = change(table, self.channels)
             digest_table(self._wanted, after, self.channels, self.container)
-            # By its place in the part, the place of each message that is still there.
+            # For each remaining message: its old index in the part, and its new index.
             left = dict(zip(after.sequences.tolist(), range(len(after)), strict=True))
             same = np.zeros(len(table), dtype=np.bool_)
             same[after.sequences] = after.starts == table.starts[after.sequences]
@@ -128,19 +128,19 @@ class EditedDatabase:
     def _rows(
         self, base: sqlite3.Connection, numbers: list[int]
     ) -> Iterator[tuple[list[int], MessageTable]]:
-        """Yield the messages of some topics in parts, each with its row numbers.
+        """Yield the messages of some topics in parts, with their row numbers in the database.
 
         Raises:
             Unsound: If a timestamp is not a whole number.
         """
         which = {self._tape.topic_ids[number]: number for number in numbers}
-        # Numbers of its own rows, no text of a stranger's.
+        # The query contains only numbers, no text from the file.
         asked = (
             "select id, topic_id, timestamp, data from messages "
             f"where id > ? and topic_id in ({','.join(map(str, which))}) order by id limit {_ROWS}"
         )
         last = _LOWEST
-        # Read in parts, so that no row is changed under a question that is still open.
+        # Read each part completely, so that no row changes while a query is open.
         while which and (rows := base.execute(asked, (last,)).fetchall()):
             ids, topics, moments, blobs = zip(*rows, strict=True)
             if set(map(type, moments)) != {int}:
@@ -148,7 +148,7 @@ class EditedDatabase:
             data = [blob if isinstance(blob, bytes) else b"" for blob in blobs]
             lengths = np.array([len(blob) for blob in data], dtype=np.int64)
             log_times = np.array(moments, dtype=np.int64)
-            # Rows of messages begin some bytes before them.
+            # `rows_of` reads some bytes before a message, so put 8 bytes in front.
             buffer = np.frombuffer(b"".join((bytes(8), *data)), dtype=np.uint8)
             yield (
                 list(ids),
@@ -175,7 +175,7 @@ class EditedDatabase:
         self.end = max((high for _, _, _, high in found), default=0)
 
     def compare(self) -> None:
-        """Verify the changed rows.
+        """Read the changed rows again, and compare them with the intended rows.
 
         Raises:
             InputError: If the rows differ from the intended ones.
@@ -189,16 +189,16 @@ class EditedDatabase:
             raise InputError(f"'{self.path}' was written wrongly: its rows differ.")
 
     def finish(self) -> None:
-        """Close the database: nothing is left to write."""
+        """Close the database; all changes are already written."""
         self._base.close()
 
     def abandon(self) -> None:
-        """Close the database unfinished."""
+        """Close the database without completing the edit."""
         self._base.close()
 
 
 def _is_damage(error: BaseException | None) -> bool:
-    """Whether an sqlite error is about the file's content, and not about the disk."""
+    """Whether an sqlite error means that the file is damaged, and not a problem of the disk."""
     return isinstance(error, sqlite3.DatabaseError) and error.sqlite_errorcode in (
         sqlite3.SQLITE_CORRUPT,
         sqlite3.SQLITE_NOTADB,

@@ -1,4 +1,4 @@
-"""Static transforms written at the start of a recording's part."""
+"""Static transforms that an edit writes at the start of its output files."""
 
 import contextlib
 from collections import Counter
@@ -26,7 +26,7 @@ from tftool.recordings.message_conversion import TRANSFORMS, as_ros1, ros2_chann
 
 @dataclass(slots=True)
 class _Static:
-    """One static transform as recorded."""
+    """One static transform as recorded, with its log time and channel."""
 
     source: int
     number: int
@@ -45,10 +45,10 @@ def _one(channel: int, moment: Stamp, payload: bytes) -> MessageTable:
 
 
 class StaticHeads:
-    """Static transforms at the start of every output file, for readers that start there.
+    """Static transforms for the start of every output file, so that each file is complete.
 
     Attributes:
-        wanted: Whether the files begin so; a recording that is only changed does not.
+        wanted: Whether to write them; not if the edit only changes messages of one recording.
     """
 
     def __init__(
@@ -61,15 +61,15 @@ class StaticHeads:
         by_tape: bool,
         ros2: bool,
     ) -> None:
-        """Start without static transforms.
+        """Create an empty collection.
 
         Args:
             edits: The changes.
-            tapes: The inputs.
-            changer: Changes the statics as it changes messages.
+            tapes: The input files.
+            changer: Editor that also changes the static transforms.
             start: Log time of the result's first message.
-            by_tape: Whether each tape becomes a file of its own.
-            ros2: Whether the result is one of ROS 2.
+            by_tape: Whether each input file becomes a separate output file.
+            ros2: Whether the result is a ROS 2 recording.
         """
         self.wanted = bool(
             edits.statics_first or edits.statics_from or edits.cuts or edits.split_every
@@ -84,14 +84,14 @@ class StaticHeads:
 
     @property
     def topics(self) -> frozenset[str]:
-        """Return the topics that are latched because their state is written at the start."""
+        """Return the topics to latch, because their statics are written at the start."""
         if not self.wanted:
             return frozenset()
         found = frozenset(one.channel.topic for one in self._statics)
         return found | {"/tf_static"} if self._edits.statics_from else found
 
     def collect(self) -> None:
-        """Read all static transforms of the inputs, with the edit's changes."""
+        """Read all static transforms of the inputs, and apply the edit's changes to them."""
         if not self.wanted:
             return
         edits = self._edits
@@ -124,12 +124,12 @@ class StaticHeads:
             ]
 
     def write(self, number: int, output: EditedFile, start: Stamp) -> None:
-        """Write the latest value of every static transform, one message per channel.
+        """Write the latest value of every static transform to a file, one message per channel.
 
         Args:
-            number: Index of the file among the parts of the result, from 0.
-            output: The part's file, still empty.
-            start: The log time of the written messages.
+            number: Index of the output file, from 0.
+            output: The output file, still empty.
+            start: Log time of the written messages.
         """
         if not self.wanted:
             return
@@ -148,7 +148,7 @@ class StaticHeads:
                 continue
             child = stripped(one.row.child)
             held = chosen.get(child)
-            # The last one up to the end; one that comes only behind it is better than nothing.
+            # Use the last one before the file's end, else the first one after it.
             if held is None or one.log_time <= end or held.log_time > end >= one.log_time:
                 chosen[child] = one
         groups: dict[tuple[int, int], list[_Static]] = {}
@@ -167,7 +167,7 @@ class StaticHeads:
         self._changer.counts["statics put first"] += len(chosen) + len(edits.statics_from)
 
     def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
-        """Write statics of another recording for which this one has no topic."""
+        """Write the static transforms of another recording that no topic of this one has."""
         channel = ros2_channel("/tf_static", TRANSFORMS, static=True)
         encoding = container_named(output.container).encoding
         ros1 = encoding == "ros1" or all(

@@ -1,4 +1,4 @@
-"""Outputs of an edit: one file, or a folder of files."""
+"""Output files of an edit."""
 
 import zlib
 from collections import Counter
@@ -32,17 +32,17 @@ _UNREAD: Final = "is left out where it cannot be read"
 
 
 class EditedFile:
-    """One output file, with the facts for the final comparison.
+    """One output file of an edit, with the counts and checksums for the final comparison.
 
     Attributes:
         path: Path of the written file.
         container: "mcap", "db3" or "bag".
-        counts: Messages by channel as written.
+        counts: Number of written messages by channel.
         digests: Checksum of each topic's messages, in order.
-        copied: Bytes of each chunk that was copied, by its place in the file.
+        copied: Size of each copied chunk, bytes, by its offset in the file.
         start: Log time of the first message.
         end: Log time of the last message.
-        refused: Topics that cannot be converted: the treatment of each, and the reason.
+        refused: Topics that cannot be converted, each with what was done and the reason.
     """
 
     def __init__(
@@ -56,16 +56,16 @@ class EditedFile:
         latched: "frozenset[str]" = frozenset(),
         first_free: int = 1,
     ) -> None:
-        """Make an output that is not open yet.
+        """Prepare an output file, which is created at the first message.
 
         Args:
             path: Path of the written file.
             container: "mcap", "db3" or "bag".
-            tape: The first input, whose style is kept if the container is the same.
-            ros2: Whether messages of ROS 1 become those of ROS 2.
-            packs: Whether each message is compressed by itself, as rosbag2 does.
-            latched: Topics that are made to offer their last message to late subscribers.
-            first_free: The first number that no tape uses for a channel or a schema.
+            tape: The first input file; its style is used if the container is the same.
+            ros2: Whether ROS 1 messages are converted to ROS 2.
+            packs: Whether each message is compressed separately, as rosbag2 can.
+            latched: Topics that must offer their last message to late subscribers.
+            first_free: The first number that no input uses for a channel or a schema.
         """
         self.path = path
         self.container = container
@@ -86,13 +86,13 @@ class EditedFile:
         self._kinds: dict[Channel, Kinds] = {}
         self._format = container_named(container)
         self.writer = self._opened(tape)
-        # A database is written row by row; whole chunks are copied elsewhere.
+        # A writer of chunks can copy them; a database is written row by row.
         self._chunks = self.writer if hasattr(self.writer, "copy_chunk") else None
         if self._chunks is not None:
             self._chunks.first_free = first_free
 
     def _opened(self, tape: ContainerReader) -> Any:
-        """Create the file, in the format of its first input."""
+        """Return the writer of a new file in the format of the first input."""
         is_same = tape.container == self._format.name
         style: dict[str, Any] = dict(tape.style) if is_same else {}
         if not getattr(tape, "is_indexed", True) and not style.get("chunked", True):
@@ -107,7 +107,7 @@ class EditedFile:
     def _conversion(
         self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> Conversion | None:
-        """Return the channel as written here; None if it cannot be converted."""
+        """Return an input's channel as written in this file; None if it cannot be converted."""
         key = source, number
         if key not in self._conversions:
             try:
@@ -134,7 +134,7 @@ class EditedFile:
                     f"{self._format.words} cannot hold"
                 )
             channel = replace(channel, type=full_name(channel.type))
-        # An MCAP file stays as it is, with what it does not say; others have no place for it.
+        # An MCAP input without definitions stays unchanged; other containers cannot store them.
         if channel.encoding == "cdr" and not channel.definition and tape.container != "mcap":
             channel = _defined(channel)
         return Conversion(channel, bytes)
@@ -142,7 +142,7 @@ class EditedFile:
     def _register(
         self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> int | None:
-        """Return a channel's number here."""
+        """Return the number of an input's channel in this file; None if it is left out."""
         key = source, number
         found = self._numbers.get(key)
         if found is not None:
@@ -166,7 +166,7 @@ class EditedFile:
         return found
 
     def channel(self, channel: Channel) -> int:
-        """Register a channel that no input has."""
+        """Register a channel that no input has; return its number."""
         found = self._extra.get(channel)
         if found is None:
             found = self._extra[channel] = self.writer.channel(channel)
@@ -174,7 +174,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether an input's channel numbers mean the same here, so that chunks may be copied."""
+        """Whether an input's chunks may be copied, as channel numbers mean the same here."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -184,7 +184,7 @@ class EditedFile:
         return found and self._chunks is not None
 
     def _agrees(self, tape: ContainerReader) -> bool:
-        """Whether all numbers of a further input are free here, or mean the same."""
+        """Whether all channel numbers of a further input are unused here, or mean the same."""
         if self._chunks is None or self._extra or not isinstance(tape, ChunkedReader):
             return False
         channels = tape.channels.items()
@@ -194,7 +194,7 @@ class EditedFile:
     # Messages
 
     def write(self, source: int, table: MessageTable, tape: ContainerReader) -> bool:
-        """Append messages of an input; return whether the container accepts any."""
+        """Append messages of an input; return whether this file stores any of them."""
         numbers = np.full(len(table), -1, dtype=np.int64)
         change = TableChange(table)
         for own in table.owners:
@@ -232,7 +232,7 @@ class EditedFile:
             found, which = kinds.groups(change.table, which)
             others = [which]
             for kind, numbers, rows in found:
-                # Seconds of one layout have a sign, and those of the other have none.
+                # Seconds are signed in ROS 2's layout, and unsigned in ROS 1's.
                 fit = np.ones(len(rows), dtype=np.bool_)
                 for number in range(len(kind.places)):
                     fit &= kind.stamps(rows, number) >= 0
@@ -249,7 +249,7 @@ class EditedFile:
                 change.keep[row] = False
 
     def append(self, table: MessageTable) -> None:
-        """Append messages unchanged, and record them for the comparison."""
+        """Append messages unchanged, and update the checksums."""
         for number, count in Counter(table.channels.tolist()).items():
             self.counts[number] += count
         digest_table(self.digests, table, self.channels, self.container)
@@ -263,7 +263,7 @@ class EditedFile:
             self.writer.write(number, log_time, packed, publish_time, sequence)
 
     def can_copy(self, source: int, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block may be copied unchanged."""
+        """Whether an input's block of messages may be copied unchanged."""
         if not (block.whole and isinstance(block, Chunk) and self._fits(source, tape)):
             return False
         for number in block.counts or ():
@@ -272,14 +272,14 @@ class EditedFile:
                 return False
             if self.channels[number] != channel:
                 return False
-        # A chunk's own record of a channel must not contradict the changed one.
+        # A copied chunk may describe its channels: it must not contradict a changed channel.
         return not any(
             channel.topic in self._latched and _latching(channel) != channel
             for channel in tape.channels.values()
         )
 
     def copy(self, chunk: Chunk) -> None:
-        """Append a chunk unchanged."""
+        """Append a chunk of an input unchanged."""
         assert self._chunks is not None
         self._chunks.flush()
         self.copied[self._chunks.position] = chunk.raw().length
@@ -290,7 +290,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """Close a chunk with changed messages, with the original's compression."""
+        """End the current chunk, which replaces an input's chunk, with that chunk's compression."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)
@@ -307,7 +307,7 @@ class EditedFile:
                 for body in tape.extras.metadata:
                     self.writer.copy_metadata(body)
                 if isinstance(tape, ChunkedReader) and self._fits(number, tape):
-                    # Those without a message belong to the recording as well.
+                    # Schemas and channels without messages belong to the recording too.
                     for schema, described in tape.schemas.items():
                         self.writer.schema(*described, number=schema)
         self.writer.finish()
@@ -319,7 +319,7 @@ def digest_table(
     channels: Mapping[int, Channel],
     container: str,
 ) -> None:
-    """Update each topic's checksum with some messages: the parts that the container stores."""
+    """Update each topic's checksum with messages, as far as the container stores their parts."""
     numbers: dict[tuple[str, str], list[int]] = {}
     for number in table.owners:
         channel = channels[number]
@@ -334,7 +334,7 @@ def digest_table(
 
 
 def _defined(channel: Channel) -> Channel:
-    """Return a ROS 2 channel with our definition if the recording has none."""
+    """Return a ROS 2 channel; if its definition is missing, with tftool's definition."""
     try:
         text = ros2_definition(channel.type)
     except TftoolError:
@@ -351,7 +351,7 @@ def _defined(channel: Channel) -> Channel:
 
 
 def _latching(channel: Channel) -> Channel:
-    """Return a channel that resends its last message to late subscribers."""
+    """Return the channel with QoS that sends the last message to late subscribers."""
     metadata = dict(channel.metadata)
     if channel.encoding == "ros1":
         if metadata.get("latching") == "1":

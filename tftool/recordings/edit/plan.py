@@ -1,4 +1,4 @@
-"""Plan of an edit: options checked against the recordings, after all names are known."""
+"""Checks of an edit's options against the recordings, before anything is written."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -21,14 +21,14 @@ from tftool.recordings.recording import Recording
 
 
 def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
-    """Return the editor for the messages of these recordings.
+    """Return the editor of these recordings' messages, after checks of all options.
 
     Args:
         edits: The edits.
-        recordings: The recordings, opened; their transforms are read where an option names links.
+        recordings: The opened recordings; transforms are read only if an option names links.
 
     Raises:
-        UsageError: If an option names a missing topic or frame, or asks the impossible.
+        UsageError: If an option names a missing topic or frame, or is impossible.
     """
     _check_names(edits, recordings)
     window = _window(edits, recordings)
@@ -38,7 +38,7 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
 
 
 def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
-    """Refuse names of links and frames that were not recorded, or that would merge two frames."""
+    """Raise an error for names that were not recorded, or that would make two frames equal."""
     wanted: list[LinkName] = [*edits.drop, *edits.poses, *edits.reparent]
     if not (wanted or edits.rename):
         return
@@ -60,7 +60,7 @@ def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
 
 
 def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] | None:
-    """Return the topics of the named links; None if all links change."""
+    """Return the topics with links that the edit changes; None if all links change."""
     wanted = [*edits.drop, *edits.poses, *edits.reparent]
     if not wanted or edits.names or edits.stamps or edits.statics_from:
         return None
@@ -77,13 +77,13 @@ def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] 
 
 
 def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
-    """Return the span to keep; None for everything."""
+    """Return the time span to keep; None for everything."""
     if not edits.cuts:
         return None
     low = edits.start if edits.start is not None else 0
     high = edits.end if edits.end is not None else LAST_STAMP
     if high < low:
-        raise UsageError("--to lies before --from.")
+        raise UsageError("--to is before --from.")
     moving = [(one, edge) for one in recordings for edge in one.edges if not edge.static]
     spans: dict[LinkName, tuple[Stamp, Stamp]] = {}
     offsets, logs = [], []
@@ -99,7 +99,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
         if len(kept):
             logs.append(int(kept.min()))
         offsets.append(log_times - edge.stamps)
-    # Of an empty recording both are 0.
+    # In an empty recording start and end are 0.
     received = [
         moment for one in recordings for moment in (one.source.start, one.source.end) if moment
     ]
@@ -107,7 +107,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
         _refuse_outside(edits, recordings, received)
         return Window(low, high, None, spans if edits.by_record_time else {})
     offset = int(np.median(np.concatenate(offsets)))
-    # Messages of other topics may go on after the last transform.
+    # Messages of other topics may be later than the last transform.
     dated = [edge.stamps[edge.stamps > 0] for _, edge in moving]
     stamped = [int(moment) for one in dated if len(one) for moment in (one.min(), one.max())]
     _refuse_outside(edits, recordings, [*stamped, *(moment - offset for moment in received)])
@@ -133,7 +133,7 @@ def _refuse_outside(
         return
     first, last = min(moments), max(moments)
     if edits.start is not None and edits.start > last:
-        # As people count its seconds: from the first stamp, which unset ones are not.
+        # Users count seconds from the first stamp; stamps of 0 are not set.
         begins = [one.source.start if edits.by_record_time else one.start for one in recordings]
         start = min(filter(None, begins), default=0)
         raise UsageError(
@@ -145,7 +145,7 @@ def _refuse_outside(
 
 
 def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:
-    """Return a function for a frame's pose under its new parent; None without --reparent."""
+    """Return the function for poses under new parents; None without --reparent."""
     if not edits.reparent:
         return None
     if len(recordings) > 1:
@@ -164,8 +164,8 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
         is_static = static.get(child) == parent
         if is_static and not _joined_by_statics(parent, new, static):
             raise UsageError(
-                f"'{child}' is static, and '{new}' moves against '{parent}': it cannot "
-                "become its child and keep its place."
+                f"'{child}' is static, but '{new}' moves relative to '{parent}': '{child}' cannot "
+                "become its child without moving."
             )
     buffer = recording.buffer
 
@@ -179,7 +179,7 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
 
 
 def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
-    """Extend a span by one sample at either end, so that both ends can be interpolated."""
+    """Return a time span extended by one sample at each end, to interpolate at both ends."""
     before, behind = moments[moments <= low], moments[moments >= high]
     first = int(before.max()) if len(before) else low
     last = int(behind.min()) if len(behind) else high
@@ -198,7 +198,7 @@ def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
 
 
 def _joined_by_statics(one: str, other: str, static: Mapping[str, str]) -> bool:
-    """Whether two frames never move relative to each other."""
+    """Whether two frames are joined by static links only, and so never move."""
 
     def up(frame: str) -> list[str]:
         found = [frame]

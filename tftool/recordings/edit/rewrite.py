@@ -1,7 +1,7 @@
-"""Rewriting of a recording with changes; everything else stays byte for byte.
+"""Rewriting of recordings with changes; everything else is copied byte for byte.
 
-Every piece is read once, and copied if possible, else parsed and changed. Then the result is read
-again and compared completely with the intended content. Only then it gets its name.
+Every part is read once, and copied if possible, else parsed and changed. Then the result is read
+again and compared completely with the intended content. Only then it gets its final name.
 """
 
 import contextlib
@@ -36,7 +36,7 @@ from tftool.recordings.target import PART, Target, check_room, failed
 
 MOST_PARTS: Final = 10_000
 _ROOM: Final = 1 << 20
-_AHEAD: Final = 3  # chunks that are examined before they are wanted
+_AHEAD: Final = 3  # chunks that are verified ahead of writing
 
 
 @dataclass(slots=True)
@@ -47,8 +47,8 @@ class EditReport:
         messages: Number of messages in the result.
         counts: Number of changes, by kind.
         notes: Further notes, as sentences.
-        files: The names of the written files.
-        copied: Chunks that were copied as they were.
+        files: Names of the written files.
+        copied: Number of chunks that were copied unchanged.
     """
 
     messages: int = 0
@@ -68,21 +68,21 @@ def edit(
     ros2: bool = False,
     progress: Progress | None = None,
 ) -> EditReport:
-    """Rewrite recordings as one, with changes.
+    """Write a new recording from one or several recordings, with changes.
 
     Args:
-        names: The recordings: files or folders; several are joined.
-        output: Path to write: its suffix names the container; without one, a folder as of rosbag2.
-        edits: The edits.
+        names: Files or folders of the recordings; several recordings are joined.
+        output: Path to write. Its suffix selects the container; without one, a rosbag2 folder.
+        edits: Changes to make.
         force: Whether existing files may be replaced.
-        dry_run: Whether to report the edits without writing.
-        ros2: Whether an MCAP file gets ROS 1's messages converted to ROS 2's.
-        progress: Called with the progress.
+        dry_run: Whether to report the changes without writing.
+        ros2: Whether ROS 1 messages are converted to ROS 2 in an MCAP file.
+        progress: Function called with the progress.
 
     Raises:
-        UsageError: If the changes cannot be made to these recordings, one is named twice, or the
-            output is one of them, or there already.
-        InputError: If a recording cannot be read, or the output not be written.
+        UsageError: If the changes cannot be made to these recordings, a recording is named twice,
+            or the output exists or is an input.
+        InputError: If a recording cannot be read, or the output cannot be written.
     """
     container = container_of(output)
     with contextlib.ExitStack() as stack:
@@ -97,10 +97,10 @@ def edit(
 
 
 def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
-    """Refuse to join a recording to itself, which would duplicate its messages.
+    """Raise an error if a recording would be joined to itself, which duplicates its messages.
 
     Raises:
-        UsageError: If a file is named twice, under whatever names.
+        UsageError: If a file is named twice, even by different paths.
     """
     seen: dict[Path, str] = {}
     for one in inputs:
@@ -114,7 +114,7 @@ def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
 
 
 def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
-    """Refuse to overwrite an input, whatever its name.
+    """Raise an error if the output would overwrite an input, even by another path.
 
     Raises:
         UsageError: If the output is an input.
@@ -125,13 +125,13 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
                 raise UsageError(f"'{output}' is the input: name another output.")
             part = output.with_name(output.name + PART)
             if part.exists() and path.exists() and part.samefile(path):
-                raise UsageError(f"'{path}' is in the place of '{output}': rename it first.")
+                raise UsageError(f"'{path}' is where '{output}' would be written: rename it first.")
             if path.parent.resolve() == output.resolve() and output.exists():
                 raise UsageError(f"'{output}' holds the input: name another output.")
 
 
 class _Job:
-    """One edit of some recordings."""
+    """Run of one edit, from inputs to the verified output."""
 
     def __init__(
         self,
@@ -166,14 +166,14 @@ class _Job:
         if not container:
             kinds = {tape.container for tape in self._tapes}
             container = "db3" if kinds == {"db3"} else "mcap"
-            # A folder of bags is no recording of rosbag2's, but what splitting one gives.
+            # rosbag2 has no folders of ROS 1 bags; splitting a bag makes one.
             if kinds == {"bag"} and edits.split_every:
                 container = "bag"
             self._ros2 = ros2 or container != "bag"
         self._container = container
         first = inputs[0]
         self._mode = first.mode if self._is_folder and container == "db3" else ""
-        # The files of a folder stay the files of the result.
+        # Each file of a folder becomes one file of the result.
         self._by_tape = (
             self._is_folder and len(inputs) == 1 and first.is_folder and not edits.split_every
         )
@@ -193,7 +193,7 @@ class _Job:
     # The runs
 
     def tried(self) -> EditReport:
-        """Return what the edit would do, without doing it."""
+        """Return what the edit would change, without writing."""
         self._heads.collect()
         done = 0
         for tape in self._tapes:
@@ -212,7 +212,7 @@ class _Job:
         return self.report
 
     def done(self, *, force: bool) -> EditReport:
-        """Run the edit."""
+        """Run the edit; return its report."""
         self._check_room()
         with Target(self._path, folder=self._is_folder, force=force) as target:
             try:
@@ -233,7 +233,7 @@ class _Job:
     def _check_room(self) -> None:
         size = sum(one.size for one in self._inputs)
         same = {tape.container for tape in self._tapes} == {self._container}
-        # Another container may compress less; how much shows only while it is written.
+        # Another container may compress less, which is unknown before writing.
         check_room(self._path, (size if same else size // 2) + _ROOM)
 
     def _write(self, part: Path) -> None:
@@ -265,10 +265,10 @@ class _Job:
             output.finish(whose if self._by_tape or number == self._order[0] else [])
 
     def _examined_ahead(self, tape: ContainerReader) -> Iterator[Block]:
-        """Yield an input's blocks; blocks to copy are verified while earlier ones are written.
+        """Yield an input's blocks; verify blocks to copy while earlier blocks are written.
 
-        Unpacking a chunk and checking its CRC takes as long as copying it, and both work without
-        Python's lock.
+        Decompressing a chunk and checking its CRC takes as long as copying it, and both release
+        the GIL.
         """
         waiting: deque[tuple[Block, Future[bool] | None]] = deque()
         with ThreadPoolExecutor(1, "tftool-examine") as pool:
@@ -286,7 +286,7 @@ class _Job:
                         examined.cancel()
 
     def _stays_unseen(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block stays unchanged by its index alone, if it is sound."""
+        """Whether a block, if undamaged, can be copied unchanged: its index alone shows this."""
         return (
             block.whole
             and bool(block.counts)
@@ -404,7 +404,7 @@ class _Job:
         return output
 
     def _first_free(self) -> int:
-        """Return the first channel number that no input uses."""
+        """Return the first number that no input uses for a channel or a schema."""
         used = [0]
         for tape in self._tapes:
             used += tape.channels
@@ -440,7 +440,7 @@ class _Job:
         found: dict[tuple[str, str], int] = {}
         for block in tape.blocks():
             if isinstance(block, Chunk) and block.position in output.copied:
-                # Its bytes were read back and compared when they were copied.
+                # The bytes of a copied chunk were compared when they were copied.
                 position = block.position
                 if block.raw().length != output.copied[position]:
                     raise InputError(f"'{self._path}' differs from its input at byte {position}.")
@@ -512,7 +512,7 @@ class _Job:
             report.files = [self._path.name]
 
     def _old_names(self) -> Iterator[str]:
-        """Return the topics that still use names that were changed."""
+        """Yield sentences about topics in which frame names could not be changed."""
         for recording in self._recordings:
             for topic, headers in recording.source.headers().items():
                 old = [self._edits.name(name) != name and bool(name) for name in headers.names]
@@ -535,7 +535,7 @@ def _examined(block: Block, examined: "Future[bool] | None") -> Block:
 
 
 def _packed(path: Path) -> Path:
-    """Recompress a file that was compressed as a whole."""
+    """Compress a whole file again, because the input was compressed as a whole."""
     packed = path.with_name(path.name + PACKED_SUFFIX)
     with path.open("rb") as source, packed.open("wb") as out:
         writer = zstandard().ZstdCompressor(level=1).stream_writer(out, closefd=False)

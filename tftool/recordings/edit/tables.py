@@ -1,8 +1,8 @@
-"""Messages of one chunk as columns, and bulk changes of their transforms.
+"""Messages of one chunk as columns, with bulk changes of their transforms.
 
-A publisher sends the same frames again and again. One message of a kind is changed individually;
-others that differ only in stamps and numbers get the same new bytes, with their own stamps and
-numbers.
+A publisher sends the same frames again and again. Messages with the same frames are of one *kind*:
+one message of a kind is changed individually; the others get the same new bytes, with their own
+stamps and numbers.
 """
 
 from collections import Counter
@@ -20,18 +20,18 @@ from tftool.recordings.container import MessageTable
 from tftool.recordings.contract import Stamps
 
 _MOST_KINDS = 16
-"""Kinds of one length that are learned; messages of others are changed one by one."""
+"""Maximum number of kinds with one length; messages of further kinds are changed one by one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """New bytes of the example message of a kind.
+    """New bytes of the example message of a kind (messages with the same frames).
 
     Attributes:
-        payload: The bytes; None where the message is left out.
-        layout: Layout of its messages.
-        kept: Places of the transforms that it keeps.
-        given: Places of the kept ones whose numbers an option sets.
+        payload: The bytes; None if the message is dropped.
+        layout: Byte layout of the message.
+        kept: Indices of the transforms that are kept.
+        given: Indices of the kept transforms whose poses an option sets.
     """
 
     payload: bytes | None
@@ -42,11 +42,11 @@ class Result:
 
 @dataclass(slots=True)
 class MessageKind:
-    """Messages with the same frames, which differ only in stamps and numbers.
+    """Kind of messages: they have the same frames, and differ only in stamps and numbers.
 
     Attributes:
-        places: Transforms.
-        counts: Number of changes to messages of this kind, by kind of change.
+        places: Byte offsets of the transforms.
+        counts: Number of changes in each message, by name of the change.
     """
 
     places: tuple[Place, ...]
@@ -59,18 +59,18 @@ class MessageKind:
 
     @property
     def changes(self) -> bool:
-        """Whether the messages' bytes change."""
+        """Whether the edit changes the bytes of these messages."""
         return not self.keeps_bytes or bool(self.result.given)
 
     def stamps(self, rows: Bytes, number: int) -> Stamps:
-        """Return the stamp of one transform in each row, nanoseconds, shape (n,)."""
+        """Return the stamps of one transform of all messages, nanoseconds, shape (n,)."""
         first = self.places[number].stamp - self.begin
         times = np.ascontiguousarray(rows[:, first : first + 8]).view(np.int32)
         found: Stamps = times[:, 0].astype(np.int64) * NANOSECONDS
         return found + np.ascontiguousarray(times[:, 1]).view(np.uint32)
 
     def changed(self, rows: Bytes, length: int) -> Bytes:
-        """Return the new bytes of messages of one length, shape (n, new length)."""
+        """Return the new bytes of these messages, shape (n, new length)."""
         payload = self.result.payload
         assert payload is not None
         new = np.frombuffer(payload, np.uint8)
@@ -88,16 +88,16 @@ class MessageKind:
 
 
 class Kinds:
-    """Types of one channel's messages, learned while reading."""
+    """Kinds of one channel's messages (those with the same frames), found while reading."""
 
     def __init__(
         self, layout: Layout, learn: "Callable[[bytes], tuple[Result, Counter[str]]]"
     ) -> None:
-        """Start without kinds.
+        """Create an empty collection.
 
         Args:
-            layout: Encoding of the channel's messages.
-            learn: Changes one message, and returns its counts.
+            layout: Byte layout of the channel's messages.
+            learn: Function that changes one message; returns the result and counts of changes.
         """
         self._layout = layout
         self._learn = learn
@@ -110,10 +110,11 @@ class Kinds:
 
         Args:
             table: The messages.
-            which: Messages of the channel.
+            which: Indices of the channel's messages.
 
         Returns:
-            Each kind with its messages and their bytes as rows, and the messages of no kind.
+            Each kind with the indices and the bytes of its messages, one row each; and the indices
+            of the messages without a kind.
         """
         found, rest = [], []
         for length in np.unique(table.lengths[which]).tolist():
@@ -140,7 +141,7 @@ class Kinds:
         return found, np.concatenate(rest) if rest else which[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
-        """Learn a message's kind; return whether that is possible."""
+        """Add the kind of a message; return whether this is possible."""
         if len(known) >= _MOST_KINDS:
             return False
         try:
@@ -163,7 +164,7 @@ class Kinds:
                     and len(result.payload) == len(payload)
                     and [(one.parent, one.child) for one in target.places] == names
                 )
-                # ROS 1's number of the header comes before the stamp.
+                # In ROS 1, the header's sequence number is before the stamp.
                 lead = 0 if CDR in (self._layout, result.layout) else 4
                 for number, place in zip(result.kept, target.places, strict=True):
                     old = walked.places[number]
@@ -177,7 +178,7 @@ class Kinds:
 
 
 class TableChange:
-    """Messages of a table during a change."""
+    """Table of messages while an edit changes or drops some of them."""
 
     def __init__(self, table: MessageTable) -> None:
         """Start with all messages unchanged."""
@@ -188,7 +189,7 @@ class TableChange:
         self._end = len(table.data)
 
     def put(self, which: Stamps, payloads: Bytes) -> None:
-        """Replace the bytes of messages, shape (n, length)."""
+        """Replace the bytes of some messages; `payloads` has the shape (n, length)."""
         length = payloads.shape[1]
         self._starts[which] = self._end + np.arange(len(which)) * length
         self._lengths[which] = length
@@ -200,7 +201,7 @@ class TableChange:
         self.put(np.array([number]), np.frombuffer(payload, np.uint8).reshape(1, -1))
 
     def finished(self) -> MessageTable:
-        """Return the messages after the change; the same table if none changed."""
+        """Return the table after the changes; the same table if nothing changed."""
         if len(self._pieces) == 1 and self.keep.all():
             return self.table
         after = replace(

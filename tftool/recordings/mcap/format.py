@@ -1,4 +1,4 @@
-"""Records of an MCAP file: codes, limits, packing and parsing.
+"""Codes, limits, packing and parsing of the records of an MCAP file.
 
 Source: the MCAP format specification, version 0.
 """
@@ -36,30 +36,30 @@ SUMMARY_OFFSET: Final = 0x0E
 DATA_END: Final = 0x0F
 
 RECORD: Final = struct.Struct("<BQ")
-"""A record's code and the length of its body."""
+"""Beginning of a record: its code and the length of its body."""
 
 CHUNK_HEAD: Final = struct.Struct("<QQQI")
-"""A chunk's body: first and last log time, size unpacked, CRC; the compression's name follows."""
+"""Beginning of a chunk's body: first and last log time, uncompressed size, CRC."""
 
 MESSAGE_HEAD: Final = struct.Struct("<HIQQ")
-"""A message's body up to its payload: channel, sequence, both times."""
+"""Body of a message before the payload: channel, sequence number, log time, publish time."""
 
 MESSAGE_RECORD: Final = struct.Struct("<BQHIQQ")
-"""A message's record up to its payload."""
+"""Record of a message before the payload: `RECORD`, then `MESSAGE_HEAD`."""
 
 INDEX_HEAD: Final = struct.Struct("<BQHI")
-"""A message index's record: code and length, channel, bytes of its entries."""
+"""Beginning of a message index's record: code, length, channel, size of the entries in bytes."""
 
 IN_CHUNK: Final = 31
-"""Bytes before a message's payload: 9 of the record, 22 of the message."""
+"""Number of bytes of a message's record before the payload: `RECORD` 9, `MESSAGE_HEAD` 22."""
 
 FOOTER_SIZE: Final = 37
-"""Bytes of the footer and the magic behind it."""
+"""Size of the footer and the magic bytes after it."""
 
 DATA_END_SIZE: Final = 13
 
 LONGEST_METHOD: Final = 64
-"""Bytes of the name of a compression."""
+"""Maximum length of a compression's name, bytes."""
 
 U16, U32, U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 
@@ -67,20 +67,20 @@ _CHUNK_INDEX_HEAD = struct.Struct("<QQQQI")
 _SIZES = struct.Struct("<QQ")
 _ENTRY = struct.Struct("<HQ")
 
-_MOST_SINGLY = 4096  # messages that are read singly before they are taken
-_LARGEST_BATCH = 1 << 22  # and bytes of them
+_MOST_SINGLY = 4096  # messages in one batch that are read one by one
+_LARGEST_BATCH = 1 << 22  # bytes in one such batch
 
 
 class SingleMessages:
     """Messages read one by one from the file, and collected into batches."""
 
     def __init__(self, file: File, chosen: Mapping[int, int], head: int | None) -> None:
-        """Start empty.
+        """Create an empty collection.
 
         Args:
             file: The file.
-            chosen: Number of the stream of each channel.
-            head: Number of bytes needed of each message; all if None.
+            chosen: Stream number of each chosen channel, by the channel's number.
+            head: Number of bytes needed from each message; None for all.
         """
         self._file = file
         self._chosen = chosen
@@ -99,19 +99,19 @@ class SingleMessages:
 
     @property
     def is_full(self) -> bool:
-        """Whether the batch should be taken before reading more."""
+        """Whether the batch is large enough to be processed."""
         return len(self) >= _MOST_SINGLY or self._bytes >= _LARGEST_BATCH
 
     def read(self, places: list[int], offset: int, end: int) -> None:
-        """Read messages.
+        """Read the messages at some offsets.
 
         Args:
-            places: Places, counted from `offset`.
-            offset: A place in the file.
-            end: Offset that none of them may exceed.
+            places: Offset of each message's record, relative to `offset`.
+            offset: Offset in the file.
+            end: Offset before which all messages must end.
 
         Raises:
-            InputError: If something else is there; none of these is taken then.
+            InputError: If there is no message at an offset; no message is added then.
         """
         before = len(self)
         try:
@@ -139,7 +139,7 @@ class SingleMessages:
         self._bytes += whole
 
     def taken(self) -> Batch:
-        """Return the messages read since the last call."""
+        """Return a batch of the messages read since the last call."""
         sizes = np.fromiter(map(len, self._pieces), dtype=np.int64, count=len(self))
         ends = np.cumsum(sizes)
         batch = Batch(
@@ -154,15 +154,15 @@ class SingleMessages:
 
 
 def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Return offsets, lengths and log times of the payloads of a channel's messages.
+    """Return offsets and lengths of the payloads of a channel's messages, and their log times.
 
     Args:
-        data: A chunk's records.
-        pairs: Log time and place of each message, as its message index tells them.
-        channel: The channel.
+        data: Bytes of a chunk's records.
+        pairs: Log time and offset of each message, from the channel's message index.
+        channel: Number of the channel.
 
     Raises:
-        InputError: If the index points at something else.
+        InputError: If the index points to something other than these messages.
     """
     if SCAN is not None:
         found = tuple(np.empty(len(pairs), dtype=np.int64) for _ in range(3))
@@ -172,7 +172,7 @@ def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, S
     places = pairs[:, 1]
     if len(data) < IN_CHUNK or places.min() < 0 or places.max() > len(data) - IN_CHUNK:
         raise InputError("its message index points outside of it")
-    # Of every record the code, the length in 8 bytes and the channel in 2, all at once.
+    # Read the code (1 byte), length (8) and channel (2) of all records at once.
     heads = rows_of(data, places, 16)
     lengths = (heads[:, 0] >> np.uint64(8)).view(np.int64)
     lengths -= 22
@@ -188,10 +188,10 @@ def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, S
 
 
 def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """Yield every record's code, and the start and end of its body.
+    """Yield the code of every record, and the start and end of its body.
 
     Raises:
-        InputError: At a record that exceeds the end.
+        InputError: If a record extends beyond the data.
     """
     position, size = 0, len(data)
     unpack_from = RECORD.unpack_from
@@ -203,24 +203,24 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
             raise InputError("a record has the invalid code 0")
         if position > size:
             raise InputError(
-                f"a record has the length {length} bytes, and there are {size - first}"
+                f"a record has the length {length} bytes, but only {size - first} follow"
             )
         yield code, first, position
 
 
 class IndexEntry(NamedTuple):
-    """A chunk as described in the summary.
+    """Facts about a chunk in the summary at the end of a file.
 
     Attributes:
-        start: Log time of its first message.
-        end: Log time of its last message.
-        position: Offset of its record.
-        length: Bytes of its record.
-        indexes: For each channel where its message index begins.
-        indexes_length: Bytes of those.
-        method: Compression.
-        packed: Bytes of its messages in the file.
-        size: Bytes of them unpacked.
+        start: Log time of the chunk's first message.
+        end: Log time of the chunk's last message.
+        position: Offset of the chunk's record.
+        length: Size of the chunk's record, bytes.
+        indexes: Offset of each channel's message index.
+        indexes_length: Size of the message indexes, bytes.
+        method: Compression of the messages.
+        packed: Size of the compressed messages, bytes.
+        size: Size of the uncompressed messages, bytes.
     """
 
     start: int
@@ -235,11 +235,11 @@ class IndexEntry(NamedTuple):
 
     @property
     def place(self) -> int:
-        """Offset of the chunk's messages, after 49 bytes of header and the compression's name."""
+        """Offset of the chunk's compressed messages, after header and compression name."""
         return self.position + 49 + len(self.method.encode("utf-8", "surrogateescape"))
 
     def record(self) -> bytes:
-        """Return the entry as a record of the summary."""
+        """Return the bytes of this entry as a record of the summary."""
         head = struct.pack("<QQQQ", self.start, self.end, self.position, self.length)
         sizes = text(self.method) + _SIZES.pack(self.packed, self.size)
         body = head + entries(self.indexes) + U64.pack(self.indexes_length) + sizes
@@ -268,7 +268,7 @@ def index_entry(summary: bytes, first: int, last: int, size: int) -> IndexEntry:
 
 
 def entries_at(body: bytes, place: int, end: int) -> dict[int, int]:
-    """Parse a map of channels to numbers."""
+    """Parse a map from channel numbers to integers."""
     (length,) = U32.unpack_from(body, place)
     place += 4
     if place + length > end:
@@ -277,7 +277,7 @@ def entries_at(body: bytes, place: int, end: int) -> dict[int, int]:
 
 
 def strings_at(body: bytes, place: int) -> dict[str, str]:
-    """Parse a map of texts."""
+    """Parse a map from strings to strings."""
     (length,) = U32.unpack_from(body, place)
     place += 4
     end = place + length
@@ -289,15 +289,15 @@ def strings_at(body: bytes, place: int) -> dict[str, str]:
 
 
 def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]:
-    """Parse a text; return it and where it ends.
+    """Parse a string with its length; return the string and the offset of its end.
 
     Args:
-        body: The record.
-        place: Offset.
-        last: Offset that it must not exceed.
+        body: Body of the record.
+        place: Offset of the string's length.
+        last: Offset before which the string must end.
 
     Returns:
-        The text; bytes that are not UTF-8 become surrogates.
+        The string, in which bytes that are not UTF-8 become surrogates, and the end.
     """
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length
@@ -307,30 +307,30 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
 
 
 def record(code: int, body: bytes) -> bytes:
-    """Pack a record."""
+    """Return the bytes of a record."""
     return RECORD.pack(code, len(body)) + body
 
 
 def text(words: str) -> bytes:
-    """Pack a text behind its length."""
+    """Return the bytes of a string, with its length in front."""
     raw = words.encode("utf-8", "surrogateescape")
     return U32.pack(len(raw)) + raw
 
 
 def strings(values: Mapping[str, str]) -> bytes:
-    """Pack a map of texts, preceded by its length."""
+    """Return the bytes of a map from strings to strings, with its length in front."""
     packed = b"".join(text(key) + text(value) for key, value in values.items())
     return U32.pack(len(packed)) + packed
 
 
 def entries(values: Mapping[int, int]) -> bytes:
-    """Pack a map of channels to numbers, preceded by its length."""
+    """Return the bytes of a map from channel numbers to integers, with its length in front."""
     packed = b"".join(struct.pack("<HQ", key, value) for key, value in values.items())
     return U32.pack(len(packed)) + packed
 
 
 def message_index(channel: int, index: "array[int]") -> bytes:
-    """Pack a message index record: log times alternating with offsets."""
+    """Return the bytes of a message index record; `index` alternates log times and offsets."""
     pairs = index.tobytes()
     return (
         RECORD.pack(MESSAGE_INDEX, 6 + len(pairs)) + struct.pack("<HI", channel, len(pairs)) + pairs

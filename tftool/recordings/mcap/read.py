@@ -1,4 +1,4 @@
-"""Reading MCAP: by index if there is one, else sequentially up to any damage.
+"""Reader of MCAP files: by index if there is one, else sequentially up to any damage.
 
 Source: the MCAP format specification, version 0.
 """
@@ -67,29 +67,29 @@ from tftool.recordings.mcap.format import (
 )
 
 _TELLING: Final = (SCHEMA, CHANNEL)
-_SPARSE = 4096  # bytes that one message more is worth when reading them singly
+_SPARSE = 4096  # bytes that may be read in vain for each message that is read one by one
 _BLOCK = 1 << 18
 _INDEX_AT_ONCE = 128
-_MOST_HELD: Final = 4096  # messages outside of chunks that are given at once
+_MOST_HELD: Final = 4096  # messages outside chunks in one batch
 
 MOST_BYTES_HELD: Final = 1 << 26
-"""Bytes of messages outside of chunks that are given at once, but for the last one."""
+"""Maximum size of messages outside chunks in one batch, bytes; the last message may exceed it."""
 
 
 class Mcap(ChunkedReader):
-    """An MCAP file; see `ContainerReader`."""
+    """Reader of an MCAP file; see `ContainerReader`."""
 
     kind = "MCAP"
     container = "mcap"
     magic = MCAP_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open the file and list its contents.
+        """Open the file, and find its channels and chunks.
 
         Args:
-            path: Path.
-            by_index: Whether its messages are to be read by its index, which is made where the
-                file has none; otherwise they are read with `blocks`.
+            path: Path of the file.
+            by_index: Whether messages are read by the index, which is built if the file has none;
+                otherwise they are read with `blocks`.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -110,7 +110,7 @@ class Mcap(ChunkedReader):
         self._schema_of: dict[int, int] = {}
         self._by_index = by_index
         self._loose = WalkedMessages()
-        self._index_sizes: dict[int, int] = {}  # of a channel: bytes that one takes, about
+        self._index_sizes: dict[int, int] = {}  # approximate size of a channel's message index
         self._ended_at, self._ended = 0, False
         try:
             self._open()
@@ -119,7 +119,7 @@ class Mcap(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """List the contents, by the index or without it."""
+        """Find the channels and chunks, by the index or without it."""
         if not self._by_index:
             self._read_style()
         complete = False
@@ -137,10 +137,10 @@ class Mcap(ChunkedReader):
         schema = self._schema_of[number]
         return schema, self.schemas[schema] if schema else None
 
-    # Content
+    # Index
 
     def _read_style(self) -> None:
-        """Detect from the first records how the file was written."""
+        """Detect from the first records how the file was written: profile, library, compression."""
         position = len(MCAP_MAGIC)
         try:
             while position + 9 <= self.size:
@@ -159,7 +159,7 @@ class Mcap(ChunkedReader):
             return
 
     def _read_summary(self) -> bool:
-        """Read the summary; return whether it is complete.
+        """Read the summary at the end of the file; return whether it is complete.
 
         Raises:
             InputError: If the summary is damaged.
@@ -199,7 +199,7 @@ class Mcap(ChunkedReader):
                 self.style["with_crc"] = data_end[9:] != bytes(4)
             return True
         if not self._chunks and (total or not has_statistics):
-            # Messages outside chunks are in no index.
+            # No index contains messages outside chunks.
             return False
         self._chunks.sort(key=lambda one: one.position)
         if has_statistics:
@@ -212,7 +212,7 @@ class Mcap(ChunkedReader):
         return True
 
     def _take_entry(self, summary: bytes, first: int, last: int) -> None:
-        """Register a chunk as the summary describes it."""
+        """Register a chunk from its entry in the summary."""
         entry = index_entry(summary, first, last, self.size)
         self._chunks.append(
             Chunk(
@@ -229,7 +229,7 @@ class Mcap(ChunkedReader):
         )
 
     def _forget(self) -> None:
-        """Drop everything known, to start again."""
+        """Drop everything found so far, to start again."""
         super()._forget()
         self.is_indexed = False
         self.schemas.clear()
@@ -237,14 +237,14 @@ class Mcap(ChunkedReader):
         self._schema_of.clear()
 
     def _describe(self, code: int, body: bytes) -> None:
-        """Register a schema or channel of a record."""
+        """Register the schema or channel that a record describes."""
         check_told(len(body))
         number, schema = struct.unpack_from("<HH", body)
         if code == SCHEMA:
             name, place = text_at(body, 2)
             encoding, place = text_at(body, place)
             (length,) = U32.unpack_from(body, place)
-            # Some writers repeat a schema: the last definition counts, until a channel names it.
+            # Some writers repeat a schema: use the last definition before its first channel.
             if len(self.schemas) < MOST_STREAMS and number not in self._used_schemas:
                 self.schemas[number] = (name, encoding, body[place + 4 : place + 4 + length])
             return
@@ -254,7 +254,7 @@ class Mcap(ChunkedReader):
         encoding, place = text_at(body, place)
         metadata = strings_at(body, place)
         if schema not in self.schemas:
-            schema = 0  # Of none: the record that describes it is damaged.
+            schema = 0  # No schema: the record that describes it is damaged.
         name, kind, data = self.schemas.get(schema, ("", "", b""))
         self._used_schemas.add(schema)
         self._schema_of[number] = schema
@@ -269,10 +269,10 @@ class Mcap(ChunkedReader):
                 except InputError as error:
                     self.note(f"A message index cannot be read ({error}).")
 
-    # From front to back
+    # Sequential reading
 
     def _index(self) -> None:
-        """Build an index of a file without one, up to its end or its damage.
+        """Build an index of a file without one, up to the file's end or its damage.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -287,7 +287,7 @@ class Mcap(ChunkedReader):
             self.start, self.end = min(min(moments), LAST_STAMP), min(max(moments), LAST_STAMP)
 
     def _found_chunks(self) -> Iterator[Chunk]:
-        """Yield the chunks; messages between them are recorded."""
+        """Yield the chunks; collect the messages between them."""
         for block in self._pieces():
             if isinstance(block, Chunk):
                 yield block
@@ -295,22 +295,20 @@ class Mcap(ChunkedReader):
                 self._loose.extend(block.found)
 
     def blocks(self) -> "Iterator[Chunk | Loose]":
-        """Yield the chunks, and the messages between them; other records go to `extras`."""
+        """Yield chunks, and blocks of messages between them; store other records in `extras`."""
         yield from self._pieces()
         if not self._ended:
             self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> "Iterator[Chunk | Loose]":
-        """Walk through the file record by record; record where it ends, and whether it ends
-        properly.
-        """
+        """Yield chunks and messages while reading record by record; note how the file ends."""
         position, size = len(MCAP_MAGIC), self.size
         block, base, code = b"", 0, 0
         loose = Loose(self)
         self._ended = False
         while position + 9 <= size:
             if not base <= position <= base + len(block) - 64:
-                # Many small records follow each other; behind a chunk another one follows.
+                # Small records follow each other, so read a block; a chunk follows a chunk.
                 base, block = position, self.up_to(position, 64 if code == CHUNK else _BLOCK)
             code, length = RECORD.unpack_from(block, position - base)
             body, end = position + 9, position + 9 + length
@@ -348,7 +346,7 @@ class Mcap(ChunkedReader):
             yield loose
 
     def _chunk_at(self, position: int, end: int) -> Chunk:
-        """Return the chunk whose record begins and ends there."""
+        """Return the chunk whose record has this start and end in the file."""
         stop = min(end, self.size)
         head = self.at(position, min(stop - position, 256))
         low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
@@ -381,12 +379,12 @@ class Mcap(ChunkedReader):
         if not chunk.cut:
             self._read_indexes(chunk)
         known = chunk.counts is not None and chunk.counts.keys() <= self.channels.keys()
-        # Without a summary its own records may be all that describes channels behind it.
+        # Without a summary, records in the chunk may be the only description of later channels.
         chunk.whole = known and self.is_indexed
         return chunk
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Skip the message indexes after a chunk, and record what they contain."""
+        """Read the message indexes after a chunk."""
         counts: dict[int, int] = {}
         position = chunk.behind
         while position + 15 <= self.size:
@@ -395,7 +393,7 @@ class Mcap(ChunkedReader):
             if code != MESSAGE_INDEX or end > self.size:
                 break
             if entries != length - 6 or entries % 16:
-                # Without it the others do not tell all.
+                # One message index is damaged, so the others are incomplete.
                 chunk.indexes.clear()
                 return
             if entries:
@@ -407,14 +405,14 @@ class Mcap(ChunkedReader):
             chunk.counts = counts
 
     def _take_extra(self, code: int, position: int, length: int) -> None:
-        """Collect a record that is neither a message nor needed to read one."""
+        """Collect a record for `extras`: an attachment or metadata."""
         if code == ATTACHMENT:
             self._take_attachment(position, length)
         elif code == METADATA:
             self.extras.metadata.append(self.at(position + 9, length))
 
     def _take_attachment(self, position: int, length: int) -> None:
-        """Record where an attachment is; it may be larger than memory."""
+        """Store the byte range of an attachment, which may be larger than memory."""
         body = position + 9
         place = body + 16
         for _ in range(2):
@@ -433,7 +431,7 @@ class Mcap(ChunkedReader):
         self.extras.attachments.append(CopiedAttachment(whole, self.at(body, 16), names, size))
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """Return the messages in some records; see `ChunkedReader`."""
+        """Yield the headers of the messages in some records; see `ChunkedReader`."""
         for code, first, last in records_in(data):
             if code == MESSAGE:
                 check_length(last - first)
@@ -443,7 +441,7 @@ class Mcap(ChunkedReader):
                 self._describe(code, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Return the message facts in a chunk's indexes; see `ChunkedReader`."""
+        """Yield the places of messages from a chunk's indexes; see `ChunkedReader`."""
         for channel, place in chunk.indexes.items():
             pairs = self._pairs(channel, place)
             if len(pairs):
@@ -451,7 +449,7 @@ class Mcap(ChunkedReader):
                 yield channel, pairs[:, 1], starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, publish times and sequences; see `ChunkedReader`."""
+        """Return log times, publish times and sequence numbers; see `ChunkedReader`."""
         log_times = np.minimum(words_at(data, starts - 16, "<u8"), LAST_STAMP).astype(np.int64)
         return log_times, words_at(data, starts - 8, "<u8"), words_at(data, starts - 20, "<u4")
 
@@ -460,7 +458,7 @@ class Mcap(ChunkedReader):
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams; see `Container`."""
+        """Yield the messages of some streams in batches; see `Container`."""
         chosen = self._chosen(wanted)
         singly = SingleMessages(self, chosen, head)
 
@@ -468,7 +466,7 @@ class Mcap(ChunkedReader):
             return self._batch(chunk, chosen, singly, ahead)
 
         for chunk, batch in self._chunk_batches(chosen, batch_of):
-            # Messages read singly before it come before it.
+            # Messages read one by one before this batch must be yielded first.
             if singly.is_full or (batch is not None and len(singly)):
                 yield singly.taken()
             if batch is not None:
@@ -482,7 +480,7 @@ class Mcap(ChunkedReader):
     def _batch(
         self, chunk: Chunk, chosen: Mapping[int, int], singly: SingleMessages, ahead: Ahead
     ) -> Batch | None:
-        """Return a chunk's messages; None if there are none, or they were read one by one."""
+        """Return a batch of a chunk's messages; None if there are none, or `singly` read them."""
         parts = []
         for channel, place in chunk.indexes.items():
             if channel in chosen:
@@ -507,7 +505,7 @@ class Mcap(ChunkedReader):
     def _loose_batches(
         self, chosen: Mapping[int, int], progress: Progress | None, head: int | None
     ) -> Iterator[Batch]:
-        """Yield the messages outside chunks."""
+        """Yield batches of the messages outside chunks."""
         singly = SingleMessages(self, chosen, head)
         for channel, start in zip(self._loose.channels, self._loose.starts, strict=True):
             if channel not in chosen:
@@ -526,7 +524,7 @@ class Mcap(ChunkedReader):
 
     def _pairs(self, channel: int, place: int) -> Stamps:
         """Return log time and offset of each message in a message index, shape (n, 2)."""
-        # As a rule all of one at once: that of the chunk before was about as long.
+        # Usually one read is enough: the channel's last message index was about as long.
         guess = self._index_sizes.get(channel, _INDEX_AT_ONCE)
         head = self.up_to(place, guess)
         code, length, told, count = INDEX_HEAD.unpack_from(head)
@@ -540,13 +538,13 @@ class Mcap(ChunkedReader):
 
 
 class Loose:
-    """Messages outside chunks; see `Block`."""
+    """Block of messages outside chunks; see `Block`."""
 
     whole = False
     counts: Mapping[int, int] | None = None
 
     def __init__(self, reader: Mcap) -> None:
-        """Start empty."""
+        """Create an empty block."""
         self.found = WalkedMessages()
         self._reader = reader
 
@@ -555,25 +553,25 @@ class Loose:
 
     @property
     def start(self) -> int:
-        """Log time of the first message."""
+        """Log time of the block's first message, nanoseconds."""
         return self.found.span[0]
 
     @property
     def end(self) -> int:
-        """Log time of the last message."""
+        """Log time of the block's last message, nanoseconds."""
         return self.found.span[1]
 
     def is_full(self, end: int) -> bool:
-        """Whether the batch is large enough before the message that ends there."""
+        """Whether the block is large enough without the message that ends at this offset."""
         too_long = end - self.found.starts[0] > MOST_BYTES_HELD
         return too_long or len(self) >= _MOST_HELD
 
     def sound(self) -> bool:
-        """Return True: outside chunks there is no checksum."""
+        """Return True, because there are no checksums outside chunks."""
         return True
 
     def table(self) -> MessageTable:
-        """Read the messages."""
+        """Read the block's messages; return them as columns."""
         reader, found = self._reader, self.found
         begin = found.starts[0] - IN_CHUNK
         try:
@@ -591,10 +589,10 @@ class Loose:
 
 
 def check_length(length: int) -> None:
-    """Refuse a message record shorter than its header.
+    """Raise an error for a message record that is shorter than its header.
 
     Raises:
-        InputError: If the length is too large.
+        InputError: If the length is too small.
     """
     if length < MESSAGE_HEAD.size:
         raise InputError(f"a message's record has the length {length} bytes")

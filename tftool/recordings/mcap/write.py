@@ -1,4 +1,4 @@
-"""Writing MCAP: chunks with message indexes, CRCs, attachments, and the summary.
+"""Writer of MCAP files: chunks with message indexes, CRCs, attachments, and the summary.
 
 Source: the MCAP format specification, version 0.
 """
@@ -51,10 +51,10 @@ from tftool.recordings.mcap.format import (
 COMPRESSIONS: Final = ("zstd", "lz4", "none")
 
 CHUNK_SIZE: Final = 1 << 20
-"""Bytes of messages in a chunk, before they are compressed."""
+"""Default size of a chunk's uncompressed messages, bytes."""
 
 LARGEST_CHUNK: Final = 1 << 26
-"""Bytes of messages in a chunk that takes the place of another."""
+"""Maximum size of a chunk's uncompressed messages in an edit, where it replaces another chunk."""
 
 MOST_CHANNELS: Final = 65_535
 
@@ -68,19 +68,19 @@ _HEADS = np.dtype(
         ("publish_time", "<u8"),
     ]
 )
-"""A message's record up to its payload; as `MESSAGE_RECORD`."""
+"""numpy's type of a message's record before the payload, as `MESSAGE_RECORD`."""
 
-_UNCHUNKED: Final = 1 << 16  # bytes that are written at a time where there are no chunks
+_UNCHUNKED: Final = 1 << 16  # bytes written at a time in a file without chunks
 
 
 class McapWriter(ChunkedWriter):
-    """Writer of an MCAP file; `first_free` counts for its schemas, too."""
+    """Writer of an MCAP file; `first_free` is also used for schema numbers."""
 
     @classmethod
     def in_style(cls, path: Path, style: Mapping[str, Any], *, profile: str) -> "McapWriter":
-        """Create the file of an edit; see `ContainerFormat.create_like`."""
+        """Create an output file of an edit; see `ContainerFormat.create_like`."""
         before = style.get("library", "")
-        # Chunks of a file that are changed become one chunk each: `end_block`.
+        # Each changed chunk of an input becomes one chunk: `end_block` ends it.
         size = LARGEST_CHUNK if style.get("chunked") else CHUNK_SIZE
         return cls(
             path,
@@ -101,15 +101,15 @@ class McapWriter(ChunkedWriter):
         chunk_size: int = CHUNK_SIZE,
         with_crc: bool = True,
     ) -> None:
-        """Create the file; an existing one is replaced.
+        """Create the file; replace an existing file.
 
         Args:
-            path: Path.
-            profile: Profile of its channels: "ros2", "ros1", or "".
+            path: Path of the file.
+            profile: Profile of the channels: "ros2", "ros1", or "".
             library: Name of the writing library.
-            compression: "zstd", "lz4" or "none", of each chunk; "zstd" if None.
-            chunk_size: Bytes of messages in a chunk before they are compressed; 0 for no chunks.
-            with_crc: Whether chunks and the data as a whole carry CRCs.
+            compression: Compression of each chunk: "zstd", "lz4" or "none"; None for "zstd".
+            chunk_size: Size of a chunk's uncompressed messages, bytes; 0 for no chunks.
+            with_crc: Whether to write CRCs of the chunks and of all data.
 
         Raises:
             UsageError: If the compression is not known, or not installed.
@@ -118,7 +118,7 @@ class McapWriter(ChunkedWriter):
         compression = compression or "zstd"
         if compression not in COMPRESSIONS:
             raise UsageError(
-                f"'{compression}' is no compression of MCAP: choose {', '.join(COMPRESSIONS)}."
+                f"'{compression}' is not a compression of MCAP: use {', '.join(COMPRESSIONS)}."
             )
         super().__init__(path, "" if compression == "none" else compression, with_crc=with_crc)
         self.first_free = 1
@@ -128,7 +128,7 @@ class McapWriter(ChunkedWriter):
         self._schemas: dict[tuple[str, str, bytes], int] = {}
         self._schema_records: dict[int, bytes] = {}
         self._schema_of: dict[int, int] = {}
-        self._chunks: list[bytes] = []  # their records in the summary
+        self._chunks: list[bytes] = []  # records of the chunks in the summary
         self._attachments: list[bytes] = []
         self._metadata: list[bytes] = []
         self._low, self._high = NOTHING_YET, 0
@@ -136,23 +136,23 @@ class McapWriter(ChunkedWriter):
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last log time of the messages in the file; 0 if there are none."""
+        """First and last log time of the messages in the file; 0 without messages."""
         return (0 if self._low == NOTHING_YET else self._low), self._high
 
-    # State
+    # Channels
 
     def channel(
         self, channel: Channel, number: int | None = None, schema: int | None = None
     ) -> int:
-        """Register a stream; return its number for `write`.
+        """Register a channel; return its number for `write`.
 
         Args:
-            channel: The stream; one that is known already has its number.
-            number: Number of the channel, if it matters.
-            schema: The number of its schema, known already; likewise.
+            channel: The channel; a known channel keeps its number.
+            number: Number for the channel; None for any.
+            schema: Number of its schema, which must be known; None for any.
 
         Raises:
-            InputError: If there are too many.
+            InputError: If there are too many channels or schemas.
         """
         known = self._known.get(channel)
         if known is not None and number in (None, known):
@@ -169,7 +169,7 @@ class McapWriter(ChunkedWriter):
         return number
 
     def schema(self, name: str, encoding: str, data: bytes, number: int | None = None) -> int:
-        """Register a type; return its number."""
+        """Register a schema (a message type's definition); return its number."""
         key = name, encoding, data
         if number is None and key in self._schemas:
             return self._schemas[key]
@@ -181,7 +181,7 @@ class McapWriter(ChunkedWriter):
         return number
 
     def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
-        """Whether the schema ids are unused in this file, or already stand for the same schemas."""
+        """Whether the schema numbers are free in this file, or stand for the same schemas."""
         here = {number: key for key, number in self._schemas.items()}
         return all(
             here[number] == schema if number in here else number not in self._schema_records
@@ -191,7 +191,7 @@ class McapWriter(ChunkedWriter):
     def add_channel(
         self, number: int, schema: int, topic: str, encoding: str, metadata: bytes
     ) -> None:
-        """Register a channel from its record's contents; the metadata is packed."""
+        """Register a channel by the contents of its record; `metadata` is the packed map."""
         self._schema_of[number] = schema
         self._channel_records[number] = record(
             CHANNEL, struct.pack("<HH", number, schema) + text(topic) + text(encoding) + metadata
@@ -208,7 +208,7 @@ class McapWriter(ChunkedWriter):
         return number
 
     def _define(self, channel: int) -> None:
-        """Write the records of a channel and its schema before its first message."""
+        """Write the records of a channel and its schema, before the channel's first message."""
         self._defined.add(channel)
         schema = self._schema_of[channel]
         if schema:
@@ -225,11 +225,13 @@ class McapWriter(ChunkedWriter):
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message."""
+        """Append a message to a channel."""
         if channel not in self._defined:
             self._define(channel)
         if log_time < 0:
-            raise InputError(f"A log time of {log_time} ns is before 1970, which MCAP cannot hold.")
+            raise InputError(
+                f"A log time of {log_time} ns is before 1970, which MCAP cannot store."
+            )
         length = len(payload)
         head = MESSAGE_RECORD.pack(
             MESSAGE,
@@ -255,7 +257,7 @@ class McapWriter(ChunkedWriter):
             self.flush()
 
     def write_table(self, table: MessageTable) -> bool:
-        """Append messages together; return whether that was possible, else nothing is appended."""
+        """Append messages in bulk; return False, with nothing appended, if this is impossible."""
         channels = table.owners
         size = int(table.lengths.sum()) + 31 * len(table)
         known = self._defined.issuperset(channels)
@@ -315,7 +317,7 @@ class McapWriter(ChunkedWriter):
         self._chunks.append(entry.record())
 
     def end_block(self, chunk: Chunk) -> None:
-        """Close a chunk with changed messages, with the original's compression."""
+        """End the current chunk, which replaces an input's chunk, with that chunk's compression."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
             if chunk.method != self.method:
@@ -334,17 +336,18 @@ class McapWriter(ChunkedWriter):
         if count:
             self._low, self._high = min(self._low, low), max(self._high, high)
 
-    # Copies
+    # Copies from other files
 
     def adopt(
         self, channel: Channel, number: int, origin: tuple[int, tuple[str, str, bytes] | None]
     ) -> None:
-        """Register a stream of another file under its number there.
+        """Register a channel of another file under the number it has there.
 
         Args:
-            channel: The stream.
-            number: Number.
-            origin: The number of its schema there, and the schema; see `Mcap.origin`.
+            channel: The channel.
+            number: Number of the channel in both files.
+            origin: Number of the channel's schema in the other file, and the schema; see
+                `Mcap.origin`.
         """
         schema, described = origin
         if described is not None:
@@ -382,10 +385,10 @@ class McapWriter(ChunkedWriter):
         self._attachments.append(record(ATTACHMENT_INDEX, told))
 
     def copy_metadata(self, body: bytes) -> None:
-        """Copy a metadata record.
+        """Copy a metadata record's body from another file.
 
         Raises:
-            struct.error: If the record is no metadata.
+            struct.error: If the record is not metadata.
         """
         (length,) = U32.unpack_from(body)
         self.flush()
@@ -396,7 +399,7 @@ class McapWriter(ChunkedWriter):
             record(METADATA_INDEX, struct.pack("<QQ", begin, len(piece)) + body[: 4 + length])
         )
 
-    # The end
+    # End of the file
 
     def finish(self) -> None:
         """Write buffered messages and the summary, and close the file."""
@@ -412,10 +415,10 @@ class McapWriter(ChunkedWriter):
         self._put(end + summary + MCAP_MAGIC)
 
     def rescue(self) -> bool:
-        """Close the file on a full disk: after its last whole chunk, with a summary.
+        """On a full disk, end the file after its last complete chunk, and close it.
 
         Returns:
-            Whether there was room for the summary.
+            Whether there was space for the summary.
         """
         self._new_chunk()
         whole = self.position

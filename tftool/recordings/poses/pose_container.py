@@ -164,7 +164,7 @@ def _quaternions(matrices: Floats, file: PoseFile) -> Floats:
     bad = (error > _NOT_ROTATION) | (np.linalg.det(matrices) < 0.0)
     if bad.any():
         raise InputError(
-            f"'{file.path}': the matrix of pose {int(np.argmax(bad)) + 1} is no rotation."
+            f"'{file.path}': the matrix of pose {int(np.argmax(bad)) + 1} is not a rotation."
         )
     m = matrices
     trace = np.trace(m, axis1=1, axis2=2)

@@ -169,7 +169,9 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
         if last > size:
             if partial:
                 return
-            raise InputError(f"a record has the length {count} bytes, and there are {size - first}")
+            raise InputError(
+                f"a record has the length {count} bytes, but only {size - first} follow"
+            )
         yield fields_of(data[position + 4 : first - 4]), first, last
         position = last
 

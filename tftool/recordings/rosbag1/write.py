@@ -82,7 +82,7 @@ class Rosbag1Writer(ChunkedWriter):
         """
         if compression not in COMPRESSIONS:
             raise UsageError(
-                f"'{compression}' is no compression of ROS 1 bags: choose "
+                f"'{compression}' is not a compression of ROS 1 bags: use "
                 f"{', '.join(COMPRESSIONS)}."
             )
         super().__init__(path, compression)
