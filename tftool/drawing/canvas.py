@@ -97,7 +97,7 @@ class Canvas:
         self._plain = ascii_only or mono
         self._palette = palette
         self._paper = theme.paper(palette)
-        # Equal to no view, so that the first one starts from scratch.
+        # Not equal to any view, so that the first picture is drawn from scratch.
         self._view = Viewport(0.0, 0.0, 0.0)
         self._placer = Placer(self.columns, self.rows)
         self._sheet: CellSheet | None = None
@@ -193,7 +193,7 @@ class Canvas:
         if field is not None:
             lines = field.placed(lines)
         colors = np.array([packed(stroke[4]) for stroke in new])
-        # Dots leave gaps between them, so a trail needs a few more to look as wide as it is.
+        # Dots have gaps between them, so a trail needs extra dots to look as wide as it is.
         per_pixel = 1.3 / PIXELS_PER_METRE * 4.0 / self._view.per_row
         wide = np.array([max(1, round(per_pixel * stroke[5])) for stroke in new])
         for one in np.unique(wide).tolist():
@@ -221,7 +221,7 @@ class Canvas:
             if one.parent is not None
             for ends in _dashes((one.x, one.y), one.parent, 0.25 * view.per_row)
         ]
-        # Without a colour of its own the field has an edge.
+        # If the field has no colour of its own, its edge is drawn.
         edges = [] if field is None or not self._plain else list(_edges(field, _SIDES))
         walls = [] if field is None else list(_edges(field, field.walls))
         link = self._ground_color("link", field)
@@ -237,7 +237,7 @@ class Canvas:
                 end = one.x + length * along, one.y + length * up
                 lines.append((one.x, one.y, *end))
                 if self.rows >= THICK_FROM:
-                    # A dot beside it, so that the axis is two dots wide.
+                    # A second dot beside the first, so that the axis is two dots wide.
                     x, y = -0.25 * view.per_row * up / reach, 0.25 * view.per_row * along / reach
                     lines.append((one.x + x, one.y + y, end[0] + x, end[1] + y))
             layers.append((lines, self._ground_color(role, field)))
@@ -255,7 +255,7 @@ class Canvas:
         labels: list[Label] = []
         per_metre = 1.0 / self._view.per_row
         bodies = per_metre >= sprites.BODY_FROM and not self._plain
-        # Turtles below frames that stand on them; and of turtles, the first one on top.
+        # Turtles are drawn below frames at the same place, and the first turtle on top.
         below = [one for one in picture.frames if one.is_turtle][::-1]
         if not bodies:
             below.reverse()
@@ -286,7 +286,7 @@ class Canvas:
                 if one.is_turtle and bodies:
                     reach = math.ceil(1.6 * per_metre)
                 labels.append(Label(one.name, text, math.floor(place[0]), row, reach))
-        # Lines and axes had better stay in sight.
+        # Labels avoid lines and axes if they can.
         soft = set(zip(*(where.tolist() for where in np.nonzero(marked)), strict=True))
         named = {one.name: one for one in picture.frames}
         for placed in self._placer.placed(labels, hard, soft):
@@ -317,7 +317,7 @@ class Canvas:
         if bodies:
             return sprites.body(*place, one.theta, color, per_metre)
         if (row, column) in taken:
-            # Another turtle stands there: this one is seen beside it, and small.
+            # Another turtle is in this cell: this one is drawn small, beside it.
             free = next(
                 (
                     column + aside
@@ -343,12 +343,12 @@ class Canvas:
     def place(self, x: float, y: float) -> Point:
         """Return the column and row, in cells, of a point given in metres."""
         view = self._view
-        # The corners of a picture may be farther away than anything in it.
+        # A corner of the visible part may be farther away than `FARTHEST`.
         if not abs(x) + abs(y) <= 1e3 * FARTHEST:
             return math.inf, math.inf
         column = (x - view.left) / view.per_row * 2.0
         row = self.rows - (y - view.bottom) / view.per_row
-        # The far edges belong to the picture.
+        # Points exactly on the right and lower edges belong to the picture.
         if column == self.columns:
             column -= 0.01
         if row == self.rows:

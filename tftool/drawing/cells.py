@@ -78,7 +78,7 @@ def cells_of(text: str) -> Iterator[tuple[int, str]]:
     for sign in text:
         width = cell_len(sign)
         if width == 0:
-            # A mark stands on the sign before it; one with nothing to stand on has no cell.
+            # A combining mark belongs to the character before it; without one it is dropped.
             if shown:
                 start, before = shown[-1]
                 shown[-1] = start, before + sign
@@ -121,7 +121,7 @@ def dots_of(ends: Points, width: int, height: int) -> tuple[Numbers, Numbers, Po
     place = np.arange(len(one)) - np.repeat(np.cumsum(counts) - counts, counts)
     share = first[one] + (last - first)[one] * place / np.maximum(counts - 1, 1)[one]
     points = start[one] + share[:, None] * way[one]
-    # The far edges belong to the picture: their dots are the last ones inside.
+    # Points exactly on the right and lower edges belong to the last dots inside.
     across, down = np.clip(points[:, :2].astype(np.int64), 0, size - 1).T
     return across, down, points, kept[one]
 
@@ -255,7 +255,7 @@ class CellSheet:
         Args:
             before: Previous sheet of the same size, whose unchanged lines are reused.
         """
-        # The ink of a blank is not seen: no new segment for it.
+        # The colour of a blank is invisible, so a blank begins no new segment.
         self._keys = (np.where(self.texts == " ", NONE, self.inks) << 26) + (self.grounds << 1)
         self._keys += self.bold
         kept = np.zeros(len(self._keys), bool)

@@ -62,7 +62,7 @@ _DARK: Final = {
 }
 _COMMON: Final[dict[str, object]] = {
     "svg.fonttype": "none",
-    # The same plot is the same file.
+    # Fixed ids, so that the same plot gives the same file.
     "svg.hashsalt": "tftool",
     "font.family": "sans-serif",
     "axes.grid": True,
@@ -190,7 +190,7 @@ def write_panels(
 
 
 def _save(figure: "Figure", file: BinaryIO, form: str) -> None:
-    # No date: the same plot is the same file.
+    # Without a date, so that the same plot gives the same file.
     metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[form]
     with _needed("matplotlib").rc_context(_COMMON):
         figure.savefig(file, format=form, dpi=150, metadata=metadata)
@@ -228,8 +228,8 @@ def _settings(dark: bool) -> dict[str, object]:
 
 
 def _empty_figure(height: float, dark: bool, make: Any) -> "Figure":
-    # pyplot's first figure also sets up its backend, which must outlast our settings: with them
-    # in force, a notebook would show no later figure of anyone's.
+    # pyplot's first figure also sets up its backend. If that happened inside our temporary
+    # settings, it would end with them, and a notebook would show no later figure.
     ground = (_DARK if dark else _LIGHT)["figure.facecolor"]
     figure: Figure = make(figsize=(8.0, height), layout="constrained", facecolor=ground)
     return figure

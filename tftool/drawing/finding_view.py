@@ -92,7 +92,7 @@ def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
         shown.append(f"and {hidden} more (--verbose shows them)")
     lines += [Padding(Text(text), (0, 0, 0, 7)) for text in shown]
     if verbose and len(finding.edges) > MOST_IN_LINE:
-        # A line of evidence may be about many of them, which it does not name.
+        # A line of evidence may be about many links without naming them.
         edges = ", ".join(f"{child} in {parent}" for parent, child in finding.edges)
         lines.append(Padding(Text(visible(f"transforms: {edges}")), (0, 0, 0, 7)))
     if finding.publishers and verbose:
@@ -170,7 +170,7 @@ def summary(diagnosis: Diagnosis) -> str:
         why = " (--verbose says why)" if skipped else ""
         return f"nothing found; {count(diagnosis.ran, 'check')} ran{skipped}{why}"
     told = [one for one in diagnosis.findings if one.because_of is None]
-    # The first of the worst ones.
+    # The first finding among those with the worst severity.
     worst = min(told, key=lambda one: one.severity.rank)
     calm = "" if worst.severity is not Severity.NOTE else "If all works, leave it so. "
     return (
@@ -314,7 +314,7 @@ def explained(check: Check, width: int | None = None) -> str:
     for number, link in enumerate(check.links):
         lines.append(f"{'see    ' if not number else '       '}  {link}")
     if width is not None:
-        # A command or an address stays whole, to be copied.
+        # A command or an address is never wrapped, so that it can be copied.
         how = TextWrapper(
             width, subsequent_indent=" " * 9, break_long_words=False, break_on_hyphens=False
         )
@@ -374,7 +374,7 @@ def _general(text: str) -> str:
         if spec and "|" in spec:
             parts.append(spec.partition("|")[0])
             continue
-        # Text at a word's end without a blank is an addition that may be empty.
+        # A field that follows a word without a blank is an ending that may be empty.
         if name is not None and not literal[-1:].isalpha():
             parts.append(name.split("[")[0].upper())
     return "".join(parts)
@@ -484,7 +484,7 @@ def _code(text: str, *, in_table: bool = False) -> str:
     """Format a text as Markdown code in which no character has a special meaning."""
     text = visible(text)
     if in_table:
-        # A bar would end the cell, even in code.
+        # "|" would end the table's cell, even inside code.
         text = text.replace("|", "¦")
     ticks = "`" * (_longest_ticks(text) + 1)
     pad = " " if text.startswith("`") or text.endswith("`") else ""

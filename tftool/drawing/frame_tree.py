@@ -28,7 +28,7 @@ from tftool.geometry.rigid import Transform
 
 NOTHING = "No tf data received"
 
-# What a fact is when there is none: a static link has no rate and no age.
+# Text for a missing fact: a static link has no rate and no age.
 NONE = "-"
 
 ROBOT_HEADINGS = ("", "link", "joint")
@@ -164,7 +164,7 @@ def _yaml_entry(info: FrameInfo) -> str:
     }
     told = {key: _plain(value) for key, value in entry.items()}
     if _plain(info.frame) and all(told.values()):
-        # PyYAML takes 200 µs for it: seconds, where there are many.
+        # PyYAML takes 200 µs per name, which would be seconds for many names.
         return f"{info.frame}:\n" + "".join(f"  {key}: {text}\n" for key, text in told.items())
     return str(yaml.safe_dump({info.frame: entry}, sort_keys=False, allow_unicode=True, width=4096))
 
@@ -228,7 +228,7 @@ def _table(rows: list[_Row], headings: tuple[str, ...]) -> Iterator[tuple[str, s
         padded = []
         for column, (cell, size) in enumerate(zip(row.cells, taken, strict=True)):
             room = " " * (widths[column] - size)
-            # Numbers stand right, so that their points are under each other.
+            # Numbers are aligned to the right, so that their decimal points are in one column.
             padded.append(room + cell if column >= 3 else cell + room)
         whole = "  ".join(padded).rstrip()
         yield "\n", ""
@@ -413,7 +413,7 @@ def _ordered(forest: Forest, order: TreeOrder, wanted: str) -> list[Branch]:
     if wanted:
         found = {one.info.frame for one in rows if wanted.lower() in one.info.frame.lower()}
         if order is TreeOrder.tree:
-            # What they hang from is drawn too, or the guides would lead nowhere.
+            # Their ancestors are drawn too, or the guides would lead nowhere.
             for one in reversed(rows):
                 if one.info.frame in found and one.info.parent is not None:
                     found.add(one.info.parent)

@@ -92,7 +92,7 @@ class Placer:
                 if any(cell in hard for cell in cells):
                     continue
                 cost += 0.4 * sum(cell in soft for cell in cells)
-                # Beside a neighbour of the same line it would read as one word with it.
+                # Directly beside another label, the two would read as one word.
                 cost += 3.0 * ((row, column - 1) in hard and column - 1 != label.column)
                 if best is None or cost < best[0]:
                     best = cost, column, row

@@ -102,14 +102,14 @@ def over_time(
     told = [visible(one) for one in reasons(shaded)]
     text = Text(no_wrap=True, overflow="crop")
     if len(found) == 1:
-        # Of several pairs, each curve is named.
+        # With several pairs, each curve has its own name instead of a title.
         pair = visible(f"{found[0].source} in {found[0].target}")
         text.append(f"{fitted(pair, look.width)}\n", style="bold")
     rows = ROWS
     if look.height is not None:
         around = 2 + len(told) + (len(found) == 1)
         rows = max(LEAST_ROWS, (look.height - around) // max(1, len(drawn)) - 1)
-        # Of an odd number of lines the middle one is as far from the first as from the last.
+        # With an odd number of lines, a tick in the middle line is exactly in the middle.
         rows -= 1 - rows % 2
     number = 1
     for panel in drawn:
@@ -140,7 +140,7 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
         LEAST_ROWS, min(room // 2, 30 if look.height is None else look.height - 3 - len(curves))
     )
     columns = min(room, 4 * rows)
-    # Cells are twice as high as wide: metres to a cell across and down.
+    # Metres per cell across and down: cells are twice as high as wide.
     per_cell = max((right - left) / columns, (top - bottom) / (2.0 * rows), 1e-9)
     wide, high = per_cell * columns, 2.0 * per_cell * rows
     middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)
@@ -261,7 +261,7 @@ def draw_curve(dots: Dots, across: Floats, up: Floats, color: Color) -> None:
 def _axis(low: float, high: float, width: int) -> str:
     """Format the line below the plot: round seconds below their columns, and the unit."""
     columns = max(10, width - LABELS - 1)
-    # A tick just outside of the data is written at the edge.
+    # A tick slightly outside the data is written at the edge.
     slack = 0.02 * (high - low)
     found = round_ticks(low, high, max(3, columns // 14))
     ticks = [tick for tick in found if low - slack <= tick <= high + slack]

@@ -14,5 +14,5 @@ class NotebookFigure(Figure):
         """Remove the figure from those shown at the end of the cell, and show it as usual."""
         if "inline" in get_backend():
             pyplot.close(self)
-        # IPython's word for: show it as if this method were not there.
+        # This exception makes IPython show the figure as if this method did not exist.
         raise NotImplementedError

@@ -85,7 +85,7 @@ _INK = {"name": (0.09, 0.11, 0.141), "fact": (0.353, 0.392, 0.447), "note": (0.5
 _LINK = (0.427, 0.525, 0.659)
 _STATIC_LINK = _STROKE["static"]
 
-# How far a Bézier curve's handles reach to draw a quarter of a circle of radius 1.
+# Length of a Bézier curve's handles for a quarter of a circle of radius 1.
 _QUARTER = 0.5523
 
 
@@ -181,7 +181,7 @@ def _text(text: "Text") -> str:
     bold = text.kind == "name"
     latin = _latin(text.text)
     if latin != text.text:
-        # Numbers are longer than the letters they stand for: keep to the room there was.
+        # Codes are longer than the letters that they replace: keep to the text's width.
         latin = fit(latin, text.size, max(width(text.text, text.size, bold=bold), 90.0), bold=bold)
     font = "/F2" if bold else "/F1"
     ink = _colour(_INK[text.kind], "rg")

@@ -165,7 +165,7 @@ def _aged(line: str, age: Duration) -> str:
 
 
 def _rest(name: str) -> str:
-    # No frame is called so: names with a newline in them get one of their own behind it.
+    # The newline keeps this key apart from the names of frames.
     return f"{name}\nrest"
 
 
@@ -215,7 +215,7 @@ class _Sheet:
         items = self._items()
         roots = tuple(range(len(self.forest.roots)))
         places = tidy(items, roots, gap=GAP, tree_gap=TREE_GAP)
-        # A root's card is lower than the others: the first level gives that back.
+        # A root's card is lower than the others, so the first level takes less room.
         spare = tallest - ROOT_HEIGHT if self.down and not self.forest.loops else 0.0
         corners = []
         for subject, place in zip(self.subjects, places, strict=True):

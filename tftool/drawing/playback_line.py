@@ -92,7 +92,7 @@ def line(
     if playback.laps:
         words += f"  lap {playback.laps + 1}"
     shortest = 3 * _SHORTEST_BAR if playback.marks else _SHORTEST_BAR
-    # Without findings there is nothing that their keys could go to.
+    # Without findings, the keys that jump between findings would have no effect.
     shown = [(key, does) for key, does in KEYS if playback.marks or key != "n N"]
     keys = _keys(shown, width - len(words) - shortest - 4, ascii_only) if with_keys else ""
     longest = _LONGEST_TIMELINE if playback.marks else _LONGEST_BAR
@@ -119,7 +119,7 @@ def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette
         )
         style = theme.hexadecimal(_color(mark, palette))
         bar[first : last + 1] = [("=" if ascii_only else "═", style)] * (last + 1 - first)
-        # One finding may take all of the bar, so that its begin has a sign of its own.
+        # One finding may fill the whole bar, so its begin has a sign of its own.
         bar[first] = ("?!" if ascii_only else "▓█")[mark.is_error], style
     if playback.marks:
         bar[min(room - 1, full)] = "|" if ascii_only else "●", "bold"

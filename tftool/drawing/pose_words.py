@@ -8,7 +8,7 @@ from tftool.geometry.rigid import Transform, Vector3
 
 AXES = ("x", "y", "z")
 
-# Below this a number is no part of the sentence.
+# Smaller numbers are left out of the sentence.
 NOTHING = 5e-7
 
 

@@ -198,7 +198,7 @@ def _edge_object(edge: EdgeFacts) -> dict[str, Any]:
 def _row(edge: EdgeFacts) -> tuple[str, ...]:
     delay = span = "-"
     if edge.offset is not None and edge.offset.least >= SIMULATED_BELOW:
-        # How many decades later says nothing; that it is another clock does.
+        # "50 years later" would say little; "on another clock" explains the difference.
         delay = "other clock"
     elif edge.offset is not None:
         delay = _offset(edge.offset.median)
@@ -261,7 +261,7 @@ def table(
             head,
             [(row[at], "") for row in rows],
             stands_right=head in right,
-            # A number without its middle is another number.
+            # A number must not be cut in its middle: it would look like another number.
             caps=_NARROW if head in goes and head not in right else (),
             goes=goes.index(head) + 1 if head in goes else 0,
         )
@@ -333,6 +333,6 @@ def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str
             told += ["", heading]
         for row in found:
             name, why = str(row["source"]), row["unreadable"] or "; ".join(row["damage"])
-            # A refusal names its file most of the time.
+            # The error text usually names the file already.
             told += wrapped(visible(why if name in why else f"{name}: {why}"), width, "  ")
     return "\n".join(told) + "\n"

@@ -25,7 +25,7 @@ def render(reports: Sequence[Report]) -> Table:
             ok.append(f", {count(len(report.warnings), 'warning')}", "yellow")
         table.add_row(Text(visible(report.name), "bold"), ok, Text(_told(report)))
         if report.failure and report.judgements:
-            # First: everything below it may follow from it.
+            # The failure of the run comes first, because everything below may follow from it.
             table.add_row("", "", Text("\n".join(_lines(report.failure))))
         for number, why in enumerate(report.why):
             table.add_row("", "", Text(f"{'     ' if number else 'why: '}{visible(why)}"))

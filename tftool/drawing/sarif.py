@@ -37,7 +37,7 @@ def as_sarif(rows: "Sequence[tuple[str, Diagnosis | str]]") -> str:
         one["ruleIndex"] = list(CHECKS).index(one["ruleId"])
     driver = {
         "name": "tftool doctor",
-        # The package is above every room: it is asked, not imported.
+        # The version is read from the installed package, because importing it is not allowed here.
         "version": sys.modules["tftool"].__version__,
         "rules": [_rule(check) for check in CHECKS.values()],
     }
@@ -71,7 +71,7 @@ def _result(source: str, finding: Finding) -> dict[str, Any]:
         "message": {"text": _message(finding)},
         "locations": [_location(source, finding)],
         "partialFingerprints": {"tftoolDoctor/v1": finding.fingerprint},
-        # Findings that an accepted report has as well, by --baseline.
+        # Findings that the report given by --baseline contains as well.
         "suppressions": [{"kind": "external", "status": "accepted"}] if finding.known else [],
         "properties": {
             "confidence": finding.confidence.value,
@@ -100,7 +100,7 @@ def _location(source: str, finding: Finding | None = None) -> dict[str, Any]:
             if path.is_absolute()
             else quote(path.as_posix(), errors="surrogateescape")
         )
-    # Code hosts show a result at a line, and a recording has none.
+    # Code hosts show a result at a line; a recording has no lines, so it is the first.
     place = {"artifactLocation": {"uri": address}, "region": {"startLine": 1}}
     location: dict[str, Any] = {"physicalLocation": place}
     if finding is not None:

@@ -111,7 +111,7 @@ def _brief(
         (f"{_names(one['publishers'], '-')} {arrow} {_names(one['subscribers'], '-')}", "dim")
         for one in shown.values()
     ]
-    # Of long lists both ends are seen.
+    # A long list is cut in its middle, so that both ends are visible.
     most = max(16, (writer.width or 80) // 2)
     told = writer.heading("Topics", len(topics)) + writer.rows(
         [visible(name) for name in shown],

@@ -73,7 +73,7 @@ def render(picture: Picture) -> bytes:
             text.y,
             text.text.replace("$", r"\$"),
             color=_INKS[text.kind],
-            # A little smaller than in SVG: this font is wider than Helvetica.
+            # Slightly smaller than in SVG, because this font is wider than Helvetica.
             fontsize=0.86 * text.size,
             fontweight="bold" if text.kind == "name" else "normal",
             fontstyle="italic" if text.kind == "note" else "normal",

@@ -124,7 +124,7 @@ def coarse(mesh: Mesh, width: float) -> Mesh:
     triangles = cube[mesh.triangles]
     first, second, third = triangles.T
     triangles = triangles[(first != second) & (second != third) & (third != first)]
-    # Two sides of a thin wall fall together; one of them is enough.
+    # Merging can make both sides of a thin wall equal: one of them is enough.
     _, kept = np.unique(np.sort(triangles, 1), axis=0, return_index=True)
     return Mesh(points, triangles[kept], mesh.color)
 

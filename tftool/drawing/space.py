@@ -193,7 +193,7 @@ class OrbitCamera:
         if kept is None or size < ROOMY * float((kept[1] - kept[0]).max()):
             return box
         low, high = np.minimum(kept[0], box[0]), np.maximum(kept[1], box[1])
-        # With some room to spare, or it would grow at every look.
+        # With a margin, or the view would grow a little with every picture.
         room = 0.05 * float((high - low).max())
         return np.stack([low - room * (low < kept[0]), high + room * (high > kept[1])])
 

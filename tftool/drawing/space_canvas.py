@@ -132,7 +132,7 @@ def rasterise(corners: Floats, triangles: Indices, width: int, height: int) -> D
         point = (top[one] + down[inside]).astype(np.int64) * width + left[one] + across[inside]
         nearer = depth > depths[point]
         point, depth, one = point[nearer], depth[nearer], one[nearer]
-        # Of several values for one point numpy keeps the last: the nearest.
+        # If a point gets several values, numpy stores the last one, which is the nearest.
         order = np.argsort(depth)
         point = point[order]
         depths[point], owners[point] = depth[order], seen[one[order]]
@@ -169,7 +169,7 @@ def drawn(
         depth = rasterise(corners, solids.triangles, width, height)
         found = depth.owners >= 0
         owners = depth.owners[found]
-        # On a dark screen black parts would have no shape.
+        # On a dark screen, black parts would be invisible.
         colors = solids.colors[owners] ** 0.6
         parts = solids.parts()[owners]
         if tinted and picture.chosen in solids.frames:
@@ -203,7 +203,7 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
         1,
     )
     lengths = np.sqrt((normals * normals).sum(1)) + np.float32(1e-12)
-    # Meshes do not agree on the side that is outside: the one in sight is.
+    # Meshes differ in which side of a triangle is outside: the visible side counts.
     facing = np.where(normals[:, 2] < 0.0, -1.0, 1.0) / lengths
     light = np.clip((normals @ _LIGHT) * facing, 0.0, 1.0)
     shade: Floats = (0.28 + 0.72 * light).astype(np.float32)
@@ -281,7 +281,7 @@ def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
     places = places if len(places) else np.zeros((1, 2))
     low = np.floor(places.min(0) / step) - 2
     high = np.ceil(places.max(0) / step) + 2
-    # A plane may go on for kilometres: only the part near the middle is drawn.
+    # Frames may be kilometres apart: only the part near the middle is drawn.
     middle = view.middle[:2] / step
     low, high = np.maximum(low, np.floor(middle) - 60), np.minimum(high, np.ceil(middle) + 60)
     (left, near), (right, far) = low * step, high * step
@@ -328,7 +328,7 @@ class SpaceCanvas:
         drawing = drawn(picture, view, columns, rows, self._palette, tinted=tinted)
         self._places = [(x / 2.0, y / 4.0, one.name) for one, _, x, y in drawing.names]
         sheet = self._shaded(drawing)
-        # Under a line a solid has one colour: that of its upper half, or the lower one.
+        # A cell with a line shows one colour of the solid: of its upper half, else the lower.
         halves = sheet.inks if self._has_halves else sheet.grounds
         dots = self._dotted(drawing)
         sheet.grounds = np.where(dots.masks > 0, halves, sheet.grounds)
@@ -364,7 +364,7 @@ class SpaceCanvas:
             shades = np.clip(np.ceil(bright[some] * steps), 2, steps).astype(int)
             sheet.texts[some] = ramp[shades]
             mean = color[some] / total[some][:, None]
-            # The sign has the shade; the ink only has the hue.
+            # The character shows the brightness, its colour only the hue.
             hue = mean * (230.0 / np.maximum(mean.max(1, keepdims=True), 1.0))
             sheet.inks[some] = _few_shades(hue)
             return sheet
@@ -384,7 +384,7 @@ class SpaceCanvas:
         """Return the lines as braille dots; a cell has the colour of its last line."""
         columns, rows = self.columns, self.rows
         solid = drawing.depth.owners >= 0
-        # The ground never takes the cell of a solid.
+        # Lines of the ground never cover a cell of a solid.
         free = np.logical_not(solid.reshape(rows, 4, columns, 2).any((1, 3)))
         dots = Dots(columns, rows)
         for layer in drawing.layers:

@@ -14,7 +14,7 @@ LOOKS: Final = 240
 CELLS: Final = 60
 """Width in cells of the longest curve beside a tree."""
 
-# No full block: curves of neighbouring rows would merge.
+# The full block is not used, because curves of neighbouring rows would merge.
 _SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇"}
 
 
@@ -32,7 +32,7 @@ def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = 
     shown = []
     for cell in range(width):
         first, last = (place * len(kept) // width for place in (cell, cell + 1))
-        # The largest of several, or short peaks would come and go.
+        # The largest of several values; else a short peak would appear and disappear.
         part = [one for one in kept[first : max(first + 1, last)] if one is not None]
         shown.append(max(part, default=None))
     highest = max((one for one in shown if one is not None), default=0.0)
@@ -73,7 +73,7 @@ class TrafficHistory:
             counts.append((now, link.series.total))
             (first, before), (last, total) = counts[0], counts[-1]
             rate = (total - before) / as_seconds(last - first) if last > first else None
-            # A silent link has no delay, only a last one.
+            # A link that is silent has no current delay, only its last one.
             delay = None if rate == 0.0 else link.series.latest_delay
             looks = self._looks.setdefault(name, deque(maxlen=LOOKS))
             looks.append(TrafficLook(now, rate, delay))
@@ -101,9 +101,9 @@ class TrafficHistory:
                     (sparkline([one[part] for one in looks], cells, ascii_only=ascii_only), style)
                     for looks in kept
                 ],
-                # The heading stands above the newest value.
+                # The heading is above the newest value, at the right.
                 stands_right=True,
-                # They leave before any number does.
+                # Curves are dropped before any column of numbers.
                 goes=goes,
             )
             for heading, part, style, goes in (

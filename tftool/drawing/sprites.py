@@ -30,12 +30,12 @@ BADGE_FROM = 0.9
 
 def octant(theta: float) -> int:
     """Return the nearest of eight headings: 0 is east, 2 is north, counter-clockwise."""
-    # Brought into one turn first: a heading near the largest float would overflow.
+    # Reduced to one turn first, because a heading near the largest float would overflow.
     return round(math.remainder(theta, math.tau) / (math.pi / 4.0)) % 8
 
 
 # Parts of a turtle, nose along +u, in metres: centre, half axes, colour index.
-# The first one hit wins.
+# A point belongs to the first part that contains it.
 _HEAD, _SHELL, _PLATE, _LEG = range(4)
 _PARTS = (
     (0.66, 0.0, 0.27, 0.20, _HEAD),
@@ -96,7 +96,7 @@ def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
     first = seen[0][0]
     is_edge = _NOTHING in parts
     if len(seen) == 1 and not is_edge:
-        # As ground and not as a full block: where lines stand apart, blocks leave gaps.
+        # By the background colour, not a full block: blocks leave gaps between spaced lines.
         return " ", _NOTHING, first
     mask = sum(
         1 << corner

@@ -74,7 +74,7 @@ def _box(box: Box) -> str:
         f'<rect class="{box.kind}" x="{_number(box.x)}" y="{_number(box.y)}" '
         f'width="{_number(box.width)}" height="{_number(box.height)}" rx="{radius}"'
     )
-    # The whole name, for names that were cut to fit; shown when the pointer rests on the box.
+    # The full name, shown when the pointer rests on a box whose name was shortened.
     return (
         f"{opening}><title>{escape(box.title, quote=False)}</title></rect>"
         if box.title
@@ -84,8 +84,8 @@ def _box(box: Box) -> str:
 
 def _text(text: Text) -> str:
     length = width(text.text, text.size, bold=text.kind == "name")
-    # A viewer's font may be wider than Helvetica. All that stands in a card is kept to its width:
-    # lines drawn partly together look like several sizes.
+    # A viewer's font may be wider than Helvetica. So every text of a card is drawn at its width:
+    # if only some lines were squeezed, they would look like several font sizes.
     fitted = f' textLength="{_number(length)}" lengthAdjust="spacingAndGlyphs"'
     return (
         f'<text class="{text.kind}" x="{_number(text.x)}" y="{_number(text.y)}" '
@@ -233,7 +233,7 @@ def page(snapshot: Snapshot, svg: str, marks: Marks = NO_MARKS) -> str:
             else [f"<p>{NOTHING}</p>"]
         ),
     ]
-    # No other script runs, whatever a name is made of.
+    # This policy stops any other script, whatever characters a name contains.
     allowed = b64encode(sha256(f"\n{_SCRIPT}".encode()).digest()).decode()
     return "\n".join(
         [

@@ -100,7 +100,7 @@ LIGHT = Palette(
 
 def is_stale(age: float) -> bool:
     """Return whether a frame is silent for so long that its age is shown."""
-    # Asked this way round, an age that is not a number is stale.
+    # With this comparison, an age that is NaN counts as stale.
     return not age <= FRAME_TIMEOUT / 3.0
 
 

@@ -267,7 +267,7 @@ def _curve(
         return [*[Text(" " * (columns + 1))] * (rows - 1), last]
     columns -= GUTTER
     highest = max((one for one in values if one is not None), default=0.0)
-    # Microseconds of jitter are no reason for a full scale.
+    # A scale of a few microseconds would only magnify jitter.
     top = max(1e-3, _above(highest))
     heights = _heights(found, values, now, window, 2 * columns) / top
     scale = {0: _short(top * (1e3 if part == 2 else 1.0)), rows - 1: "0"}

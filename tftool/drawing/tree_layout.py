@@ -100,7 +100,7 @@ def _pack(
 
     edge = 0.0
     for root in roots[::-1] if mirrored else roots:
-        # Trees stand clear of one another: sliding one under another would look like kinship.
+        # Trees do not overlap in width: one below another would look like its descendant.
         offsets[root] = edge - outlines[root].leftmost()
         edge = offsets[root] + outlines[root].rightmost() + tree_gap
     for index in order:

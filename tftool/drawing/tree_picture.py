@@ -65,7 +65,7 @@ def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     if not lines:
         return Drawing('digraph G { "No tf data received" }')
 
-    # Graphviz decodes HTML's entities in a label that is only implied by the name.
+    # Graphviz decodes HTML entities in a label that it takes from the node's name.
     entities = [
         f'{_dot_id(name)}[label="{_dot_label(name)}"];\n' for name in named.values() if "&" in name
     ]
@@ -153,7 +153,7 @@ def _flowchart(snapshot: Snapshot, forest: Forest, *, full: bool, note: str = ""
 
 def _mermaid_text(text: str) -> str:
     """Escape every character that has a meaning in Mermaid, Markdown or HTML."""
-    # "fa:fa-car" would become a picture, and numbers are read before that happens.
+    # "fa:fa-car" would become an icon even when escaped: Mermaid decodes escapes first.
     text = text.replace(":fa-", ":\u200bfa-")
     return _ACTIVE.sub(lambda found: f"#{ord(found[0])};", text)
 
