@@ -13,6 +13,7 @@ def test_every_node_is_named_with_its_place(node, ros_runtime):
     ros_runtime.ask(lambda: Turtlesim(ros_runtime.world, "sim") and None)
 
     assert node.get_node_names() == ["probe", "arm", "sim"]
+    assert node.get_fully_qualified_node_names()[:2] == ["/probe", "/robot/left/arm"]
     assert node.get_node_names_and_namespaces()[:2] == [("probe", "/"), ("arm", "/robot/left")]
     assert node.get_node_names_and_namespaces_with_enclaves()[1] == ("arm", "/robot/left", "/")
     assert node.wait_for_node("/robot/left/arm", 1.0)

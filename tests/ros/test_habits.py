@@ -3,14 +3,25 @@
 import pytest
 
 from tests.ros.spinning import spin
+from tftool.ros.testing import RosRuntime
 
 
 def test_a_stamp_without_to_msg_is_refused_with_the_remedy(node):
     from geometry_msgs.msg import TransformStamped
 
     message = TransformStamped()
-    with pytest.raises(AssertionError, match=r"not 'Time', rclpy's own: write \.to_msg\(\)"):
+    with pytest.raises(
+        AssertionError, match=r"not 'Time', which is rclpy's own: append \.to_msg\(\)"
+    ):
         message.header.stamp = node.get_clock().now()
+
+
+def test_a_parameter_as_a_message_is_refused_with_the_remedy(node):
+    from rcl_interfaces.msg import ParameterEvent
+    from rclpy.parameter import Parameter
+
+    with pytest.raises(AssertionError, match=r"own: append \.to_parameter_msg\(\)"):
+        ParameterEvent(changed_parameters=[Parameter("speed", value=1.0)])
 
 
 def test_a_node_that_is_never_spun_is_told_of(ros_runtime, tmp_path):
@@ -29,6 +40,25 @@ def test_a_node_that_is_never_spun_is_told_of(ros_runtime, tmp_path):
         "node 'still' has ended without being spun, so none of its 2 callbacks was called: "
         "rclpy.spin(node) serves them"
     ]
+
+
+def test_a_programs_own_handler_of_ctrl_c_is_called_at_the_end(tmp_path):
+    file = tmp_path / "polite.py"
+    file.write_text(
+        "import rclpy, signal, sys\nrclpy.init()\nnode = rclpy.create_node('polite')\n"
+        "def stop(number, frame):\n    node.get_logger().info(f'stop {number}')\n    sys.exit(0)\n"
+        "before = signal.signal(signal.SIGINT, stop)\n"
+        "signal.signal(signal.SIGTERM, lambda *_: None)\n"
+        "assert signal.getsignal(signal.SIGINT) is stop and callable(before)\n"
+        "rclpy.spin(node)\n"
+    )
+    with RosRuntime() as runtime:
+        program = runtime.start(file)
+        runtime.sleep(1.0)
+        assert program.status is None
+
+    assert runtime.log("polite") == ["stop 2"]
+    assert program.status == 0
 
 
 def test_a_node_that_only_publishes_need_not_be_spun(ros_runtime, tmp_path):

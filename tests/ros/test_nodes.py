@@ -120,6 +120,10 @@ def test_two_nodes_of_one_name_are_told_apart_with_a_warning(node, ros_runtime):
     rclpy.create_node("probe")
 
     assert any("a node named 'probe' exists already" in text for text in ros_runtime.log())
+    before = ros_runtime.log()
+    for _ in range(2):
+        rclpy.create_node("_tool")
+    assert ros_runtime.log() == before
 
 
 def test_handles_of_a_destroyed_node_and_of_its_entities_are_invalid(node):

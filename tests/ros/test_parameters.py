@@ -18,6 +18,7 @@ def test_parameters_are_declared_with_types_and_read_back(node):
     assert [one.name for one in node.get_parameters(["on", "arm.reach"])] == ["on", "arm.reach"]
     assert set(node.get_parameters_by_prefix("arm")) == {"reach", "joints", "speed", "free"}
     assert node.get_parameter_types(["on"]) == [Parameter.Type.BOOL]
+    assert node.get_parameter_type("on") == Parameter.Type.BOOL
     assert node.get_parameter_or("gone").value is None
     assert node.get_parameter_or("gone", Parameter("gone", value=3)).value == 3
     assert node.get_parameter_or("on").value is True

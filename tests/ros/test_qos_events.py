@@ -237,7 +237,9 @@ def test_ends_of_topics_and_services_have_what_else_people_call(node):
     subscription = node.create_subscription(String, "chat", lambda message: None, 10)
     client = node.create_client(Empty, "ask")
     client.configure_introspection(
-        node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.METADATA
+        clock=node.get_clock(),
+        service_event_qos_profile=qos_profile_system_default,
+        introspection_state=ServiceIntrospectionState.METADATA,
     )
 
     assert publisher.wait_for_all_acked()

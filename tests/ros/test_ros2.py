@@ -104,6 +104,7 @@ def test_a_twist_is_published_until_the_turtle_has_moved(ros_runtime, tmp_path):
     assert lines[0] == "publisher: beginning loop"
     assert lines[1].startswith("publishing #1: geometry_msgs.msg.Twist(linear=")
     assert simulator.turtles["turtle1"].place[0] > 7.0
+    assert not any("without being spun" in text for text in ros_runtime.log())
 
 
 def test_parameters_are_listed_read_set_and_dumped(ros_runtime, tmp_path):

@@ -208,7 +208,7 @@ def test_a_packages_own_interfaces_can_be_imported(tmp_path):
     folder = package(
         tmp_path / "my_shapes", package__xml="<package><name>my_shapes</name></package>"
     )
-    package(folder / "msg", Ball__msg="float64 radius 2.5\ngeometry_msgs/Point center\n")
+    package(folder / "msg" / "solids", Ball__msg="float64 radius 2.5\ngeometry_msgs/Point center\n")
     package(folder / "srv", Grow__srv="float64 by\n---\nmy_shapes/Ball ball\n")
     Workspace(tmp_path)
     try:

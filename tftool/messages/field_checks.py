@@ -170,8 +170,10 @@ def _check_byte(name: str) -> Check:
 def _check_message(name: str, kind: type[Any]) -> Check:
     def check(value: Any) -> Any:
         if not isinstance(value, kind):
-            # rclpy's Time and Duration have the same names as the message classes.
-            hint = ", which is rclpy's own: append .to_msg()" if hasattr(value, "to_msg") else ""
+            # rclpy's Time, Duration and Parameter have the same names as the message classes.
+            makers = ("to_msg", "to_parameter_msg")
+            made = next((one for one in makers if hasattr(value, one)), "")
+            hint = f", which is rclpy's own: append .{made}()" if made else ""
             raise AssertionError(
                 f"The '{name}' field must be a sub message of type '{kind.__name__}', "
                 f"not '{type(value).__name__}'{hint}"

@@ -115,6 +115,7 @@ class Fiber:
         ended: Whether the code has ended.
         owner: Program that the fiber belongs to, for `current`.
         end: Function that returns the exception that waits raise after the fiber was asked to end.
+        on_interrupt: Called once in the fiber's thread before the first of these exceptions.
     """
 
     def __init__(
@@ -162,6 +163,7 @@ class Fiber:
         self._answer: tuple[Any, BaseException | None] = (None, None)
         self._arrived: tuple[asyncio.AbstractEventLoop, asyncio.Future[None]] | None = None
         self.end: Callable[[], BaseException] = KeyboardInterrupt
+        self.on_interrupt: Callable[[], object] | None = None
         self._thread: threading.Thread | None = threading.Thread(
             # A daemon: code that never returns must not keep the process alive.
             target=self._main,
@@ -201,6 +203,9 @@ class Fiber:
         self._post(request)
         self._go.acquire()
         value, error = self._answer
+        if isinstance(error, KeyboardInterrupt) and self.on_interrupt is not None:
+            handle, self.on_interrupt = self.on_interrupt, None
+            handle()
         if error is not None:
             raise error
         return value

@@ -1,9 +1,9 @@
-"""Replacements of four standard modules, and of `print`, in users' files.
+"""Replacements of five standard modules, and of `print`, in users' files.
 
 In users' files, `import time` gives a module with `sleep` and clocks of tftool's time, `import
 threading` one whose threads take turns and whose locks wait in tftool's time, `import queue` the
-standard queues with these locks, and `import asyncio` one whose event loops wait in tftool's
-time. All other modules get Python's own four.
+standard queues with these locks, `import asyncio` one whose event loops wait in tftool's time, and
+`import signal` one whose handlers belong to the program. All other modules get Python's own.
 """
 
 import asyncio
@@ -12,18 +12,20 @@ import importlib.util
 import io
 import queue
 import selectors
+import signal
 import sys
 import threading
 import time
 from collections.abc import Callable, Coroutine
-from functools import cache
+from functools import cache, partial
 from types import ModuleType
 from typing import Any
+from weakref import WeakKeyDictionary
 
 from tftool.base.stamps import NANOSECONDS, Duration, seconds
 from tftool.ros.host import locks
 from tftool.ros.host.error_text import error_sentence
-from tftool.ros.host.fibers import Fiber
+from tftool.ros.host.fibers import Fiber, current
 from tftool.ros.host.locks import running_program
 
 _REAL_SLEEP = time.sleep  # noqa: TID251
@@ -124,6 +126,29 @@ class UserTimer(UserThread, threading.Timer):
         self.finished: Any = locks.UserEvent()
 
 
+_HANDLERS: WeakKeyDictionary[Any, dict[int, Any]] = WeakKeyDictionary()
+"""Signal handlers of each program, by signal."""
+
+
+def _handler_of(number: int) -> Any:
+    owner = running_program()
+    given = {} if owner is None else _HANDLERS.get(owner, {})
+    return given.get(number, signal.getsignal(number))
+
+
+def _set_handler(number: int, handler: Any) -> Any:
+    """Set a program's handler; the one of SIGINT is called when the program is asked to end."""
+    owner, fiber = running_program(), current()
+    if owner is None or fiber is None or fiber is not owner.fiber:
+        return signal.signal(number, handler)
+    before = _handler_of(number)
+    _HANDLERS.setdefault(owner, {})[number] = handler
+    if number == signal.SIGINT:
+        told = partial(handler, number, None) if callable(handler) else None
+        fiber.on_interrupt = None if handler is signal.default_int_handler else told
+    return before
+
+
 @cache
 def _shims() -> dict[str, ModuleType]:
     return {
@@ -153,6 +178,7 @@ def _shims() -> dict[str, ModuleType]:
                 "Barrier": locks.UserBarrier,
             },
         ),
+        "signal": _Shim(signal, {"signal": _set_handler, "getsignal": _handler_of}),
         "asyncio": _Shim(
             asyncio,
             {

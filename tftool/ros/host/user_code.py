@@ -133,7 +133,7 @@ def _warn_of_unserved(owner: program.Program) -> None:
     """Warn about nodes of a program that ended without ever spinning them."""
     waiting = [*owner.unserved, *((node.name, node.unserved()) for node in owner.nodes)]
     for name, count in () if owner.interrupted else waiting:
-        if count:
+        if count and not name.startswith("_"):
             told = (
                 "its callback was not called: rclpy.spin(node) serves it"
                 if count == 1

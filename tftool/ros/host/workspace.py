@@ -278,7 +278,7 @@ def _add_interfaces(package: Package) -> None:
     texts = {
         (kind, file.stem): read_text(file)
         for kind in _KINDS
-        for file in sorted((package.path / kind).glob(f"*.{kind}"))
+        for file in sorted((package.path / kind).rglob(f"*.{kind}"))
     }
     if texts:
         INTERFACES.add(package.name, texts)

@@ -179,23 +179,25 @@ class ActionServer(WorkQueue):
                 )
             )
 
-    def register_goal_callback(self, callback: Callable[[Any], Any]) -> None:
+    def register_goal_callback(self, goal_callback: Callable[[Any], Any]) -> None:
         """Set the callback that accepts or rejects new goals."""
-        self._on_goal = callback
+        self._on_goal = goal_callback
 
-    def register_cancel_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
+    def register_cancel_callback(self, cancel_callback: Callable[[ServerGoalHandle], Any]) -> None:
         """Set the callback that accepts or rejects requests to cancel a goal."""
-        self._on_cancel = callback
+        self._on_cancel = cancel_callback
 
     def register_handle_accepted_callback(
-        self, callback: Callable[[ServerGoalHandle], Any]
+        self, handle_accepted_callback: Callable[[ServerGoalHandle], Any]
     ) -> None:
         """Set the callback that is called with each accepted goal's handle."""
-        self._on_accepted = callback
+        self._on_accepted = handle_accepted_callback
 
-    def register_execute_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
+    def register_execute_callback(
+        self, execute_callback: Callable[[ServerGoalHandle], Any]
+    ) -> None:
         """Set the callback that executes accepted goals."""
-        self._execute = callback
+        self._execute = execute_callback
 
     # On the loop's thread
 

@@ -232,16 +232,16 @@ def get_logger_effective_level(name: str) -> LoggingSeverity:
     return RcutilsLogger(name).get_effective_level()
 
 
-def get_logging_severity_from_string(level: str) -> LoggingSeverity:
+def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
     """Return the severity with a name such as "info".
 
     Raises:
         RuntimeError: If no severity has that name.
     """
     try:
-        return LoggingSeverity[level.upper()]
+        return LoggingSeverity[log_severity.upper()]
     except KeyError:
-        raise RuntimeError(f"'{level}' is no severity of logging") from None
+        raise RuntimeError(f"'{log_severity}' is no severity of logging") from None
 
 
 def clear_config() -> None:

@@ -129,6 +129,10 @@ class NodeGraph:
         """Return the names of all nodes."""
         return [name for name, _ in self.get_node_names_and_namespaces()]
 
+    def get_fully_qualified_node_names(self) -> list[str]:
+        """Return the full names of all nodes."""
+        return [f"/{full}" for full in self.__look(self.__nodes)]
+
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Return (name, namespace) of all nodes."""
         parted = (full.rpartition("/") for full in self.__look(self.__nodes))

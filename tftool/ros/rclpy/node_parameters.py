@@ -344,7 +344,11 @@ class NodeParameters:
 
     def get_parameter_types(self, names: Iterable[str]) -> list[Type]:
         """Return the types of declared parameters."""
-        return [self.get_parameter(name).type_ for name in names]
+        return [self.get_parameter_type(name) for name in names]
+
+    def get_parameter_type(self, name: str) -> Type:
+        """Return the type of a declared parameter."""
+        return self.get_parameter(name).type_
 
     def describe_parameter(self, name: str) -> Any:
         """Return a parameter's descriptor; an empty one for an undeclared, allowed parameter."""

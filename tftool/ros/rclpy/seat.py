@@ -70,15 +70,16 @@ class NodeSeat:
         while any(other.name == name for other in self.world.nodes if other is not self.program):
             number += 1
             name = f"{wanted}_{number}"
-        if name != wanted:
+        # Hidden nodes are tools, and there may be many: two terminals with 'ros2 topic echo'.
+        is_tool = self.name.startswith("_")
+        if name != wanted and not is_tool:
             self.program.say(
                 "WARN",
                 name,
                 f"a node named '{wanted}' exists already; this one is shown as '{name}'. "
                 f"Give it a name of its own: --ros-args -r __node:=…",
             )
-        elif name in self.world.far_nodes and not self.name.startswith("_"):
-            # Hidden ones are tools, and there may be many: 'ros2 topic echo' in two terminals.
+        elif name in self.world.far_nodes and not is_tool:
             self.program.say("WARN", name, names.named_twice(name))
         if self.program.name == name:
             # The executable and its node share a name, as they often do.

@@ -32,9 +32,11 @@ class ServiceIntrospectionState(IntEnum):
 class _Introspected:
     """Methods of ROS 2's service introspection, for clients and servers."""
 
-    def configure_introspection(self, clock: Any, qos: Any, state: int) -> None:
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: Any, introspection_state: int
+    ) -> None:
         """Store the introspection state; tftool publishes no requests or responses."""
-        self.introspection_state = ServiceIntrospectionState(state)
+        self.introspection_state = ServiceIntrospectionState(introspection_state)
 
 
 class Client(_Introspected, Requester):
