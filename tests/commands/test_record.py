@@ -94,7 +94,7 @@ def test_a_finding_of_the_doctors_ends_it_and_is_said(here, tftool):
         (["-o", "run.bag"], "use '.mcap'"),
         (
             ["-o", "run.mcap", "--max-duration", "2"],
-            "into a folder: name one, without '.mcap' (-o run)",
+            "into a folder: name a folder, without '.mcap' (-o run)",
         ),
         (["-o", "run", "--max-size", "lots"], "--max-size takes a number"),
         (["-o", "run", "--max-size", "5k"], "is too small"),

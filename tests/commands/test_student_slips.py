@@ -109,7 +109,7 @@ def test_a_single_file_of_limited_length_is_recorded_with_for(tftool, tmp_path):
     result = tftool("record", "--max-duration", "3", "-o", tmp_path / "run.mcap", "--in", "static")
 
     assert result.status == 2
-    assert "To stop after so long: --for SECONDS" in result.err
+    assert "To stop after some time, use --for SECONDS" in result.err
 
 
 NODE = """

@@ -252,5 +252,5 @@ def test_a_file_of_zero_quaternions_holds_no_poses(tmp_path):
     file = tmp_path / "zero.tum"
     file.write_text("1.0 0 0 0 0 0 0 0\n2.0 0 0 0 0 0 0 0\n", encoding="utf-8")
 
-    with pytest.raises(InputError, match=r"holds no poses\. .*2 rows"):
+    with pytest.raises(InputError, match=r"has no poses\. .*2 rows"):
         open_frames(str(file))

@@ -208,7 +208,7 @@ def test_names_that_cannot_hold_it_are_refused(tmp_path):
     with pytest.raises(UsageError, match=r"use '\.mcap'"):
         RollingRecording(tmp_path / "a.bag")
     with pytest.raises(
-        UsageError, match=r"several files, into a folder: name one, without '.mcap'"
+        UsageError, match=r"several files into a folder: name a folder, without '.mcap'"
     ):
         RollingRecording(tmp_path / "a.mcap", RecordLimits(duration=1))
     with pytest.raises(InputError, match="there is no folder"):

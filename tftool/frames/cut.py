@@ -1,4 +1,4 @@
-"""Copy of a buffer up to a time."""
+"""Copy of a buffer, up to a time."""
 
 from itertools import pairwise
 
@@ -11,11 +11,11 @@ from tftool.geometry.rigid import Transform
 
 
 def up_to(whole: Buffer, moment: Stamp) -> Buffer:
-    """Return a buffer's samples up to a time; static transforms are kept."""
+    """Return a buffer with the samples of another one up to a time, and all static transforms."""
     frames = whole.frames()
     found = Buffer(whole.cache_time, max_frames=max(1, len(frames)))
     for frame in frames:
-        # A recording of gigabytes need not be copied for one moment.
+        # Share the samples without a copy, which matters for recordings of gigabytes.
         if lend(whole, frame, found, moment):
             continue
         samples = whole.samples(frame)
@@ -25,7 +25,7 @@ def up_to(whole: Buffer, moment: Stamp) -> Buffer:
             else int(np.searchsorted(samples.stamps, moment, "right"))
         )
         links = list(zip(samples.parents[:count], samples.authorities[:count], strict=True))
-        # A run of samples of one parent and sender goes in at once.
+        # Insert each run of samples with the same parent and sender in one call.
         starts = [row for row in range(count) if row == 0 or links[row] != links[row - 1]]
         for first, last in pairwise([*starts, count]):
             parent, authority = links[first]

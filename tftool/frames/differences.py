@@ -1,4 +1,4 @@
-"""Differences of two sets of frames: links added, removed, reattached or displaced."""
+"""Differences of two sets of frames, A and B: links added, removed, reattached or displaced."""
 
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from tftool.geometry.rigid import Transform
 Stamps: TypeAlias = npt.NDArray[np.int64]
 
 MOST_MOMENTS: Final = 2_000_000
-"""Moments of one link at which it is compared; of more, every second, third … is taken."""
+"""Maximum number of times at which a link is compared; of more, every second, third … is used."""
 
 
 class Behaviour(StrEnum):
@@ -28,7 +28,7 @@ class Behaviour(StrEnum):
     static = "static"
     moving = "moving"
     joint = "joint"
-    """A joint of a robot description: it moves, and the description does not say where it is."""
+    """Joint of a robot description, whose position is unknown."""
 
 
 class Change(StrEnum):
@@ -38,10 +38,10 @@ class Change(StrEnum):
     gone = "gone"
     reparented = "re-parented"
     kind = "kind"
-    """Static in the one, moving in the other."""
+    """Static in one set, moving in the other."""
 
     pose = "pose"
-    """It lies elsewhere, by more than the tolerance."""
+    """Pose differs by more than the tolerance."""
 
     rate = "rate"
     same = "same"
@@ -49,7 +49,7 @@ class Change(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Allowance:
-    """Tolerance: the largest difference that does not count.
+    """Tolerance of a comparison: the largest difference that does not count.
 
     Attributes:
         millimetres: Tolerance of positions.
@@ -68,9 +68,9 @@ class Side:
 
     Attributes:
         name: Name in messages.
-        buffer: Frames.
-        start: The first moment there is data of, nanoseconds.
-        joints: The frames whose place a description leaves open.
+        buffer: The frames.
+        start: First stamp, nanoseconds.
+        joints: Frames whose pose depends on a joint of a description.
     """
 
     name: str
@@ -81,14 +81,14 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class LinkState:
-    """One link in one of the sets.
+    """State of one link in one of the sets.
 
     Attributes:
-        parent: Last parent.
-        kind: Kind.
+        parent: Parent in the last sample.
+        kind: Static, moving, or a joint.
         count: Number of samples.
-        rate: Hertz, by the median of its periods; None if it does not move.
-        pose: The child in the parent, where it holds at all times; else None.
+        rate: Rate in hertz, from the median period; None if static.
+        pose: Pose of the child in the parent, if static; else None.
     """
 
     parent: str
@@ -100,17 +100,17 @@ class LinkState:
 
 @dataclass(frozen=True, slots=True)
 class Displacement:
-    """Distance of one link's pose in B from its pose in A.
+    """Difference between a link's poses in A and in B.
 
     Attributes:
-        millimetres: Distance; the root mean square if it moves.
-        degrees: Turn; likewise.
-        worst_millimetres: The largest distance.
-        worst_degrees: The largest turn.
-        worst_at: The stamp of A of the largest one, measured in tolerances; None of a static.
-        moments: At how many moments they were compared.
-        moved_mm: Displacement, x y z in A's parent, if both links are static.
-        turned_deg: Rotation, roll pitch yaw, likewise.
+        millimetres: Distance; for moving links the root mean square.
+        degrees: Angle of rotation; for moving links the root mean square.
+        worst_millimetres: Largest distance.
+        worst_degrees: Largest angle.
+        worst_at: Stamp in A of the largest difference, relative to the tolerance; None if static.
+        moments: Number of times at which the poses were compared.
+        moved_mm: Displacement x y z in A's parent, if both links are static; else None.
+        turned_deg: Rotation as roll pitch yaw, if both links are static; else None.
     """
 
     millimetres: float
@@ -125,15 +125,15 @@ class Displacement:
 
 @dataclass(frozen=True, slots=True)
 class LinkDifference:
-    """Difference of one link.
+    """Differences of one link between A and B.
 
     Attributes:
-        child: The frame.
-        changes: The changes; `Change.same` alone if both agree within the tolerance.
-        before: The link in A; None where it is not there.
-        after: The link in B; None where it is not there.
-        displacement: Distance between the two; None if unknown.
-        note: Reason why the distance is unknown, if it is not obvious.
+        child: Child frame of the link.
+        changes: The changes; only `Change.same` if both agree within the tolerance.
+        before: The link in A; None if missing.
+        after: The link in B; None if missing.
+        displacement: Difference of the poses; None if unknown.
+        note: Reason why the difference is unknown, if not obvious.
     """
 
     child: str
@@ -145,7 +145,7 @@ class LinkDifference:
 
     @property
     def is_same(self) -> bool:
-        """Whether no difference exceeds the tolerance."""
+        """Whether no difference of the link exceeds the tolerance."""
         return self.changes == (Change.same,)
 
     @property
@@ -157,13 +157,13 @@ class LinkDifference:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Differences:
-    """All links of both sides.
+    """Result of a comparison: all links of A and B.
 
     Attributes:
         first: Name of A.
         second: Name of B.
         tolerance: Tolerance of the comparison.
-        links: Every link, by the order of A, then of B.
+        links: All links, in the order of A, then of B.
         start: First moment of A, from which times are counted, nanoseconds.
         shift: Nanoseconds added to stamps of A to find those of B.
         notes: Assumptions, as sentences.
@@ -183,7 +183,7 @@ class Differences:
         return tuple(one for one in self.links if not one.is_same)
 
     def __bool__(self) -> bool:
-        """Whether anything differs."""
+        """Whether any link differs by more than the tolerance."""
         return bool(self.changed)
 
 
@@ -196,18 +196,18 @@ def compare(
 ) -> Differences:
     """Compare two sets of frames, link by link.
 
-    Statics are compared directly. Links that move in both are compared at common stamps, or else at
-    those of A, between samples of B. Two clocks are never mixed: if one side counts from 1970 and
-    the other from the start of a simulation, both count from their own start.
+    Static links are compared directly. Links that move in both sets are compared at common stamps,
+    or else at the stamps of A, with B interpolated. Two clocks are never mixed: if one set counts
+    from 1970 and the other from the start of a simulation, each counts from its own start.
 
     Args:
-        first: A.
-        second: B.
-        tolerance: Tolerated difference.
-        align_starts: Whether both count from their own start in any case.
+        first: Set A.
+        second: Set B.
+        tolerance: Tolerated difference; None for the default.
+        align_starts: Whether times always count from each set's start.
 
     Raises:
-        InputError: If one of the two has no frames.
+        InputError: If a set has no frames.
     """
     tolerance = tolerance or Allowance()
     for side in (first, second):
@@ -223,7 +223,7 @@ def compare(
         shift = second.start - first.start
         notes.append("The two count on different clocks: each from its own start.")
     children = list(dict.fromkeys([*held[0], *held[1]]))
-    # A distance beyond the range of numbers is infinite, and no news.
+    # An overflowing distance becomes infinite, without a warning.
     with np.errstate(over="ignore", invalid="ignore"):
         links = [_compared(child, first, second, held, shift, tolerance) for child in children]
     if any(one.note == APART for one in links):
@@ -271,7 +271,7 @@ def _compared(
     else:
         offset, note = _moving_offset(child, first, second, held, shift, before.parent, tolerance)
     if offset is not None and (
-        # Asked this way round, NaN is a difference.
+        # Written with `not`, so that NaN is a difference.
         not offset.worst_millimetres <= tolerance.millimetres
         or not offset.worst_degrees <= tolerance.degrees
     ):
@@ -302,7 +302,7 @@ def _state(side: Side, held: SampleColumns) -> LinkState:
 def _static_offset(
     second: Buffer, child: str, before: LinkState, after: LinkState
 ) -> Displacement | None:
-    """Return the pose of B's child relative to A's child, both seen from A's parent."""
+    """Return the displacement of a static link's child from A to B, in A's parent frame."""
     old, new = before.pose, after.pose
     assert old is not None
     if before.parent != after.parent:
@@ -336,7 +336,11 @@ def _moving_offset(
     parent: str,
     tolerance: Allowance,
 ) -> tuple[Displacement | None, str]:
-    """Return the offset of a moving child between A and B, in A's parent frame, at common times."""
+    """Return the displacement of a moving link's child from A to B, in A's parent frame.
+
+    Returns:
+        The displacement, and if it is None the reason.
+    """
     stamps = _common(held[0][child], held[1][child], shift)
     if not len(stamps):
         return None, APART
@@ -351,7 +355,7 @@ def _moving_offset(
     old, new, stamps = old[both], new[both], stamps[both]
     millimetres = 1000.0 * np.linalg.norm(new.translations - old.translations, axis=1)
     degrees = np.degrees(batch.angles_between(old.rotations, new.rotations))
-    # In tolerances, so that one of the two kinds is not always the worst.
+    # In units of the tolerances, so that distance and angle are comparable.
     badness = np.maximum(
         millimetres / max(tolerance.millimetres, 1e-9), degrees / max(tolerance.degrees, 1e-9)
     )
@@ -370,7 +374,7 @@ def _moving_offset(
 
 
 def _common(old: SampleColumns, new: SampleColumns, shift: Duration) -> Stamps:
-    """Return A's stamps at which both sides have data."""
+    """Return A's stamps at which both A and B have data."""
     if old.is_static or new.is_static:
         return np.unique(new.stamps - shift if old.is_static else old.stamps)
     shared: Stamps = np.intersect1d(old.stamps, new.stamps - shift)

@@ -1,4 +1,4 @@
-"""A recording for lookups: its frames over its whole length, in one buffer."""
+"""A recording for lookups: all its frames over its whole length in one buffer."""
 
 import os
 from collections import Counter
@@ -67,10 +67,9 @@ class Samples:
         parents: Parent of each sample, shape (n,).
         translations: Metres, shape (n, 3).
         rotations: Quaternions x y z w as recorded, shape (n, 4).
-        authorities: Publisher of each: the node where it is recorded, else the topic,
-            shape (n,).
+        authorities: Publisher of each transform: the node if recorded, else the topic, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
-        static: Whether each holds at all times, shape (n,).
+        static: Whether each transform is static, shape (n,).
     """
 
     stamps: Stamps
@@ -86,9 +85,9 @@ class Samples:
 
 
 class Recording:
-    """An open recording, made by `open_recording`; a context manager.
+    """An open recording, returned by `open_recording`; a context manager.
 
-    Its contents are known at once; transforms are read at the first use.
+    The topics are known when it is opened; transforms are read at the first use.
     """
 
     def __init__(
@@ -100,15 +99,15 @@ class Recording:
         with_odometry: bool = False,
         tf_topics: Sequence[str] = (),
     ) -> None:
-        """Take a source.
+        """Wrap an opened container.
 
         Args:
             source: The opened container.
-            progress: Called with the progress of reading.
-            robot: Description of the robot, in place of the recorded one.
-            kept: Cache of its columns between questions.
-            with_odometry: Whether odometry and poses count as transforms.
-            tf_topics: Topics of transforms, in place of all.
+            progress: Function called with the progress of reading.
+            robot: Description of the robot; None to use the recorded one.
+            kept: Cache of the recording's columns; None for no cache.
+            with_odometry: Whether odometry and poses are used as transforms.
+            tf_topics: Topics of transforms to read; empty for all.
         """
         self.source = source
         self._tf_topics = tf_topics
@@ -131,8 +130,8 @@ class Recording:
 
     def __reduce__(self) -> str:
         raise UsageError(
-            f"Recording '{self.name}' holds open files, and cannot be copied or sent to another "
-            "process: open it there, with open_recording."
+            f"Recording '{self.name}' has open files, and cannot be copied or sent to another "
+            "process: call open_recording there."
         )
 
     def close(self) -> None:
@@ -146,7 +145,7 @@ class Recording:
         return self.source
 
     def _require_open(self) -> None:
-        # A closed file of SQLite's reads as one in which nothing is.
+        # A closed database would look like an empty one.
         if self._closed:
             raise UsageError(
                 f"Recording '{self.name}' is closed: read it while it is open, inside its "
@@ -157,22 +156,22 @@ class Recording:
 
     @property
     def name(self) -> str:
-        """Name as given by the user."""
+        """Name of the recording, as given by the user."""
         return self.source.name
 
     @property
     def topics(self) -> tuple[RecordedTopic, ...]:
-        """Return every topic: name, type, number of messages; by name."""
+        """Return all topics, sorted by name, with types and numbers of messages."""
         return self.source.topics
 
     @property
     def publishers(self) -> tuple[Publisher, ...]:
-        """Return the publishers of topics. Only ROS 1 bags hold names of nodes."""
+        """Return the publishers of all topics; only ROS 1 bags have the names of nodes."""
         return self.source.publishers
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return what could not be read, as sentences; further reading may find more."""
+        """Return sentences about parts that could not be read; further reading may find more."""
         return (*self.source.damage, *self._read_damage())
 
     def _read_damage(self) -> tuple[str, ...]:
@@ -180,7 +179,7 @@ class Recording:
 
     @cached_property
     def transforms(self) -> Transforms:
-        """All transforms, in columns per edge."""
+        """All transforms, as columns per edge (pair of parent and child)."""
         if self._tf_topics:
             chosen, names = transforms_on(self._readable, self._tf_topics, self._progress)
             if names.colliding:
@@ -189,7 +188,7 @@ class Recording:
         found = None if self._kept is None else self._kept.load()
         if found is None:
             found = self._readable.transforms(progress=self._progress)
-            # A damaged file is read again, and its damage reported again.
+            # A damaged file is not cached, so that its damage is reported each time.
             if self._kept is not None and not self.source.damage and not found.damage:
                 self._kept.store(found)
         return self._with_odometry_of(found)
@@ -200,19 +199,19 @@ class Recording:
 
     @cached_property
     def odometry(self) -> tuple[RecordedTopic, ...]:
-        """Topics without transforms whose messages are used as transforms."""
+        """Topics of odometry and poses that are used as transforms; empty unless requested."""
         return implying(self.topics) if self._with_odometry else ()
 
     @property
     def edges(self) -> tuple[Edge, ...]:
-        """Every pair of parent and child, with its transforms as columns."""
+        """All edges (pairs of parent and child), with their transforms as columns."""
         return self.transforms.edges
 
     @cached_property
     def span(self) -> tuple[Stamp, Stamp]:
         """First and last stamp of moving links, nanoseconds; log times if nothing moves.
 
-        In a recording with two clocks, those of the clock of most transforms.
+        If stamps are on two clocks (wall and simulation), the clock with more transforms is used.
         """
         spans: dict[bool, tuple[int, int, int]] = {}
         for edge in self.edges:
@@ -234,23 +233,24 @@ class Recording:
 
     @property
     def start(self) -> Stamp:
-        """First stamp of moving links, nanoseconds."""
+        """First stamp of moving links, nanoseconds; see `span`."""
         return self.span[0]
 
     @property
     def end(self) -> Stamp:
-        """Last stamp of moving links, nanoseconds."""
+        """Last stamp of moving links, nanoseconds; see `span`."""
         return self.span[1]
 
-    # Asking
+    # Lookups
 
     @cached_property
     def buffer(self) -> Buffer:
-        """Buffer of all transforms without a limit: lookups work at any stamp.
+        """Buffer with all transforms, without a time limit: lookups work at any recorded stamp.
 
-        A static's last value is valid at all times. Transforms that tf2 would refuse, and moving
-        ones with stamp 0, are left out; see `oddities`. Frames that tf lacks are computed from the
-        robot's description and joint states, if recorded; see `described`.
+        The last value of a static transform is valid at all times. Transforms that tf2 would
+        refuse, and moving transforms with stamp 0, are left out; see `oddities`. Frames that tf
+        lacks are computed from the robot's description and joint states, if recorded; see
+        `described`.
         """
         oddities = self._oddities
         buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)
@@ -263,7 +263,7 @@ class Recording:
             kinds = [kind[child] for kind in (moving, static) if child in kind]
             if len(kinds) > 1:
                 oddities[f"'{child}' is sent as static and as moving: what came last counts"] += 1
-                # In tf2 a frame is one or the other, and the last to come wipes the rest.
+                # In tf2 a frame is static or moving: the kind received last removes the other.
                 kinds.sort(key=lambda edges: max(map(_last, edges)))
             for edges in kinds:
                 if edges[0].static:
@@ -286,16 +286,16 @@ class Recording:
             self._oddities[text] += count
         return add_described(buffer, robot, joints, children, prefix)
 
-    # The robot in it
+    # The recorded robot
 
     @cached_property
     def robot(self) -> Robot | None:
-        """Robot from the given description, else from the recorded one.
+        """Robot from the given description, else from the recorded description; None without one.
 
-        Mistakes in a recorded one are among `oddities`.
+        Mistakes in a recorded description are added to `oddities`.
 
         Raises:
-            UnexpandedXacro: If the recorded one has elements of xacro.
+            UnexpandedXacro: If the recorded description has elements of xacro.
         """
         if self._robot is not None:
             return self._robot
@@ -305,7 +305,7 @@ class Recording:
             try:
                 return read_description(self._readable, topic)
             except UnexpandedXacro:
-                # Without its links the answer would be that of another robot.
+                # Frames would be missing without the description, so this error must be seen.
                 raise
             except TftoolError as error:
                 first = str(error).strip().partition("\n")[0]
@@ -314,25 +314,25 @@ class Recording:
 
     @cached_property
     def joint_states(self) -> RecordedJoints:
-        """Joint states of the robot, as columns."""
+        """Recorded joint states of the robot, as columns."""
         inside = description_topics(self.topics)
         namespace = inside[0].name.rpartition("/")[0] if inside and self._robot is None else ""
         return read_joint_states(self._readable, joint_state_topics(self.topics, namespace))
 
     @property
     def described(self) -> DescribedFrames | None:
-        """Return the frames that the robot's description adds to tf's; None without one."""
+        """Return the frames added from the robot's description; None without a description."""
         _ = self.buffer
         return self._described
 
     @property
     def oddities(self) -> dict[str, int]:
-        """Return what the buffer left out or chose, as sentences with counts."""
+        """Return sentences, with counts, about transforms that the buffer left out or chose."""
         _ = self.buffer
         return dict(self._oddities)
 
     def headers(self, topic: str) -> Headers:
-        """Return the headers of a topic's messages: stamps, log times and frame names as columns.
+        """Return stamps, log times and frame names of a topic's messages, as columns.
 
         Raises:
             InputError: If there is no such topic, or its messages have no header.
@@ -347,7 +347,7 @@ class Recording:
         """Return all recorded transforms of one child frame, unchanged.
 
         Raises:
-            InputError: If the frame is no child of an edge.
+            InputError: If the frame is not the child of a recorded transform.
         """
         transforms = self.transforms
         edges = [edge for edge in transforms.edges if edge.child == stripped(frame)]
@@ -373,7 +373,7 @@ class Recording:
 
         Raises:
             InputError: If there is no such topic.
-            UsageError: If the recording is closed, also when that is done between two messages.
+            UsageError: If the recording is closed, even between two messages.
         """
         self._topic(topic)
         return self._while_open(self._readable.messages([topic]))
@@ -385,14 +385,14 @@ class Recording:
             self._require_open()
 
     def messages(self, topic: str) -> Iterator[tuple[Stamp, Any]]:
-        """Yield a topic's messages, decoded by the definition in the recording.
+        """Yield log time and decoded message for each message of a topic.
 
         Returns:
-            For each the moment it was received, nanoseconds, and the message: a class with
-            the definition's fields.
+            For each message the time of reception, nanoseconds, and an object with the fields of
+            the recorded definition.
 
         Raises:
-            InputError: If there is no such topic, or its type or encoding is not known.
+            InputError: If there is no such topic, or its type or encoding is unknown.
             UsageError: As in `raw_messages`.
         """
         found = self._topic(topic)
@@ -400,7 +400,7 @@ class Recording:
         if layout is None:
             raise InputError(
                 f"The messages of '{topic}' are written as '{found.encoding}', which cannot "
-                "be decoded here: raw_messages gives their bytes."
+                "be decoded here: raw_messages returns their bytes."
             )
         interfaces = Interfaces()
         if found.definition.strip():
@@ -430,7 +430,7 @@ class Recording:
 
 
 def _by_clock(stamps: Stamps) -> list[Stamps]:
-    """Split stamps above 0 by clock, a simulation's and others; usually there is one."""
+    """Split stamps above 0 into those of wall clock and simulation; usually only one has any."""
     if len(stamps) and stamps.min() >= SIMULATED_BELOW:
         return [stamps]
     stamps = stamps[stamps > 0]
@@ -446,7 +446,7 @@ def _set_moving(
 ) -> None:
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     records, stamps = edge.records, edge.stamps
-    # Where the first one has no stamp 0 and each is newer, none has: they need not be looked at.
+    # If the first stamp is above 0 and stamps increase, no stamp is 0: skip the search.
     later = len(edge) and stamps[0] > 0
     if later and adopt_records(buffer, edge.parent, edge.child, records, authority, edge.kept):
         return
@@ -464,7 +464,7 @@ def _set_moving(
 def _set_static(
     buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
 ) -> None:
-    """Insert the last of a child's static transforms, whatever its parent."""
+    """Insert the last static transform of a child, whatever its parent, into a buffer."""
     edge = max(edges, key=_last)
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()
@@ -495,7 +495,7 @@ def _last(edge: Edge) -> int:
 
 
 def _silent(level: str, text: str) -> None:
-    """Log nothing: rejected samples are counted here."""
+    """Ignore log lines about rejected samples, which are counted instead."""
 
 
 def open_recording(
@@ -507,34 +507,34 @@ def open_recording(
     with_odometry: bool = False,
     tf_topics: Sequence[str] = (),
 ) -> Recording:
-    """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of several.
+    """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of such files.
 
     The content decides the format. Damaged files are read up to the damage, which is listed in
     `Recording.damage`.
 
     Args:
         path: File, folder or glob.
-        progress: Called with the bytes read and their total while reading.
-        robot: Description of the recorded robot, if the recording has none, or
-            another one; see `load_urdf`.
-        cache: Cache of large recordings' columns; none if None.
-        with_odometry: Whether messages of type Odometry, PoseStamped and
-            PoseWithCovarianceStamped count as transforms, of frames that no transform was sent
-            of. A pose names no frame: its topic does.
-        tf_topics: Topics of transforms to read in place of all, such as "/r1/tf", "/r2/tf"; the
-            static one beside each goes with it. Frame names that several of these robots use
+        progress: Function called with the bytes read and their total while reading.
+        robot: Description of the recorded robot, instead of the recorded description; see
+            `load_urdf`.
+        cache: Cache of large recordings' columns; None for no cache.
+        with_odometry: Whether Odometry, PoseStamped and PoseWithCovarianceStamped messages are
+            used as transforms, for frames without other transforms. The topic of a pose is used
+            as its frame's name.
+        tf_topics: Topics of transforms to read, such as "/r1/tf", "/r2/tf", each with the static
+            topic of its namespace; empty for all. Frame names that several of these robots use
             get the namespace as prefix.
 
     Raises:
         InputError: If nothing can be read.
-        UsageError: If the package for its compression is not installed.
+        UsageError: If the package for the compression is not installed.
     """
     name = os.fspath(path)
     before: list[tuple[int, int]] | None = None
     try:
         found = find(name)
         before = _facts(found)
-        # The options of a pose file change its columns.
+        # A pose file is not cached, because its columns depend on the options.
         is_kept = cache is not None and found.kind is not Kind.POSES
         kept = KeptColumns(cache, found) if is_kept and cache is not None else None
         source = Recorded(name, open_found(found))
@@ -542,7 +542,7 @@ def open_recording(
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error
     except (InputError, ValueError, ArithmeticError, LookupError) as error:
-        # Sizes that were checked need not hold for bytes that were written since.
+        # The file may have changed after its sizes were checked.
         if before is None or before == _facts(found):
             raise
         raise InputError(
@@ -551,7 +551,7 @@ def open_recording(
 
 
 def _facts(found: Found) -> list[tuple[int, int]]:
-    """Return size and modification time of every file read; -1 for a missing one."""
+    """Return size and modification time of every file of a recording; -1 for a missing file."""
     facts = []
     for path in found.paths:
         for file in sorted(path.iterdir()) if path.is_dir() else [path]:

@@ -1,4 +1,4 @@
-"""Statistics of a recording: edges with rates and clock offsets, trees, oddities."""
+"""Statistics of a recording: edges with rates and clock offsets, trees, unusual facts."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from tftool.recordings.recording import Recording
 
 @dataclass(frozen=True, slots=True)
 class Offset:
-    """Delays from stamp to reception, nanoseconds."""
+    """Smallest, median and largest delay from stamp to reception, nanoseconds."""
 
     least: Duration
     median: Duration
@@ -24,14 +24,14 @@ class EdgeFacts:
     """Statistics of one edge.
 
     Attributes:
-        parent: Name.
-        child: Name.
+        parent: Name of the parent.
+        child: Name of the child.
         static: Whether the edge is static.
         count: Number of transforms.
-        rate: Hertz, by the median of its periods; None of a static or a single one.
-        first: First stamp.
-        last: Last stamp.
-        offset: Log time against stamp; None of a static.
+        rate: Rate in hertz, from the median period; None if static, or for one transform.
+        first: First stamp, nanoseconds.
+        last: Last stamp, nanoseconds.
+        offset: Delays from stamp to log time; None if static.
         simulated: Whether stamps count from a simulation's start.
         publishers: Senders: nodes if recorded, else topics.
     """
@@ -50,7 +50,7 @@ class EdgeFacts:
 
 @dataclass(frozen=True, slots=True)
 class TreeFacts:
-    """One tree: its root, and its number of frames, by each frame's last parent."""
+    """Root and number of frames of one tree, by each frame's last parent."""
 
     root: str
     frames: int
@@ -64,7 +64,7 @@ def edge_facts(transforms: Transforms) -> list[EdgeFacts]:
 def _facts(transforms: Transforms, edge: Edge) -> EdgeFacts:
     stamps = edge.stamps
     senders = transforms.senders_of(edge)
-    # Most edges come from one publisher, and in order: to find others takes several times as long.
+    # Usually an edge has one publisher; searching for others takes several times as long.
     numbers = [senders[0]] if senders.min() == senders.max() else np.unique(senders).tolist()
     publishers = tuple(sorted({transforms.publishers[one].authority for one in numbers}))
     first, last = int(stamps.min()), int(stamps.max())
@@ -93,7 +93,7 @@ def _facts(transforms: Transforms, edge: Edge) -> EdgeFacts:
 
 
 def trees(transforms: Transforms) -> list[TreeFacts]:
-    """Return every tree, the largest first."""
+    """Return the facts of every tree, the largest tree first."""
     parents: dict[str, tuple[int, str]] = {}
     names: dict[str, None] = {}
     for edge in transforms.edges:
@@ -108,7 +108,7 @@ def trees(transforms: Transforms) -> list[TreeFacts]:
     for name in names:
         passed: dict[str, None] = {}
         here = name
-        # Up to a root, to a known frame, or round a loop.
+        # Go up to a root, to a known frame, or around a loop.
         while here not in roots and here in parents and here not in passed:
             passed[here] = None
             here = parents[here][1]
@@ -124,12 +124,12 @@ def trees(transforms: Transforms) -> list[TreeFacts]:
 def oddities(
     recording: Recording, edges: Sequence[EdgeFacts], forest: Sequence[TreeFacts]
 ) -> list[str]:
-    """Return oddities of a recording's transforms as sentences, without damage.
+    """Return sentences about unusual facts of a recording's transforms, except damage.
 
     Args:
         recording: The recording.
-        edges: Edges in numbers.
-        forest: Trees.
+        edges: Statistics of the edges.
+        forest: Facts of the trees.
     """
     found = [
         f"{text}." if count == 1 else f"{text} ({count} times)."

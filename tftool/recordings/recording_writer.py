@@ -1,4 +1,4 @@
-"""Writing a recording: transforms and messages into a file that `open_recording` reads."""
+"""Writer of a recording: transforms and messages in a file that `open_recording` reads."""
 
 import os
 from collections.abc import Iterable
@@ -23,18 +23,18 @@ from tftool.recordings.target import Target, failed
 
 
 class RecordingWriter:
-    """A recording being written, made by `write_recording`; a context manager.
+    """A recording being written, returned by `write_recording`; a context manager.
 
-    At the end of the `with` the complete file gets its name; an exception that leaves the `with`
-    removes the written data, and keeps an old file of that name.
+    At the end of the `with` block the complete file gets its final name. If an exception leaves the
+    block, the written data is removed, and an old file with that name stays.
     """
 
     def __init__(self, target: Target, container: ContainerWriter) -> None:
-        """Take the target to write to.
+        """Wrap the writer of a container.
 
         Args:
-            target: Path of the finished recording.
-            container: The container to write to.
+            target: File or folder to write.
+            container: Writer of the container.
         """
         self._target = target
         self.container = container
@@ -61,12 +61,12 @@ class RecordingWriter:
         log_time: Stamp | None = None,
         topic: str = "/tf",
     ) -> None:
-        """Append one message of transforms.
+        """Append one TFMessage with some transforms.
 
         Args:
             samples: Transforms of the message.
-            log_time: Time of reception, nanoseconds; the newest stamp if not given.
-            topic: Topic.
+            log_time: Time of reception, nanoseconds; None for the newest stamp.
+            topic: Name of the topic.
         """
         self._write_transforms(samples, log_time, topic, static=False)
 
@@ -76,7 +76,7 @@ class RecordingWriter:
         log_time: Stamp | None = None,
         topic: str = "/tf_static",
     ) -> None:
-        """Append one message of static transforms; see `transforms`."""
+        """Append one TFMessage with static transforms; see `transforms`."""
         self._write_transforms(samples, log_time, topic, static=True)
 
     def _write_transforms(
@@ -89,10 +89,10 @@ class RecordingWriter:
         self.raw(channel, log_time, encode_transforms(chosen))
 
     def message(self, topic: str, message: Message, log_time: Stamp) -> None:
-        """Append one message of a class with a known definition.
+        """Append one message object, whose type must be included in tftool.
 
         Raises:
-            InputError: If the definition is not ours, or a value does not fit its field.
+            InputError: If the type is unknown, or a value does not fit its field.
         """
         kind = type(message)
         self.raw(ros2_channel(topic, kind.interface__), log_time, codec(kind).encode(message))
@@ -105,12 +105,12 @@ class RecordingWriter:
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message as bytes.
+        """Append one message, given as bytes.
 
         Args:
-            channel: Stream of the message.
+            channel: Channel of the message.
             log_time: Time of reception, nanoseconds.
-            payload: Bytes, in the channel's encoding.
+            payload: Bytes of the message, in the channel's encoding.
             publish_time: Time of publication, nanoseconds; `log_time` if not recorded.
             sequence: Publisher's sequence number.
         """
@@ -129,10 +129,10 @@ class RecordingWriter:
         return INTERFACES.message(kind)()
 
     def close(self) -> None:
-        """Write the rest, and give the recording its name.
+        """Complete the recording, and give it its final name.
 
         Raises:
-            InputError: If that fails; the written data is gone then.
+            InputError: If this fails; the written data is removed.
         """
         try:
             self.container.finish()
@@ -145,7 +145,7 @@ class RecordingWriter:
         self._target.commit()
 
     def discard(self) -> None:
-        """Remove the written data; an existing file of that name stays."""
+        """Remove the written data; an existing file with that name stays."""
         self.container.abandon()
         self._target.discard()
 
@@ -158,7 +158,7 @@ def write_recording(
     profile: str = "ros2",
     force: bool = False,
 ) -> RecordingWriter:
-    """Create a recording: MCAP, rosbag2 or a ROS 1 bag, by its name.
+    """Create a recording: MCAP, rosbag2 or a ROS 1 bag, depending on the path's suffix.
 
         with tftool.write_recording("run.mcap") as recording:
             recording.static_transforms([laser_in_base])
@@ -167,8 +167,7 @@ def write_recording(
     It is written under a temporary name and renamed when it is complete.
 
     Args:
-        path: A name that ends in ".mcap", ".db3" or ".bag"; without a suffix it is a folder as
-            rosbag2 records it.
+        path: Path that ends in ".mcap", ".db3" or ".bag"; without a suffix, a rosbag2 folder.
         compression: "zstd", "lz4" or "none" in MCAP (zstd if None, or none where its package is
             missing), "bz2", "lz4" or "none" in ROS 1 bags (none if None).
         storage: Storage of a folder: "mcap" or "sqlite3".
@@ -176,8 +175,8 @@ def write_recording(
         force: Whether an existing file may be replaced.
 
     Raises:
-        UsageError: If the file exists and `force` is not given, the suffix is another,
-            or the compression is not known or not installed.
+        UsageError: If the file exists and `force` is not given, the suffix is unknown,
+            or the compression is unknown or not installed.
         InputError: If the file cannot be written.
     """
     place = Path(path)

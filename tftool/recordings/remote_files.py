@@ -1,4 +1,4 @@
-"""Remote recordings: opened by `fsspec`, and kept as a local copy while they are read."""
+"""Remote recordings, which `fsspec` copies to a temporary folder for reading."""
 
 import os
 import re
@@ -19,13 +19,13 @@ def is_url(word: str) -> bool:
 
 @contextmanager
 def fetched(place: str) -> Iterator[str]:
-    """Return a local path to a recording; a URL is copied to a temporary folder.
+    """Yield a local path to a recording; a URL is copied to a temporary folder.
 
     Args:
-        place: A path, which is given back, or a URL.
+        place: A local path, which is returned unchanged, or a URL.
 
     Raises:
-        InputError: If there is nothing there, or it cannot be fetched.
+        InputError: If there is no such file, or it cannot be fetched.
         UsageError: If fsspec is not installed.
     """
     if not is_url(place):
@@ -33,7 +33,7 @@ def fetched(place: str) -> Iterator[str]:
         return
     with tempfile.TemporaryDirectory(prefix="tftool-") as folder:
         system, path = _opened(place)
-        # The name stays, since it tells the parts of a recording.
+        # Keep the name, because it shows the order of a recording's parts.
         name = path.rstrip("/").rpartition("/")[2] or "recording"
         own = os.path.join(folder, re.sub(r"[^\w.-]", "_", name))
         with _failures_told(place):
@@ -45,7 +45,7 @@ def fetched(place: str) -> Iterator[str]:
 
 
 def listed(place: str) -> list[str]:
-    """Expand a URL with `*`, `?` or `[…]` in its name; return others unchanged.
+    """Return the files that a URL with `*`, `?` or `[…]` names; other words stay unchanged.
 
     Raises:
         InputError: If the word names nothing, or a folder cannot be listed.
@@ -53,7 +53,7 @@ def listed(place: str) -> list[str]:
     """
     system, path = _opened(place)
     web = place.lower().startswith(("http:", "https:"))
-    # There a question mark begins a query.
+    # In a web address, "?" begins a query.
     if not re.search(r"[*\[]" if web else r"[*?\[]", path):
         return [place]
     with _failures_told(place):
@@ -77,13 +77,13 @@ def _opened(place: str) -> tuple[Any, str]:
 
 @contextmanager
 def _failures_told(place: str) -> Iterator[None]:
-    """Convert a service's own errors to ours, with the URL."""
+    """Convert a remote service's errors to tftool's, with the URL, in a `with` block."""
     try:
         yield
     except FileNotFoundError as error:
         raise InputError(f"There is nothing at '{place}'.") from error
     except ImportError as error:
-        # fsspec names the packages that a kind of place needs.
+        # fsspec's error names the missing packages.
         raise UsageError(f"'{place}' needs more than the extra 'fleet': {error}") from error
     except Exception as error:
         said = " ".join(str(error).split()) or type(error).__name__

@@ -1,4 +1,4 @@
-"""A recording that grows while a session runs; if the process is killed, at most a second is lost.
+"""Recording that is written while messages arrive; a killed process loses at most a second.
 
 An open file has the suffix `.active`, as with ROS 1's recorder; its contents can be read, and
 `tftool edit` repairs it.
@@ -22,17 +22,17 @@ from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, wr
 from tftool.recordings.target import failed, refuse_existing, synced
 
 CHUNK_SIZE: Final = 256 * 1024
-"""Bytes of messages in a chunk: a kill loses one that is not full."""
+"""Size of a chunk's uncompressed messages, bytes; a killed process loses an unfinished chunk."""
 
 CHUNK_TIME: Final = seconds(1)
-"""Longest time that messages wait in a chunk."""
+"""Maximum time that messages wait in a chunk before it is written."""
 
 MOST_HELD: Final = 1 << 30
-"""Bytes of messages that a ring holds in memory; beyond, the oldest go."""
+"""Maximum size of messages in the ring buffer, bytes; beyond, the oldest are dropped."""
 
 
 class Kept(NamedTuple):
-    """One message in a ring buffer."""
+    """One message in the ring buffer."""
 
     channel: Channel
     log_time: Stamp
@@ -42,12 +42,13 @@ class Kept(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class RecordLimits:
-    """Limits for starting a new file or dropping the oldest part.
+    """Limits at which a new file begins, or old messages are dropped.
 
     Attributes:
-        size: Bytes of a file before the next one begins; 0 for one file.
-        duration: Nanoseconds of it, likewise.
-        ring: Duration held in memory and written at the end; 0 to write at once.
+        size: Size of a file, bytes, at which the next file begins; 0 for no limit.
+        duration: Duration of a file, nanoseconds, at which the next file begins; 0 for no limit.
+        ring: Duration, nanoseconds, of the ring buffer in memory, which is written only at the
+            end; 0 to write at once.
     """
 
     size: int = 0
@@ -56,19 +57,19 @@ class RecordLimits:
 
     @property
     def splits(self) -> bool:
-        """Whether there may be several files."""
+        """Whether there may be several files, because their size or duration is limited."""
         return bool(self.size or self.duration)
 
 
 class RollingRecording:
-    """An MCAP file, or a folder of them, for messages as they arrive.
+    """Writer of an MCAP file, or of a folder of MCAP files, for messages as they arrive.
 
     Attributes:
-        path: Name in the end.
-        messages: Number of messages came; of a ring that is closed, how many it wrote.
-        transforms: Number of transforms were in them.
-        size: Bytes written, or held.
-        files: Names of the files that are closed, in order.
+        path: Final name of the file or folder.
+        messages: Number of received messages; after a ring buffer is closed, of written ones.
+        transforms: Number of transforms in these messages.
+        size: Number of bytes written, or held in the ring buffer.
+        files: Names of the completed files, in order.
     """
 
     def __init__(
@@ -82,14 +83,13 @@ class RollingRecording:
         """Start the recording; with a ring buffer nothing is written before `close`.
 
         Args:
-            path: A name that ends in ".mcap", or one without a suffix for a folder.
-            limits: Limits at which a new file begins.
+            path: Path that ends in ".mcap", or without a suffix for a folder.
+            limits: Limits at which a new file begins; None for no limits.
             compression: "zstd", "lz4" or "none".
             force: Whether existing files may be replaced.
 
         Raises:
-            UsageError: If there is something of that name and `force` is not given, or the name
-                cannot hold the messages.
+            UsageError: If the path exists and `force` is not given, or the suffix is wrong.
             InputError: If the file cannot be written.
         """
         self.path = path
@@ -100,9 +100,9 @@ class RollingRecording:
             raise UsageError(f"'{path.name}' has a suffix that cannot be recorded: use '.mcap'.")
         if self._limits.splits and not self._is_folder:
             raise UsageError(
-                "--max-size and --max-duration write several files, into a folder: name one, "
-                f"without '{path.suffix}' (-o {path.with_suffix('')}). To stop after so long: "
-                "--for SECONDS."
+                "--max-size and --max-duration write several files into a folder: name a folder, "
+                f"without '{path.suffix}' (-o {path.with_suffix('')}). To stop after some time, "
+                "use --for SECONDS."
             )
         self.messages = self.transforms = 0
         self.files: list[str] = []
@@ -120,7 +120,7 @@ class RollingRecording:
         self._closed = False
         self._make_way(force)
         if not self._limits.ring:
-            # What cannot be written is to be known now, not after an hour.
+            # Create the file now, so that an error does not appear only after an hour.
             self._open()
 
     def _make_way(self, force: bool) -> None:
@@ -132,7 +132,7 @@ class RollingRecording:
                 "FILE.mcap' repairs it. --force replaces it."
             )
         if self._is_folder and os.path.lexists(self.path):
-            # Its files would have to go before there are new ones.
+            # Replacing a folder would remove its files before there are new ones.
             raise UsageError(
                 f"'{self.path}' exists, and a folder is not replaced: choose another name."
             )
@@ -141,9 +141,9 @@ class RollingRecording:
             if self._is_folder:
                 self.path.mkdir()
             elif self.path.is_dir():
-                raise UsageError(f"'{self.path}' is a folder: not replaced.")
+                raise UsageError(f"'{self.path}' is a folder, which is not replaced.")
             elif not os.access(self.path.parent, os.W_OK):
-                # A ring is written in the end: that it can be must be known before.
+                # The ring buffer is written at the end: check now that this is possible.
                 active.open("xb").close()
                 active.unlink()
         except OSError as error:
@@ -151,7 +151,7 @@ class RollingRecording:
 
     @property
     def size(self) -> int:
-        """Bytes written so far, or held in the ring buffer."""
+        """Number of bytes written so far, or held in the ring buffer."""
         return self._written + self._held_bytes + (self._writer.size if self._writer else 0)
 
     def _place(self, number: int) -> Path:
@@ -162,13 +162,13 @@ class RollingRecording:
     # Messages
 
     def take(self, channel: Channel, log_time: Stamp, payload: bytes, transforms: int = 0) -> None:
-        """Add one message.
+        """Append one message.
 
         Args:
-            channel: Stream of the message.
+            channel: Channel of the message.
             log_time: Time of reception, nanoseconds.
-            payload: Bytes.
-            transforms: Number of transforms are in it.
+            payload: Bytes of the message.
+            transforms: Number of transforms in the message.
 
         Raises:
             InputError: If the file cannot be written; earlier data stays readable.
@@ -188,7 +188,7 @@ class RollingRecording:
             self._keep_static(channel, payload)
 
     def _forget(self, now: Stamp) -> None:
-        """Drop messages older than the length of the ring buffer."""
+        """Drop messages that are older than the ring buffer's duration, or exceed its size."""
         held, oldest = self._held, now - self._limits.ring
         while held and (held[0].log_time < oldest or self._held_bytes > MOST_HELD):
             self._held_bytes -= len(held.popleft().payload)
@@ -201,7 +201,7 @@ class RollingRecording:
         kept = self._statics.setdefault(channel, {})
         for row in rows:
             kept[row.parent, row.child] = row
-            # A child has one static: the last one, from whichever publisher.
+            # A child has one static transform: the last one of all publishers.
             for other, others in self._statics.items():
                 for link in [one for one in others if one[1] == row.child]:
                     if other != channel or link[0] != row.parent:
@@ -214,7 +214,7 @@ class RollingRecording:
                 writer = self._next(log_time)
             if self._file_start is None:
                 self._file_start = self._flushed = log_time
-            # By identity: to hash a channel's texts for every message takes as long as writing it.
+            # By identity, because hashing a channel's texts takes as long as writing a message.
             known = self._numbers.get(id(channel))
             number = self._number(writer, channel) if known is None else known[0]
             writer.write(number, log_time, payload)
@@ -225,7 +225,7 @@ class RollingRecording:
             raise self._rescued(error) from error
 
     def _number(self, writer: McapWriter, channel: Channel) -> int:
-        """Return a stream's number in the open file."""
+        """Return a channel's number in the open file, registering the channel if it is new."""
         number = writer.channel(channel)
         self._numbers[id(channel)] = number, channel
         return number
@@ -239,7 +239,7 @@ class RollingRecording:
         return bool(too_large or too_long)
 
     def _next(self, now: Stamp) -> McapWriter:
-        """Start the next file, with all static transforms first."""
+        """Start the next file, and write all static transforms at its beginning."""
         if self._writer is not None:
             self._close_file()
         writer = self._open()
@@ -270,7 +270,7 @@ class RollingRecording:
         return self._writer
 
     def tick(self, now: Stamp) -> None:
-        """Write messages that have waited for a second; call a few times a second.
+        """Write messages that have waited for a second; to be called several times per second.
 
         Raises:
             InputError: If the file cannot be written; earlier data stays readable.
@@ -284,7 +284,7 @@ class RollingRecording:
         self._flushed = now
 
     def held(self) -> list[Kept]:
-        """Yield the ring buffer's messages, oldest first, after the static transforms."""
+        """Return the static transforms, then the ring buffer's messages, oldest first."""
         statics = [
             Kept(
                 channel,
@@ -298,25 +298,25 @@ class RollingRecording:
         ]
         return [*statics, *self._held]
 
-    # The end
+    # End of the recording
 
     def close(self) -> None:
-        """Write the rest, and give every file its name.
+        """Complete the last file, and give it its final name.
 
         Raises:
-            InputError: If that fails; data written before stays readable.
+            InputError: If this fails; data written before stays readable.
         """
         if self._closed:
             return
         try:
             if self._limits.ring:
-                # From now on these describe the file, and not the passing messages.
+                # From now on the counts describe the file, not the received messages.
                 held = self.held()
                 self.messages = len(held)
                 self.transforms = sum(kept.transforms for kept in held)
                 if held:
                     self._next(held[0].log_time)
-                # Statics that were sent within the ring stand in it once more.
+                # Static transforms received within the ring's duration are written once more here.
                 for kept in self._held:
                     self._write(kept.channel, kept.log_time, kept.payload)
                 self._held.clear()
@@ -332,7 +332,7 @@ class RollingRecording:
             raise self._rescued(error) from error
 
     def discard(self) -> None:
-        """Close the recording, and remove all its files."""
+        """Close the recording, and remove all files it wrote."""
         self._closed = True
         if self._writer is not None:
             self._writer.abandon()
@@ -351,7 +351,7 @@ class RollingRecording:
         self._named(writer)
 
     def _named(self, writer: McapWriter) -> None:
-        """Give a closed file its name."""
+        """Give the file of a closed writer its final name."""
         place = self._place(len(self.files))
         active = place.with_name(place.name + ACTIVE)
         synced(active)
@@ -366,7 +366,7 @@ class RollingRecording:
         self._facts.append(FileFacts(place.name, start, end, sum(writer.counts.values())))
 
     def _rescued(self, error: OSError) -> InputError:
-        """Keep the part written so far, and say why it is incomplete."""
+        """Complete the file with the data written so far; return the error for the failure."""
         self._closed = True
         writer, self._writer = self._writer, None
         where = self.path

@@ -1,4 +1,4 @@
-"""Type definitions as recordings store them, including nested types."""
+"""Definitions of message types as recordings store them, including nested types."""
 
 import hashlib
 import re
@@ -19,7 +19,7 @@ _HEADER: Final = "std_msgs/msg/Header"
 
 
 def ros2_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
-    """Return ROS 2's recorded definition ("ros2msg"): the type, then nested types by name.
+    """Return a type's definition as ROS 2 records it ("ros2msg"), followed by nested types.
 
     Raises:
         InputError: If the type is not known.
@@ -34,7 +34,7 @@ def ros2_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
 
 def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
-    """Whether a type's messages have the same bytes by either definition.
+    """Whether messages of a type have the same bytes in two sets of definitions.
 
     Raises:
         InputError: If a definition lacks the type.
@@ -54,10 +54,10 @@ def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
 
 
 def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
-    """Return ROS 1's recorded definition, made from the known fields.
+    """Return a type's definition as ROS 1 records it, followed by nested types.
 
     Raises:
-        InputError: If the type is not known, or ROS 1 has nothing like it.
+        InputError: If the type is unknown, or has no equivalent in ROS 1.
     """
     full = full_name(name)
     texts = [_ros1_text(interfaces, full)]
@@ -70,7 +70,7 @@ def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
 
 def ros1_md5(name: str, interfaces: Interfaces = INTERFACES) -> str:
-    """Return ROS 1's MD5 sum of a type's version.
+    """Return ROS 1's MD5 sum of a type's definition.
 
     Source: wiki.ros.org/ROS/Technical%20Overview, and `roslib.gentools.compute_md5_text`.
     """
@@ -92,7 +92,7 @@ def ros1_md5(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
 @cache
 def known_hash(name: str) -> str:
-    """Return the hash of a type with a known definition; else ""."""
+    """Return ROS 2's hash of a type included in tftool; "" for other types."""
     try:
         return type_hash(INTERFACES, full_name(name))
     except InputError:
@@ -100,7 +100,7 @@ def known_hash(name: str) -> str:
 
 
 def short(full: str) -> str:
-    """Return a type's name in ROS 1's form."""
+    """Return a type's name in ROS 1's form: "std_msgs/String"."""
     return full.replace("/msg/", "/")
 
 
@@ -108,7 +108,7 @@ def _ros2_text(interfaces: Interfaces, full: str) -> str:
     package, kind, own = full.split("/")
     if interfaces is INTERFACES:
         return interfaces.text(package, kind, own)
-    # What a recording of ROS 1 brought along says Header and time in its own way.
+    # A definition recorded by ROS 1 writes Header and time in ROS 1's form.
     structure = interfaces.structure(full)
     lines = [f"{kind} {own}={value}" for own, kind, value in structure.constants]
     for field in structure.fields:
@@ -120,7 +120,7 @@ def _ros2_text(interfaces: Interfaces, full: str) -> str:
 
 
 def _parts(interfaces: Interfaces, full: str) -> list[str]:
-    """Return a type's nested types, each once, in order of appearance."""
+    """Return the names of a type's nested types, each once, in order of appearance."""
     found: dict[str, None] = {}
     waiting = [full]
     while waiting:

@@ -1,4 +1,4 @@
-"""Target of a recording: written beside its final place, and renamed when complete.
+"""File or folder that is written under a temporary name, and renamed when complete.
 
 A file or folder gets its final name by one rename, when all of it is on the disk. Until then the
 name is unchanged: free, or that of the old recording.
@@ -17,11 +17,11 @@ from tftool.base.errors import InputError, UsageError
 from tftool.recordings.containers import SUFFIXES
 
 PART: Final = ".part"
-"""Suffix of a name while it is written."""
+"""Suffix of a file's name while it is written."""
 
 
 def refuse_stdout(path: Path) -> None:
-    """Refuse `-` as a file name: stdout is not supported.
+    """Raise an error if the path is `-`, because writing to stdout is not supported.
 
     Raises:
         UsageError: If the file name is `-`.
@@ -31,10 +31,10 @@ def refuse_stdout(path: Path) -> None:
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
-    """Refuse to overwrite anything, including a broken symbolic link.
+    """Raise an error if the path exists (even as a broken link), unless `force` is given.
 
     Raises:
-        UsageError: If something has that name and `force` is not given, or it is `-`.
+        UsageError: If the path exists and `force` is not given, or is `-`.
     """
     refuse_stdout(path)
     if not force and os.path.lexists(path):
@@ -42,37 +42,37 @@ def refuse_existing(path: Path, *, force: bool) -> None:
 
 
 class Target:
-    """A file or folder written completely or not at all; a context manager.
+    """A file or folder that is written completely or not at all; a context manager.
 
     Attributes:
-        path: Name in the end.
-        part: Path of the unfinished file.
+        path: Final path of the file or folder.
+        part: Path of the incomplete file or folder.
     """
 
     def __init__(self, path: Path, *, folder: bool = False, force: bool = False) -> None:
         """Create the temporary file or folder, after checking existing ones.
 
         Args:
-            path: Name in the end.
+            path: Final path of the file or folder.
             folder: Whether to write a folder.
             force: Whether existing files may be replaced.
 
         Raises:
-            UsageError: If something has that name and `force` is not given.
+            UsageError: If the path exists and `force` is not given.
             InputError: If the file cannot be written.
         """
         self.path = path
         self.part = path.with_name(path.name + PART)
         self._folder = folder
         if not path.name:
-            raise UsageError(f"'{path}' is no name of a file to write.")
+            raise UsageError(f"'{path}' is not a name of a file.")
         refuse_existing(path, force=force)
         if os.path.lexists(path):
             if path.exists() and not path.is_file() and not path.is_dir():
                 raise UsageError(f"'{path}' is a device or a pipe: name a file.")
             if path.is_dir() and not _is_recording_folder(path):
                 raise UsageError(
-                    f"'{path}' is a folder that holds more than a recording: not replaced."
+                    f"'{path}' is a folder with more than a recording, and is not replaced."
                 )
         try:
             self._clear()
@@ -93,10 +93,10 @@ class Target:
             self.discard()
 
     def commit(self) -> None:
-        """Give the file its final name, once everything is on the disk.
+        """Write everything to the disk, then give the file its final name.
 
         Raises:
-            InputError: If that fails; the part is gone then.
+            InputError: If this fails; the incomplete file is removed.
         """
         try:
             files = [one for one in self.part.iterdir() if one.is_file()] if self._folder else []
@@ -115,7 +115,7 @@ class Target:
         if not self._folder and not self.path.is_dir():
             self.part.replace(self.path)
             return
-        # A folder cannot be replaced in one step: the old one is kept until the new has its name.
+        # A folder cannot be replaced in one step: move the old folder aside first.
         old = Path(tempfile.mkdtemp(prefix=f".{self.path.name}.", dir=self.path.parent))
         self.path.rename(old / self.path.name)
         try:
@@ -127,7 +127,7 @@ class Target:
         remove(old)
 
     def discard(self) -> None:
-        """Remove the temporary file; an existing file of that name stays."""
+        """Remove the temporary file; an existing file with the final name stays."""
         with suppress(OSError):
             self._clear()
 
@@ -138,12 +138,12 @@ class Target:
 def commit_together(targets: Sequence[Target]) -> None:
     """Give related files their final names together, or none of them.
 
-    The others are found by the last file. It is renamed last, and its predecessor is removed first:
-    whenever a process ends, it is never beside files of another version. Until all is done, the
-    predecessor has a hidden name.
+    Readers find the other files through the last file. So it is renamed last, and its old version
+    gets a hidden name first: even if the process is killed, it is never beside files of another
+    version.
 
     Raises:
-        InputError: If that fails; all names are as before.
+        InputError: If this fails; all names are as before.
     """
     held: list[tuple[Path, Path]] = []
     done: list[Path] = []
@@ -197,7 +197,7 @@ def synced(path: Path) -> None:
 
 
 def failed(path: Path, error: OSError) -> InputError:
-    """Return the error for a file that cannot be written, as a sentence."""
+    """Return the error for a file that cannot be written, with the reason in a sentence."""
     if error.errno == errno.ENOSPC:
         return InputError(f"'{path}' cannot be written: the disk is full.")
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
@@ -208,7 +208,7 @@ def failed(path: Path, error: OSError) -> InputError:
 
 
 def check_room(path: Path, size: int) -> None:
-    """Refuse data for which the disk has no space.
+    """Raise an error if the disk has not enough free space for a file.
 
     Raises:
         InputError: If fewer than `size` bytes are free.
@@ -219,7 +219,7 @@ def check_room(path: Path, size: int) -> None:
         raise failed(path, error) from error
     if free < size:
         raise InputError(
-            f"'{path}' needs up to {_megabytes(size)}, and {_megabytes(free)} are free on its disk."
+            f"'{path}' needs up to {_megabytes(size)}, but {_megabytes(free)} are free on its disk."
         )
 
 
@@ -228,7 +228,7 @@ def _megabytes(size: int) -> str:
 
 
 def _is_recording_folder(path: Path) -> bool:
-    """Whether a folder contains only a recording."""
+    """Whether a folder contains only the files of a recording."""
     return all(
         one.is_file() and (one.name == "metadata.yaml" or one.suffix in SUFFIXES)
         for one in path.iterdir()

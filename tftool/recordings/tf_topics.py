@@ -1,6 +1,6 @@
-"""Transforms of chosen topics: several robots' frames kept apart; odometry and poses on request.
+"""Transforms on chosen topics, for several robots; transforms from odometry and poses.
 
-Robots in namespaces publish the same frame names on topics of their own: /r1/tf, /r2/tf.
+Robots in namespaces publish the same frame names on separate topics: /r1/tf, /r2/tf.
 """
 
 from collections import Counter
@@ -26,19 +26,19 @@ class RobotNames:
 
     Attributes:
         robots: Namespaces without slashes around them; empty for topics without one.
-        colliding: Frame names that several of them use for frames of their own.
+        colliding: Frame names that several robots use for different frames.
     """
 
     robots: tuple[str, ...]
     colliding: frozenset[str]
 
     def named(self, topic: str, frame: str) -> str:
-        """Return the unique name for a frame in a topic's messages."""
+        """Return the unique name of a frame in a message on a topic."""
         robot = next((one for one in self.robots if one and topic.startswith(f"/{one}/")), "")
         return f"{robot}/{frame}" if robot and frame in self.colliding else frame
 
     def __str__(self) -> str:
-        """Return a sentence about the frames that got a prefix; empty if none did."""
+        """Return a sentence about frames that got a prefix; empty if there are none."""
         if not self.colliding:
             return ""
         some = ", ".join(sorted(self.colliding)[:3]) + (" …" if len(self.colliding) > 3 else "")
@@ -50,21 +50,21 @@ class RobotNames:
 def transforms_on(
     source: Recorded, topics: Sequence[str], progress: Progress | None = None
 ) -> tuple[Transforms, RobotNames]:
-    """Read the transforms of some topics, each with its static topic.
+    """Read the transforms on some topics, and on the static topic of each.
 
     Topics of one namespace belong to one robot. A frame name that several robots use gets the
     namespace as prefix, unless it is a root that they share (`SHARED_ROOTS`).
 
     Args:
         source: The recording.
-        topics: Names of topics that carry transforms.
-        progress: Called with how many bytes of how many are read, once through for each robot.
+        topics: Names of topics with transforms.
+        progress: Function called with the bytes read and their total, from 0 for each robot.
 
     Returns:
-        The transforms, and the names that were changed in them.
+        The transforms, and the changed frame names.
 
     Raises:
-        InputError: If one of the topics is not in the recording, or carries none.
+        InputError: If a topic is not in the recording, or has no transforms.
     """
     robots: dict[str, list[str]] = {}
     for name in _with_statics(source, topics):
@@ -88,7 +88,7 @@ def transforms_on(
     whole = Transforms(
         tuple(edges),
         np.concatenate([part.log_times for part in parts.values()]),
-        # Each part numbers all publishers of the recording.
+        # All parts have the same list of publishers.
         np.concatenate([part.senders for part in parts.values()]),
         next(iter(parts.values())).publishers,
         tuple(dict.fromkeys(text for part in parts.values() for text in part.damage)),
@@ -97,7 +97,7 @@ def transforms_on(
 
 
 def _with_statics(source: Recorded, names: Iterable[str]) -> list[str]:
-    """Return these topics with the static topic of each."""
+    """Return the given topics, and the static topic of each one's namespace."""
     known = {topic.name for topic in source.topics if topic.transforms}
     found = []
     for name in names:
@@ -124,23 +124,25 @@ IMPLYING: Final = (
     "geometry_msgs/PoseStamped",
     "geometry_msgs/PoseWithCovarianceStamped",
 )
-"""Types whose messages say where one frame is in another, short.
+"""Types (short form) whose messages contain the pose of one frame in another.
 
-Odometry names both; a pose names what it is in, and its topic is taken for the frame's name.
+Odometry names both frames. A pose names the parent only; its topic is used as the child's name.
 """
 
 
 def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
-    """Return the topics whose messages imply transforms."""
+    """Return the topics with odometry or poses, which can be used as transforms."""
     return tuple(one for one in topics if one.type in IMPLYING and one.encoding in ("cdr", "ros1"))
 
 
 def joined(said: Transforms, implied: Transforms) -> Transforms:
-    """Merge published transforms with implied ones of frames that tf lacks.
+    """Merge published transforms with transforms from odometry and poses.
+
+    The latter are used only for frames that have no published transforms.
 
     Args:
-        said: Transforms of the topics that carry them.
-        implied: Transforms implied by other topics of the same recording.
+        said: Published transforms.
+        implied: Transforms from odometry and poses in the same recording.
     """
     known: Collection[str] = {edge.child for edge in said.edges}
     first = len(said.log_times)

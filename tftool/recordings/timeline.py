@@ -1,4 +1,4 @@
-"""Order and times for playing a recording's messages."""
+"""Order and times at which a recording's transforms are played."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -22,9 +22,14 @@ _NOTHING: Final = np.zeros(0, dtype=np.int64)
 
 
 def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
-    """Convert log times to the time of `/clock` at reception, interpolated.
+    """Convert log times to the time of `/clock`, interpolated between its messages.
 
-    Before its first and after its last message it is assumed to run at rate 1.
+    Before the first and after the last message the clock is assumed to run at rate 1.
+
+    Args:
+        logs: Log times to convert, nanoseconds.
+        read: Times in the messages on `/clock`, nanoseconds.
+        received: Log times of these messages, nanoseconds.
     """
     base_log, base = int(received[0]), int(read[0])
     order = np.argsort(received, kind="stable")
@@ -37,20 +42,20 @@ def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
 
 
 class PlayClock:
-    """Conversion of log times to the stamps' clock, published on `/clock` during playback.
+    """Conversion of log times to the clock of the stamps; it is published on `/clock` in playback.
 
-    The recording's own `/clock` decides, if there is one. If stamps are a simulation's and log
-    times are not, the median of their differences decides; otherwise log times are on the clock of
-    the stamps already.
+    If `/clock` was recorded, it gives the conversion. Otherwise, if stamps come from a simulation
+    but log times do not, the median of their differences is subtracted. Otherwise log times are
+    already on the clock of the stamps.
     """
 
     def __init__(self, transforms: Transforms, read: Stamps, received: Stamps) -> None:
-        """Compare both clocks.
+        """Compare stamps with log times.
 
         Args:
-            transforms: All of the recording.
-            read: Times of `/clock`, nanoseconds.
-            received: Time of reception, nanoseconds.
+            transforms: All transforms of the recording.
+            read: Times in the messages on `/clock`, nanoseconds.
+            received: Log times of these messages, nanoseconds.
         """
         self._read, self._received = read, received
         self._offset = 0
@@ -69,7 +74,7 @@ class PlayClock:
             self._offset = int(np.median(simulated))
 
     def of(self, log_times: Stamps) -> Stamps:
-        """Convert log times to nanoseconds on the stamps' clock, shape (n,)."""
+        """Convert log times to times on the clock of the stamps, nanoseconds, shape (n,)."""
         if not self._is_other:
             return log_times
         if len(self._read):
@@ -79,14 +84,14 @@ class PlayClock:
 
 @dataclass(frozen=True, slots=True)
 class Due:
-    """One message's transforms, to publish at one time.
+    """Transforms of one message, to be published at one time.
 
     Attributes:
-        moment: Time, on the clock of the stamps.
-        node: Node that sent them; empty if not recorded.
-        topic: Topic.
+        moment: Time to publish, on the clock of the stamps.
+        node: Node that sent the message; empty if not recorded.
+        topic: Topic of the message.
         static: Whether the transforms are static.
-        transforms: The recorded transforms, names without a leading slash.
+        transforms: The recorded transforms, with names without a leading slash.
     """
 
     moment: Stamp
@@ -101,9 +106,9 @@ class TimelineRows:
     """Transforms of some messages, in order of reception.
 
     Attributes:
-        edges: The number of the edge of each, shape (n,).
-        rows: Row in that edge, shape (n,).
-        places: Index of each row's message, shape (n,).
+        edges: Number of each transform's edge, shape (n,).
+        rows: Row of each transform in its edge, shape (n,).
+        places: Number of each transform's message, shape (n,).
     """
 
     edges: Indexes
@@ -115,21 +120,21 @@ class Timeline:
     """A recording's transforms in order of reception.
 
     Attributes:
-        clock: Clock that gives the moment of a log time.
-        start: The moment of the first message, nanoseconds.
-        end: Log time of the last message.
+        clock: Conversion of log times to the clock of the stamps.
+        start: Time of the first message, nanoseconds.
+        end: Time of the last message, nanoseconds.
     """
 
     def __init__(self, source: Recorded, transforms: Transforms) -> None:
-        """Sort the messages.
+        """Sort the messages of a recording.
 
         Args:
             source: The recording.
-            transforms: All of its transforms.
+            transforms: All transforms of the recording.
         """
         self.clock = PlayClock(transforms, *source.clock())
         self._transforms = transforms
-        self._moments_read = self.clock.of(transforms.log_times)  # by number as it was read
+        self._moments_read = self.clock.of(transforms.log_times)  # in the order of reading
         order = np.argsort(self._moments_read, kind="stable")
         self._order = order
         self.moments: Stamps = self._moments_read[order]
@@ -158,10 +163,9 @@ class Timeline:
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:
-        """Return a mask of messages whose frames have one publisher and one parent and are not
-        static.
+        """Return a mask of the messages whose order among each other is irrelevant, shape (n,).
 
-        The order of such frames is irrelevant. Shape (n,).
+        All frames in such a message are moving, and have one publisher and one parent.
         """
         transforms = self._transforms
         edges_of = Counter(edge.child for edge in transforms.edges)
@@ -174,14 +178,15 @@ class Timeline:
         return plain
 
     def arrivals_of(self, link: set[str]) -> tuple[Stamps, Stamps] | None:
-        """Return when the transforms between two frames arrive, and their stamps, both increasing.
+        """Return arrival times and stamps of the transforms between two frames, both increasing.
 
         Args:
             link: The names of the two frames.
 
         Returns:
-            Nanoseconds, shape (n,) each; empty for a static link. None if a buffer may refuse or
-            reorder some of the transforms, or if the child also has another parent or publisher.
+            Arrival times and stamps, nanoseconds, shape (n,) each; empty for a static link. None if
+            a buffer may refuse or reorder some of the transforms, or if the child also has
+            another parent or publisher.
         """
         edges = [edge for edge in self._transforms.edges if {edge.parent, edge.child} == link]
         known = [edge for edge in self._transforms.edges if edge.child in link]
@@ -208,7 +213,7 @@ class Timeline:
     def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
         """Return each message's publisher as a number, and the publishers' names.
 
-        If no node is recorded, the topic names the sender.
+        If no node is recorded, the name is the topic's.
         """
         publishers = [one.node or one.topic for one in self._transforms.publishers]
         names = tuple(dict.fromkeys(publishers))
@@ -216,7 +221,7 @@ class Timeline:
         return numbers[self._transforms.senders[self._order[places]]], names
 
     def message(self, place: int) -> list[Due]:
-        """Return a message's transforms, moving and static ones separately."""
+        """Return the transforms of a message, moving and static transforms separately."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
         publisher = self._transforms.publishers[int(sender)]
@@ -232,8 +237,7 @@ class Timeline:
     def known_at(self, moment: Stamp) -> list[Due]:
         """Return the last transform of every child received up to a time.
 
-        A static that came later counts from the beginning on, as what it says holds at all
-        times.
+        Static transforms received later are included, because they are valid at all times.
         """
         found: dict[tuple[str, bool], tuple[int, int, Edge, int]] = {}
         for edge in self._transforms.edges:

@@ -1,1 +1,1 @@
-"""Calibration from recorded motion: the mount of one moving frame on another, and the clocks."""
+"""Calibration from recorded motions: the mount of one moving frame on another, and their clocks."""

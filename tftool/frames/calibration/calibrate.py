@@ -44,23 +44,23 @@ from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
 
 LEAST_TURN: Final = math.radians(5.0)
-"""Turns within ten seconds below which the motion shows nothing of a translation."""
+"""Turn within ten seconds below which the motion does not determine a translation."""
 
 SECOND_AXIS: Final = math.radians(3.0)
-"""Root mean square of the turns about the second axis from which a motion has two axes."""
+"""Root mean square of turns about the second axis, above which a motion has two axes."""
 
 HIDDEN: Final = 0.3
-"""Part of an unseen unit vector from which an axis is unseen."""
+"""An axis is undetermined if it has at least this component along an undetermined direction."""
 
 LONG: Final = 120.0
-"""Seconds from which the drift between the clocks is estimated."""
+"""Duration, seconds, from which the drift between the clocks is estimated."""
 
 _MOST_POSES: Final = 4000
 _SEGMENTS: Final = (2.0, 5.0, 15.0)
-"""Lengths of segments that are tried beside all of the time, seconds."""
+"""Lengths of time segments to try in addition to the whole time, seconds."""
 
 _GROWN: Final = 1.3
-"""Growth of residuals from shorter to longer segments from which a chain drifts."""
+"""Ratio of residuals with longer to shorter segments above which a chain drifts."""
 
 TWO_AXES: Final = "turn about a second axis by at least 30°, back and forth, while recording"
 FIGURE: Final = "drive a figure of eight"
@@ -73,10 +73,10 @@ class Interval:
     """Half-widths of a pose's 95 % interval; None in directions that the motion does not determine.
 
     Attributes:
-        translation: Metres; of the mount along the axes of moving_a, of the fixed mount along the
-            axes of fixed_a.
-        rotation_deg: Degrees; of the mount about the axes of moving_b, of the fixed mount about the
-            axes of fixed_b.
+        translation: Half-widths in metres: for the mount along the axes of moving_a, for the fixed
+            mount along the axes of fixed_a.
+        rotation_deg: Half-widths in degrees: for the mount about the axes of moving_b, for the
+            fixed mount about the axes of fixed_b.
     """
 
     translation: Trio
@@ -85,28 +85,28 @@ class Interval:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Calibration:
-    """Mount of one moving frame on another, from the motions of both.
+    """Result of a calibration: the mount of one moving frame on another.
 
     Attributes:
         verdict: "solved", "partial" (`unseen` names the rest), or "refused".
-        why: The verdict's reason, a sentence.
-        moving: The moving frames: of A, of B.
-        fixed: The fixed frames.
-        mount: moving_b in moving_a; None if refused.
-        fixed_mount: fixed_b in fixed_a.
-        interval95: Interval of the mount.
-        fixed_interval95: Interval of the fixed mount.
-        clock_offset: t_a = t_b + seconds, at the middle of the common time.
-        offset_interval95: Half-width, seconds.
+        why: Reason for the verdict, a sentence.
+        moving: Moving frames of A and of B.
+        fixed: Fixed frames of A and of B.
+        mount: Pose of moving_b in moving_a; None if refused.
+        fixed_mount: Pose of fixed_b in fixed_a.
+        interval95: 95 % interval of the mount.
+        fixed_interval95: 95 % interval of the fixed mount.
+        clock_offset: Offset in t_a = t_b + offset, seconds, at the middle of the common time.
+        offset_interval95: Half-width of the offset's 95 % interval, seconds.
         drift_ppm: Drift of the clock, microseconds per second; None for a short recording.
-        clock: Correlation that gave the offset.
+        clock: Correlation from which the offset was measured.
         halves_differ: Distance between the mounts of both halves: metres, degrees.
-        unseen: Parts of the mount that the motion does not show: x y z roll pitch yaw.
-        unseen_direction: Unit vector along moving_a's axes, where a tilted direction is unseen.
+        unseen: Parts of the mount that the motion does not determine: x y z roll pitch yaw.
+        unseen_direction: Undetermined direction, a unit vector in moving_a, if it is not an axis.
         inverted: Whether each motion was inverted.
         next_motion: The motion to record next; None if none is needed.
-        scale: Factor of A's translations and its half-width; None if it was not asked for.
-        notes: Sentences about the reading of the inputs.
+        scale: Factor of A's translations, and its half-width; None if not requested.
+        notes: Sentences about the inputs.
     """
 
     verdict: Literal["solved", "partial", "refused"]
@@ -144,29 +144,29 @@ def calibrate(
     seed: int = 0,
     progress: Callable[[int, int], object] | None = None,
 ) -> Calibration:
-    """Estimate where one moving frame is mounted on another, from both motions.
+    """Estimate the mount of one moving frame on another, from the motions of both.
 
         found = tftool.calibrate(tftool.open("vicon.csv"), tftool.open("camera.csv"))
         found.mount, found.interval95.translation
 
-    It solves A(t + d) · X = Y · B(t) for X, the mount, Y, which joins the two fixed frames, and d,
-    the clock offset. See docs/do/calibrate.md for the motion to record.
+    The function solves A(t + d) · X = Y · B(t) for the mount X, the pose Y of B's fixed frame in
+    A's, and the clock offset d. See docs/do/calibrate.md for the motion to record.
 
     Args:
         a: Poses of moving_a in fixed_a over time, odom ← base_link; or frames that are one chain.
-        b: Poses of moving_b in fixed_b, on any clock, world ← camera; likewise.
-        planar: Whether only x, y and yaw of the mount are asked for.
-        scale: Whether the translations of A may be scaled, as those of wheel odometry.
-        published: The mount so far: parts that the motion does not show are kept from it.
+        b: Poses of moving_b in fixed_b, world ← camera, or frames; on any clock.
+        planar: Whether to estimate only x, y and yaw of the mount.
+        scale: Whether to estimate a scale of A's translations, for wheel odometry.
+        published: The published mount, used for parts that the motion does not determine.
         inverted: Motions to invert; None to decide for B by the motion.
         seed: Seed of the random numbers for the intervals.
-        progress: Called with how many steps of how many are done.
+        progress: Function called with the number of finished steps, and of all steps.
 
     Returns:
-        The mount, or a refusal: false then.
+        The mount; false if it cannot be determined.
 
     Raises:
-        InputError: If frames are several chains.
+        InputError: If the frames of an input are not a single chain.
     """
     a, b = path_of(a), path_of(b)
     names = (a.child_frame_id, b.child_frame_id), (a.frame_id, b.frame_id)
@@ -196,9 +196,9 @@ class _Shown:
     """Directions of the mount that the motion determines.
 
     Attributes:
-        free: Directions among the nine parameters of a fit.
+        free: Directions, among the nine parameters of a fit, that the motion determines.
         axis: The only axis of rotation in moving_a; None if there are several.
-        unseen: Names of the parts that are not shown.
+        unseen: Names of the parts that the motion does not determine.
     """
 
     free: tuple[Floats, ...]
@@ -247,7 +247,7 @@ class _Solver:
         )
 
     def _start(self, problem: Problem) -> tuple[Fit, MotionPairs, _Shown, float]:
-        """Solve roughly from pairs of times; the error shows whether the motions fit."""
+        """Return an approximate solution from pairs of poses, and its error."""
         pairs = pairs_of(problem, 0.0)
         if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
             raise CalibrationRefused(
@@ -280,21 +280,21 @@ class _Solver:
         return Fit(turn, shift, 0.0), pairs, _Shown(directions, None, ()), error
 
     def _prior_turn(self, found: Floats, is_planar: bool) -> Floats:
-        """Keep roll and pitch of the published mount if the motion does not determine them."""
+        """Return the published rotation if the motion is planar, else the found rotation."""
         if not is_planar or self.published is None:
             return found
         return np.array(self.published.rotation)
 
     def _along(self, shift: Floats, axis: Floats) -> Floats:
-        """Keep the published translation along the rotation axis."""
+        """Return a translation whose component along the rotation axis is the published one."""
         kept = 0.0 if self.published is None else np.array(self.published.translation) @ axis
         return np.asarray(shift - (shift @ axis) * axis + kept * axis)
 
     def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
-        """Fit with several segment lengths and with one Y for all; keep the most certain.
+        """Return the fit with the smallest intervals, among several lengths of time segments.
 
-        If longer segments have larger residuals, a chain drifts. A bootstrap over blocks of time
-        does not see that: such lengths are left out.
+        If longer segments have larger residuals, a chain drifts, which the bootstrap of intervals
+        cannot detect: such lengths are not used.
         """
         whole = float(problem.times[-1] - problem.times[0])
         lengths = [*(one for one in _SEGMENTS if one * 4.0 <= whole), math.inf]
@@ -315,7 +315,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Treat a motion as one about a single axis if its second axis is only noise."""
+        """Return what the motion determines; a second axis with only noise does not count."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))
@@ -335,7 +335,7 @@ class _Solver:
     def _halves(
         self, problem: Problem, fit: Fit, free: tuple[Floats, ...], length: float
     ) -> tuple[float, float] | None:
-        """Solve both halves separately; return their mounts' distance, metres and degrees."""
+        """Return the difference of the mounts from both halves of the time, metres and degrees."""
         middle = float(np.median(problem.times))
         found = []
         for begin, end in ((-math.inf, middle), (middle, math.inf)):
@@ -363,7 +363,7 @@ class _Solver:
         sizes = WIDTH * spread(fit, seed=self.seed)
         whole = fit
         if len(fit.joins) > 1:
-            # Only Y is taken over all of the time; X stays.
+            # X was estimated on this half; estimate only Y on the whole time.
             fresh = replace(fit, joins=fit.joins[:0], places=fit.places[:0])
             found = refine(problem, fresh, [np.eye(9)[SHIFT]], _segments(problem, math.inf), 6)
             whole = replace(found, turn=fit.turn, shift=fit.shift)
@@ -397,7 +397,7 @@ class _Solver:
 
 
 WIDTH: Final = 2.1
-"""Half of a 95 % interval in deviations, with as few blocks as a recording has."""
+"""Half-width of a 95 % interval in standard deviations, for the few time blocks of a recording."""
 
 
 def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> tuple[float, float]:
@@ -417,7 +417,7 @@ def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
     """Resample B to A's clock, with at most as many poses as the fit needs.
 
     Raises:
-        CalibrationRefused: If the two overlap too little.
+        CalibrationRefused: If the two motions overlap too little.
     """
     times = b.times + (clock.seconds - (a.start - b.start) / NANOSECONDS)
     _, _, valid = a.at(times)
@@ -433,7 +433,7 @@ def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
 
 
 def _segments(problem: Problem, length: float) -> "np.ndarray":
-    """Number B's poses by time segment, without gaps in the numbers."""
+    """Return the number of the time segment of each of B's poses, without gaps in the numbers."""
     if not math.isfinite(length):
         return np.zeros(len(problem.times), dtype=np.intp)
     numbers = ((problem.times - problem.times[0]) // length).astype(np.intp)
@@ -442,7 +442,7 @@ def _segments(problem: Problem, length: float) -> "np.ndarray":
 
 
 def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
-    """Return what a motion about one axis shows: nothing along it; if planar, no tilt either."""
+    """Return what a motion about one axis determines: nothing along it; if planar, no tilt."""
     free = np.zeros((5, 9))
     free[:3, :3] = np.eye(3)
     free[3:, 3:6] = np.linalg.svd(axis[None])[2][1:]
@@ -477,7 +477,7 @@ def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
 
 
 def _interval(sizes: Floats, shown: _Shown) -> Interval:
-    """Convert half-widths along the free directions to half-widths by axis."""
+    """Return an interval from the half-widths along the determined directions."""
     free = np.array(shown.free)[:, :6]
     widths = np.sqrt(((free * sizes[:, None]) ** 2).sum(axis=0))
     known = [name not in shown.unseen for name in (*ANGLES, *AXES)]
@@ -487,7 +487,7 @@ def _interval(sizes: Floats, shown: _Shown) -> Interval:
 
 
 def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) -> Interval:
-    """Return half-widths of Y: what the mount hides, Y hides as well.
+    """Return the interval of Y, where undetermined parts of the mount are undetermined too.
 
     The only axis of rotation has a fixed direction in fixed_a and in fixed_b.
     """
@@ -503,7 +503,7 @@ def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) ->
 
 
 def _trio(values: Floats, hidden: Floats) -> Trio:
-    """Return half-widths; None along an axis of which the hidden direction is a good part."""
+    """Return half-widths by axis; None for an axis that the hidden directions largely cover."""
     x, y, z = (
         None if part > HIDDEN else float(value) for value, part in zip(values, hidden, strict=True)
     )

@@ -1,4 +1,4 @@
-"""Offset between the clocks of two motions of one rigid body, from rotation alone.
+"""Offset between the clocks of two motions of one rigid body, from rotations alone.
 
 The angle by which a body turns in a time window depends neither on the place of measurement on the
 body nor on the fixed frame. Both motions give this angle, each on its own clock; the offset is the
@@ -19,19 +19,19 @@ from tftool.frames.pair_samples import only_chain, sample
 from tftool.geometry import rigid_arrays as batch
 
 WINDOWS: Final = (0.3, 0.6, 1.0)
-"""Seconds over which the angle is taken; the one with the highest peak is used."""
+"""Durations, seconds, over which the turned angle is computed; the highest peak is used."""
 
 LEAST_CORRELATION: Final = 0.9
-"""Unrelated motions reach 0.69, motions of one body 0.96 and more."""
+"""Minimum correlation: unrelated motions reach 0.69, motions of one body at least 0.96."""
 
 CLEAR_PEAK: Final = 1.5
-"""How much further from 1 the second peak must be than the first."""
+"""Minimum ratio of the distances from 1 of the second and the highest peak."""
 
 LEAST_OVERLAP: Final = 5.0
-"""Seconds both must cover together."""
+"""Minimum duration of the common time, seconds."""
 
 _NOISE_FLOOR: Final = 1e-3
-"""Distance from 1 that any measured correlation has."""
+"""Distance from 1 that every measured correlation has."""
 
 _STEP: Final = 0.01
 _MOST_STEPS: Final = 400_000
@@ -46,10 +46,10 @@ class ClockOffset:
     Attributes:
         seconds: The offset.
         interval95: Half-width of its 95 % interval, seconds.
-        correlation: Height of the peak, 1 for equal courses.
-        second: Height of the next peak, anywhere else.
-        lags: Offsets of the curve below, seconds, shape (n,).
-        curve: Correlation at each, NaN where the two overlap too little, shape (n,).
+        correlation: Height of the highest peak, 1 for equal curves.
+        second: Height of the second peak.
+        lags: Offsets for which the correlation was computed, seconds, shape (n,).
+        curve: Correlation at each offset, NaN where the overlap is too small, shape (n,).
     """
 
     seconds: float
@@ -70,7 +70,7 @@ class ClockOffset:
 
 
 def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> ClockOffset:
-    """Measure by how much the clock of one motion is ahead of another's, t_a = t_b + offset.
+    """Measure the offset between the clocks of two motions: t_a = t_b + offset.
 
         tftool.clock_offset(tftool.open("vicon.csv"), tftool.open("camera.csv")).seconds
 
@@ -78,21 +78,20 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
         a: Poses over time, or frames that are one chain.
         b: The other motion, on any clock.
 
-    Both are poses of one rigid body; where on it, and in which fixed frame, does not matter. The
-    offset may be of any size.
+    Both are poses of points on one rigid body, in any fixed frames. The offset may be of any size.
 
     Raises:
-        CalibrationRefused: If the two do not turn alike, the offset is ambiguous, or one has too
-            few poses.
+        CalibrationRefused: If the rotations do not agree, the offset is ambiguous, or one motion
+            has too few poses.
     """
     return offset_of(BodyMotion.of(path_of(a)), BodyMotion.of(path_of(b)))
 
 
 def path_of(frames: TransformArray | Frames) -> TransformArray:
-    """Return poses over time: given ones, or those of the only chain of frames.
+    """Return poses unchanged; for frames, return the poses of their only chain over time.
 
     Raises:
-        InputError: If the frames are several chains.
+        InputError: If the frames are not a single chain.
     """
     if isinstance(frames, TransformArray):
         return frames
@@ -133,7 +132,7 @@ def offset_of(a: BodyMotion, b: BodyMotion) -> ClockOffset:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Correlation:
-    """Correlation of two curves at all lags, in steps of one grid."""
+    """Correlation of two curves at all time shifts (lags), in steps of a grid."""
 
     lags: Floats
     curve: Floats
@@ -149,7 +148,7 @@ class _Correlation:
         return float(self.curve[self.peak]) if np.isfinite(self.curve).any() else -1.0
 
     def second_peak(self) -> float:
-        """Return the highest value outside the hill of the main peak."""
+        """Return the height of the second peak, outside of the highest peak."""
         curve, peak = np.nan_to_num(self.curve, nan=-1.0), self.peak
         low, high = peak, peak
         while low > 0 and curve[low - 1] <= curve[low]:
@@ -162,8 +161,8 @@ class _Correlation:
     def refined(self) -> tuple[float, float]:
         """Return the interpolated peak and its 95 % half-width, in steps.
 
-        The peak is that of a parabola through five values; a bootstrap over blocks of time gives
-        its spread.
+        The peak is that of a parabola through five values; its half-width is from a bootstrap over
+        blocks of time.
         """
         lag = int(self.lags[self.peak])
         near = np.arange(-4, 5)
@@ -182,7 +181,7 @@ class _Correlation:
 
 
 def _tops(sums: Floats) -> Floats:
-    """Return by a parabola where the correlation of nine shifts is highest; shape (n,)."""
+    """Return the position of the peak among nine shifts, from a parabola, shape (n,)."""
     count, x, y, xx, yy, xy = np.moveaxis(sums, -1, 0)
     count = np.maximum(count, 1.0)
     spread = (xx - x * x / count) * (yy - y * y / count)
@@ -197,14 +196,14 @@ def _tops(sums: Floats) -> Floats:
 def _overlap(
     f: Floats, has_f: Floats, g: Floats, has_g: Floats, lag: int
 ) -> tuple[Floats, Floats, Floats]:
-    """Return both curves where they overlap at a lag, 0 in gaps, and a mask of no gap."""
+    """Return two curves' overlapping parts at a lag, 0 in gaps, and a 0-1 mask without gaps."""
     low, high = max(0, lag), min(len(f), len(g) + lag)
     both = has_f[low:high] * has_g[low - lag : high - lag]
     return f[low:high] * both, g[low - lag : high - lag] * both, both
 
 
 def _course(motion: BodyMotion, step: float, window: float) -> tuple[Floats, Floats]:
-    """Return the angle turned within a window, on a grid, and a 0-1 mask of where it is known."""
+    """Return the turned angle per window on a grid of times, and a 0-1 mask of known values."""
     grid = np.arange(0.0, motion.duration - window, step)
     _, first, knows_first = motion.at(grid)
     _, last, knows_last = motion.at(grid + window)
@@ -213,7 +212,7 @@ def _course(motion: BodyMotion, step: float, window: float) -> tuple[Floats, Flo
 
 
 def _correlated(a: BodyMotion, b: BodyMotion, step: float, window: float) -> _Correlation:
-    """Correlate the curves of two motions at every lag, without gaps.
+    """Return the correlation of two motions' turned angles at every lag, ignoring gaps.
 
     Source:
         Padfield, "Masked object registration in the Fourier domain", 2012.
@@ -229,7 +228,7 @@ def _correlated(a: BodyMotion, b: BodyMotion, step: float, window: float) -> _Co
         whole = np.fft.irfft(left * np.conj(right), size)
         return np.concatenate([whole[-(len(g) - 1) :], whole[: len(f)]])
 
-    # About their means, so that no digits are lost.
+    # Subtract the means, so that no digits are lost.
     f = (f - f.sum() / max(1.0, has_f.sum())) * has_f
     g = (g - g.sum() / max(1.0, has_g.sum())) * has_g
     mask_f, mask_g, at_f, at_g = map(spectrum, (has_f, has_g, f, g))
@@ -239,7 +238,7 @@ def _correlated(a: BodyMotion, b: BodyMotion, step: float, window: float) -> _Co
     spread_g = against(mask_f, spectrum(g * g)) - sum_g**2 / count
     shared = against(at_f, at_g) - sum_f * sum_g / count
     least = max(LEAST_OVERLAP / step, 0.3 * min(has_f.sum(), has_g.sum()))
-    # A stretch at rest has no course to compare.
+    # Without motion there is nothing to correlate.
     floor = 1e-3 * count * np.array([(f * f).mean(), (g * g).mean()])[:, None]
     usable = (
         (count >= min(least, 0.9 * count.max())) & (spread_f > floor[0]) & (spread_g > floor[1])

@@ -1,4 +1,4 @@
-"""Poses of one moving frame over time, cleaned and interpolated; differences of two mounts."""
+"""Motion of one frame: poses over time, cleaned and interpolated."""
 
 from dataclasses import dataclass
 from typing import Final, TypeAlias
@@ -17,7 +17,7 @@ Floats = batch.Floats
 Flags: TypeAlias = npt.NDArray[np.bool_]
 
 LONGEST_GAP: Final = 0.3
-"""Seconds without a sample behind which nothing is interpolated; of slow streams 3 periods."""
+"""Time without a sample, seconds, that is not interpolated; for slow streams, 3 periods."""
 
 _LEAST_POSES: Final = 20
 
@@ -26,22 +26,22 @@ ANGLES: Final = ("roll", "pitch", "yaw")
 
 
 class CalibrationRefused(TftoolError):
-    """Error for motion that does not determine the answer; the text names one that would.
+    """Error for a motion that does not determine the result.
 
     Attributes:
-        next_motion: The motion to record instead; empty if none helps.
+        next_motion: Description of a motion to record instead; empty if none helps.
     """
 
     def __init__(self, text: str, next_motion: str = "") -> None:
-        """Make the error from the reason, and the motion to record next."""
+        """Create the error from its reason, and the motion to record next."""
         super().__init__(text)
         self.next_motion = next_motion
 
 
 def difference(mount: Transform, other: Transform) -> Floats:
-    """Return a mount's difference from another, shape (6,).
+    """Return the difference between two mounts, shape (6,).
 
-    Metres along the axes of the parent frame, then degrees about those of the mounted one,
+    The numbers are metres along the parent's axes, then degrees about the mounted frame's axes.
     """
     shift = np.subtract(mount.translation, other.translation)
     first, second = np.array([mount.rotation]), np.array([other.rotation])
@@ -54,9 +54,9 @@ class BodyMotion:
     """Poses of one moving frame in order of time.
 
     Attributes:
-        name: The chain in words: "base_link in odom".
-        start: Stamp from which times count, nanoseconds.
-        times: Seconds, shape (n,), strictly increasing.
+        name: Name of the chain: "base_link in odom".
+        start: Stamp of time 0, nanoseconds.
+        times: Time of each pose, seconds, shape (n,), strictly increasing.
         positions: Metres, shape (n, 3).
         rotations: Unit quaternions x y z w without jumps of sign, shape (n, 4).
     """
@@ -69,10 +69,10 @@ class BodyMotion:
 
     @classmethod
     def of(cls, path: TransformArray) -> "BodyMotion":
-        """Sort poses by stamp; drop NaN, spikes, and all but the first of equal stamps.
+        """Return the motion of a path: poses sorted by stamp, without NaN, spikes and equal stamps.
 
         Raises:
-            CalibrationRefused: If fewer than twenty are left.
+            CalibrationRefused: If fewer than twenty poses are left.
         """
         path = path if path.valid.all() else path[path.valid]
         stamps, first = np.unique(path.stamps, return_index=True)
@@ -93,16 +93,16 @@ class BodyMotion:
 
     @property
     def duration(self) -> float:
-        """Seconds from the first to the last pose."""
+        """Time from the first to the last pose, seconds."""
         return float(self.times[-1])
 
     @property
     def period(self) -> float:
-        """Median seconds between poses."""
+        """Median time between poses, seconds."""
         return float(np.median(np.diff(self.times)))
 
     def inverted(self) -> "BodyMotion":
-        """Return the motion of the fixed frame relative to the moving one."""
+        """Return the motion of the fixed frame relative to the moving frame."""
         back = batch.conjugate(self.rotations)
         target, _, source = self.name.partition(" in ")
         places = -batch.rotate(back, self.positions)
@@ -115,14 +115,14 @@ class BodyMotion:
         )
 
     def at(self, times: Floats) -> tuple[Floats, Floats, Flags]:
-        """Interpolate at times: position linearly, rotation along the shorter arc.
+        """Interpolate poses: positions linearly, rotations along the shorter arc.
 
         Args:
-            times: Seconds on its own time axis, shape (m,).
+            times: Times to interpolate at, seconds on the motion's time axis, shape (m,).
 
         Returns:
-            Positions, shape (m, 3); quaternions, shape (m, 4); and which moments are inside of
-            the motion and of no gap, shape (m,).
+            Positions, shape (m, 3); quaternions, shape (m, 4); and a mask of the times that are
+            within the motion and not in a gap, shape (m,).
         """
         above = np.clip(np.searchsorted(self.times, times), 1, len(self.times) - 1)
         low, high = self.times[above - 1], self.times[above]
@@ -130,14 +130,14 @@ class BodyMotion:
         valid = (times >= self.times[0]) & (times <= self.times[-1]) & (high - low <= longest)
         share = np.clip((times - low) / (high - low), 0.0, 1.0)[:, None]
         positions = (1.0 - share) * self.positions[above - 1] + share * self.positions[above]
-        # Between neighbouring samples the chord, made unit, follows the arc to a microradian.
+        # Between neighbouring samples, the normalised chord differs from the arc by a microradian.
         turns = (1.0 - share) * self.rotations[above - 1] + share * self.rotations[above]
         return positions, batch.unit(turns), valid
 
     def velocities(self, times: Floats) -> tuple[Floats, Floats]:
         """Return velocities in the fixed frame, and angular velocities about the moving axes.
 
-        They are differences over a tenth of a second, long enough compared with the noise of poses.
+        They are differences over at least a tenth of a second, to reduce the noise of poses.
 
         Returns:
             Metres per second and radians per second, each of shape (m, 3).
@@ -158,15 +158,15 @@ def poses_of(edge: Edge) -> TransformArray:
 
 
 _USUAL: Final = np.arange(-15, 16)
-"""Neighbours among which a pose's distance is usual or not."""
+"""Offsets of the neighbours among which a pose's distance is compared."""
 
 
 _DENSE: Final = 200
-"""Poses from which neighbours are near enough to judge one another by."""
+"""Minimum number of poses for which neighbours are close enough to detect spikes."""
 
 
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
-    """Remove spikes such as flipped tags, which would distort a correlation.
+    """Return the indices of poses without spikes (flipped tags), which distort a correlation.
 
     First drop poses whose median distance (or angle) to six neighbours is far above that of the
     poses around them; then those that are far from the middle of their remaining neighbours.
@@ -191,7 +191,7 @@ def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
         good = np.ones(len(kept), dtype=np.bool_)
         for each, least in ((away, 0.005), (angles, np.radians(0.5))):
             middle = np.median(each, axis=1)
-            # Not the median: where many are bad, it would be one of them.
+            # Not the median, which may be bad too if many poses are bad.
             usual = np.quantile(middle[np.clip(here + _USUAL, 0, last)], 0.35, axis=1)
             good &= middle <= np.maximum(factor * usual, least)
         kept = kept[good]

@@ -1,8 +1,8 @@
-"""Least squares of a mount: A(t + d) · X = Y · B(t), with robust weights.
+"""Least-squares fit of a mount: A(t + d) · X = Y · B(t), with robust weights.
 
-X is the mount, Y joins the fixed frames, d is the clock offset. If a chain drifts, as odometry
-does, time is divided into segments with a Y of their own, which are eliminated (Schur complement).
-Everything is in numpy: each round solves one small linear system.
+X is the mount, Y the pose of B's fixed frame in A's, d the clock offset. If a chain drifts, as
+odometry does, time is divided into segments with separate Ys, which are eliminated (Schur
+complement). Each round solves one small linear system.
 """
 
 from collections.abc import Sequence
@@ -17,27 +17,27 @@ from tftool.geometry import rigid_arrays as batch
 
 ROUNDS: Final = 12
 _CLIP: Final = 5.0
-"""Residuals beyond so many deviations lose their weight."""
+"""Number of standard deviations beyond which residuals have no weight."""
 
 MOUNT, SHIFT, DRIFT, SCALE, JOIN = slice(0, 6), 6, 7, 8, slice(9, 15)
-"""Places of the parameters: rotation and translation of X, d, its drift, A's scale, Y."""
+"""Indices of the parameters: rotation and translation of X, d, drift of d, scale of A, Y."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
-    """State of the fit.
+    """State of the fit: the estimated parameters, and its residuals.
 
     Attributes:
         turn: Rotation of X, quaternion.
         shift: Translation of X, metres.
-        offset: d minus the rough clock offset, seconds, at `middle`.
-        drift: Change of d in a second.
+        offset: d minus the approximate clock offset, at time `middle`, seconds.
+        drift: Change of d per second.
         scale: Factor of A's translations.
         joins: Rotations of Y by segment, shape (k, 4).
         places: Translations of Y by segment, shape (k, 3).
-        noise: Deviation of one residual: radians and metres, for each axis.
-        cost: Mean of the weights' loss; 1 where residuals are Gaussian.
-        blocks: Normal equations by block of time: matrices and right sides.
+        noise: Standard deviation of one residual along one axis: radians, metres.
+        cost: Mean loss by the weights; 1 if residuals are Gaussian.
+        blocks: Normal equations of each time block: matrices and right sides.
     """
 
     turn: Floats
@@ -53,14 +53,14 @@ class Fit:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Problem:
-    """Two motions on one time axis: B's poses, and A to be interpolated.
+    """Inputs of the fit: two motions on one time axis.
 
     Attributes:
-        a: BodyMotion of A.
-        times: Moments of B on the axis of A but for the clock offset, seconds, shape (n,).
+        a: Motion of A, which is interpolated.
+        times: Times of B's poses on A's time axis, without the clock offset, seconds, shape (n,).
         positions: Positions of B, shape (n, 3).
         rotations: Rotations of B, shape (n, 4).
-        middle: Moment at which the offset is taken.
+        middle: Time at which the clock offset is estimated, seconds.
     """
 
     a: BodyMotion
@@ -70,7 +70,7 @@ class Problem:
     middle: float
 
     def between(self, begin: float, end: float) -> "Problem":
-        """Return the part between two times."""
+        """Return the same problem with B's poses between two times only."""
         kept = (self.times >= begin) & (self.times < end)
         return replace(
             self,
@@ -81,12 +81,12 @@ class Problem:
 
 
 def matrices(quaternions: Floats) -> Floats:
-    """Return rotation matrices, shape (n, 3, 3)."""
+    """Return the rotation matrices of quaternions, shape (n, 3, 3)."""
     return batch.matrices(np.zeros((len(quaternions), 3)), quaternions)[:, :3, :3]
 
 
 def turned_by(vector: Floats) -> Floats:
-    """Return the quaternion of a rotation vector, shape (..., 4)."""
+    """Return the quaternions of rotation vectors, shape (..., 4)."""
     half = 0.5 * np.linalg.norm(vector, axis=-1, keepdims=True)
     return batch.unit(np.concatenate([vector * 0.5 * np.sinc(half / np.pi), np.cos(half)], axis=-1))
 
@@ -99,7 +99,7 @@ def cross(vectors: Floats) -> Floats:
 
 
 def mean_pose(turns: Floats, places: Floats, weights: Floats) -> tuple[Floats, Floats]:
-    """Average poses by weight: quaternions by the largest eigenvector (Markley 2007)."""
+    """Return the weighted mean of poses; quaternions by the largest eigenvector (Markley 2007)."""
     _, vectors = np.linalg.eigh((turns * weights[:, None]).T @ turns)
     return vectors[:, -1], (places * weights[:, None]).sum(axis=0) / weights.sum()
 
@@ -115,9 +115,9 @@ def refine(
 
     Args:
         problem: The two motions.
-        start: State to begin with; its joins are made anew where their number differs.
-        free: Directions in the 9 parameters but Y along which the fit may move.
-        segments: Segment of each pose of B, from 0 on without holes, shape (n,).
+        start: Initial state; its Ys are computed anew if the number of segments differs.
+        free: Directions, in the 9 parameters without Y, along which the fit may move.
+        segments: Number of each B pose's segment, from 0 without gaps, shape (n,).
         rounds: Number of rounds.
     """
     count = int(segments[-1]) + 1
@@ -135,7 +135,7 @@ def refine(
 
 
 class _Residuals:
-    """Residuals of one state with derivatives and weights; six rows per pose."""
+    """Residuals of a state with derivatives and weights: six rows per pose."""
 
     def __init__(
         self, problem: Problem, fit: Fit, segments: npt.NDArray[np.intp], count: int
@@ -172,18 +172,18 @@ class _Residuals:
         self._weigh()
 
     def _separate(self, of_a: Floats, of_x: Floats) -> None:
-        """Take out of the translations what the measured rotations explain of them.
+        """Subtract the part of the translation residuals that the rotation residuals explain.
 
-        An error of A's rotation swings the arm to B and so shows twice: in the rotation and, by
-        the lever, in the translation. Half of a rotation residual is expected to be A's. Without
-        the shared part the rows are independent of each other, as least squares assumes.
+        An error of A's rotation appears twice: in the rotation, and through the lever arm to B in
+        the translation. Half of a rotation residual is expected to be A's. Without this common
+        part the rows are independent, as least squares assumes.
         """
         lever = of_a @ (-0.5 * cross(self.fit.shift[None])[0] @ of_x)
         self.errors[:, 3:] -= np.einsum("nij,nj->ni", lever, self.errors[:, :3])
         self.jacobian[:, 3:] -= lever @ self.jacobian[:, :3]
 
     def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
-        """Initialise missing Y of segments with their mean."""
+        """Return the fit, with each Y set to its segment's mean if their number differs."""
         if len(fit.joins) == self.count:
             return fit
         back = batch.conjugate(problem.rotations)
@@ -211,7 +211,7 @@ class _Residuals:
     def _weigh(self) -> None:
         turned = np.linalg.norm(self.errors[:, :3], axis=1)
         moved = np.linalg.norm(self.errors[:, 3:], axis=1)
-        # The median length of three Gaussian coordinates is 1.538 deviations.
+        # The median length of a vector of three Gaussian numbers is 1.538 standard deviations.
         radians, metres = (
             max(float(np.median(one[self.valid])) / 1.538, 1e-7) for one in (turned, moved)
         )
@@ -224,13 +224,13 @@ class _Residuals:
         self.jacobian_w = self.jacobian * scaled[:, :, None]
 
     def sums(self, starts: npt.NDArray[np.intp]) -> tuple[Floats, Floats]:
-        """Sum the normal equations over rows from each start to the next."""
+        """Return the normal equations, summed over the poses from each start to the next."""
         square = np.einsum("nij,nik->njk", self.jacobian_w, self.jacobian_w, optimize=True)
         right = np.einsum("nij,ni->nj", self.jacobian_w, self.errors_w)
         return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
 
     def by_segment(self, basis: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Return the equations with each segment's Y eliminated, and the data to recover Y."""
+        """Return the equations without each segment's Y, and the data to compute Y afterwards."""
         starts = np.flatnonzero(np.diff(self.segments, prepend=-1))
         square, right = self.sums(starts)
         inner = square[:, JOIN, JOIN] + 1e-9 * np.eye(6)
@@ -248,9 +248,9 @@ class _Residuals:
         return reduced.sum(axis=0), gradient.sum(axis=0)
 
     def blocks(self, basis: Floats) -> tuple[Floats, Floats]:
-        """Return the equations of time blocks, for a bootstrap.
+        """Return the normal equations of time blocks, for a bootstrap.
 
-        With one Y for all time, Y is among the parameters; else each segment is a block.
+        With a single Y, its parameters are included; otherwise each segment is a block.
         """
         if self.count > 1:
             reduced, gradient, _, _ = self.by_segment(basis)
@@ -290,7 +290,7 @@ def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
     Each resampling of blocks moves the fit by one linear step.
 
     Returns:
-        Deviations along the free directions, and with one Y for all time, of Y: shape (p,).
+        Standard deviations along the free directions, then of Y if there is a single Y, shape (p,).
     """
     square, right = fit.blocks
     count = len(square)
@@ -304,7 +304,7 @@ def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
         * np.maximum(np.trace(squares, axis1=1, axis2=2), 1e-12)[:, None, None]
     )
     steps = np.linalg.solve(squares + ridge, rights[..., None])[..., 0]
-    # The middle half of the drawings: one that left out a whole turn says nothing.
+    # Percentiles instead of the variance: a resampling without any turn is an outlier.
     low, high = np.percentile(steps, [15.87, 84.13], axis=0)
     few = np.sqrt(count / max(1.0, count - 1.0))
     return np.asarray(0.5 * (high - low) * few)

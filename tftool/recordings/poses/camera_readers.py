@@ -1,4 +1,4 @@
-"""Readers of camera poses and calibrations: COLMAP, nerfstudio, kalibr, EuRoC, KITTI."""
+"""Readers of camera poses and calibrations from COLMAP, nerfstudio, kalibr, EuRoC and KITTI."""
 
 import json
 import math
@@ -22,7 +22,7 @@ _CALIBRATED: Final = re.compile(r"P[0-9]|Tr(_[a-z_]+)?|R|T|R0_rect|R_rect")
 
 
 def read_colmap(file: PoseFile) -> list[PoseLink]:
-    """Read COLMAP's images.txt: two lines per image; the second holds points."""
+    """Return the links in COLMAP's images.txt, which has two lines per image: pose and points."""
     images: list[tuple[str, list[float]]] = []
     is_image = True
     for line in file.lines():
@@ -39,7 +39,7 @@ def read_colmap(file: PoseFile) -> list[PoseLink]:
 
 
 def read_nerfstudio(file: PoseFile) -> list[PoseLink]:
-    """Read nerfstudio's transforms.json: a matrix per image."""
+    """Return the links in nerfstudio's transforms.json, which has a matrix per image."""
     try:
         document = json.loads(_text(file))
         frames = document["frames"]
@@ -53,7 +53,7 @@ def read_nerfstudio(file: PoseFile) -> list[PoseLink]:
 
 
 def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -> list[PoseLink]:
-    """Make one moving camera of the images, in order of names, or a frame for each."""
+    """Return one moving camera with a pose per image, by name, or a frame for each image."""
     if file.options.pose_rate is not None:
         link = file.link(width)
         for _, numbers in sorted(images, key=lambda one: one[0]):
@@ -66,13 +66,13 @@ def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -
     for name, numbers in images:
         child = file.name(name)
         if child in links:
-            raise InputError(f"'{file.path}' has two images of the name '{child}'.")
+            raise InputError(f"'{file.path}' has two images named '{child}'.")
         links[child] = _still(parent, child, numbers)
     return list(links.values())
 
 
 def read_kalibr(file: PoseFile) -> list[PoseLink]:
-    """Read kalibr's camchain.yaml: each camera relative to the IMU or the previous camera."""
+    """Return the links in kalibr's camchain.yaml: each camera in the IMU or previous camera."""
     document = _yaml(file)
     cameras = sorted((name for name in document if _is_camera(name)), key=lambda one: int(one[3:]))
     links = []
@@ -90,7 +90,7 @@ def read_kalibr(file: PoseFile) -> list[PoseLink]:
 
 
 def read_euroc_sensor(file: PoseFile) -> list[PoseLink]:
-    """Read EuRoC's sensor.yaml: the pose of a sensor in the body, T_BS."""
+    """Return the link in EuRoC's sensor.yaml: the pose of a sensor in the body, T_BS."""
     document = _yaml(file)
     with _refused(file, "T_BS with rows, cols and data of 16 numbers"):
         data = document["T_BS"]["data"]
@@ -101,7 +101,7 @@ def read_euroc_sensor(file: PoseFile) -> list[PoseLink]:
 
 
 def read_kitti_calibration(file: PoseFile) -> list[PoseLink]:
-    """Read KITTI's calib.txt: cameras from their projections, the velodyne, the IMU."""
+    """Return the links in KITTI's calib.txt: cameras (from projections), velodyne, IMU."""
     found: dict[str, list[float]] = {}
     for line in file.lines():
         key, _, rest = line.partition(":")
@@ -142,7 +142,7 @@ _IDENTITY: Final = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def _offset(projection: Sequence[float]) -> list[float]:
-    """Return the translation in a projection K [I | t]."""
+    """Return the translation of a camera from its projection matrix K [I | t]."""
     fx, _, cx, px, _, fy, cy, py, _, _, _, z = projection
     if not fx or not fy:
         raise InputError("A projection of KITTI's calib.txt has the focal length 0.")
@@ -158,10 +158,10 @@ def _still(parent: str, child: str, numbers: Sequence[float]) -> PoseLink:
 
 
 def _matrix(rows: Any) -> list[float]:
-    """Return the upper three rows of a matrix, row by row.
+    """Return the upper three rows of a transformation matrix, row by row.
 
     Raises:
-        ValueError: If the numbers form no matrix.
+        ValueError: If the numbers are not such a matrix.
     """
     if not isinstance(rows, list) or len(rows) not in (3, 4):
         raise ValueError("no matrix")
@@ -182,7 +182,7 @@ def _text(file: PoseFile) -> str:
 
 
 def _yaml(file: PoseFile) -> Mapping[Any, Any]:
-    # OpenCV's head is no YAML.
+    # OpenCV's first line is not YAML.
     text = re.sub(r"\A%YAML:.*\n", "", _text(file))
     with _refused(file, "YAML with names and values"):
         document = yaml_guard.load(text)
@@ -192,7 +192,7 @@ def _yaml(file: PoseFile) -> Mapping[Any, Any]:
 
 
 class _refused:  # noqa: N801 - used as a function
-    """Add the file's name to errors raised in this block."""
+    """Context that adds the file's name to errors raised in its block."""
 
     def __init__(self, file: PoseFile, expected: str) -> None:
         self._file = file

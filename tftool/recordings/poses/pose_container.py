@@ -1,4 +1,4 @@
-"""A pose file as a container: its links as messages, readable like a recording."""
+"""Pose file that is read like a recording: its links become transform messages."""
 
 from collections.abc import Collection, Iterator
 from pathlib import Path
@@ -30,10 +30,10 @@ _NOT_ROTATION: Final = 1e-2
 
 
 class PoseContainer:
-    """Poses of one file as messages on /tf and /tf_static; see `Container`."""
+    """Container with the poses of one file as messages on /tf and /tf_static; see `Container`."""
 
     def __init__(self, path: Path, form: PoseFormat, options: PoseOptions) -> None:
-        """Read the file.
+        """Read a pose file.
 
         Raises:
             InputError: If the file cannot be read.
@@ -57,7 +57,7 @@ class PoseContainer:
             for what, count in file.oddities.items()
         ]
         if not any(len(when) for _, when, _ in parts):
-            raise InputError(f"'{path}' holds no poses. {' '.join(self.damage)}".rstrip())
+            raise InputError(f"'{path}' has no poses. {' '.join(self.damage)}".rstrip())
         self._batch = _joined(parts)
         self.start, self.end = int(self._batch.log_times[0]), int(self._batch.log_times[-1])
         self.streams = self.channels
@@ -70,18 +70,18 @@ class PoseContainer:
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages per stream."""
+        """Return the number of messages of each stream."""
         found: list[int] = np.bincount(self._batch.senders, minlength=len(self.streams)).tolist()
         return found
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the approximate number of messages of some streams."""
+        """Return the number of messages in some streams."""
         return sum(self.counts[number] for number in wanted)
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams; see `Container`."""
+        """Yield the messages of some streams in batches; see `Container`."""
         chosen = np.flatnonzero(np.isin(self._batch.senders, list(wanted)))
         if len(chosen):
             yield self._batch.chosen(chosen)
@@ -89,7 +89,7 @@ class PoseContainer:
             progress(self.size, self.size)
 
     def close(self) -> None:
-        """Do nothing: the file is closed after reading."""
+        """Do nothing: the file was closed after reading."""
 
     def write_mcap(self, path: Path) -> None:
         """Write the messages as an MCAP file, for editing."""
@@ -103,7 +103,7 @@ class PoseContainer:
 
 
 def open_poses(found: Found) -> PoseContainer:
-    """Read a pose file, with the options for its name.
+    """Read a pose file, with the options given for it.
 
     Raises:
         InputError: If the file cannot be read.
@@ -114,7 +114,7 @@ def open_poses(found: Found) -> PoseContainer:
 def _solved(
     link: PoseLink, form: PoseFormat, options: PoseOptions, file: PoseFile
 ) -> tuple[Stamps, Floats]:
-    """Return a link's stamps, shape (n,), and poses, shape (n, 7), as ROS frames, by stamp."""
+    """Return a link's stamps, shape (n,), and its poses in ROS's axes, shape (n, 7), by stamp."""
     stamps = np.array(link.stamps, dtype=np.int64)
     numbers = np.array(link.numbers, dtype=np.float64).reshape(-1, link.width)
     keep = np.asarray(np.isfinite(numbers).all(axis=1))
@@ -154,7 +154,7 @@ def _quaternions(matrices: Floats, file: PoseFile) -> Floats:
     """Return the quaternions x y z w of rotation matrices, shape (n, 3, 3).
 
     Raises:
-        InputError: If one is not a rotation.
+        InputError: If a matrix is not a rotation.
 
     Source:
         Shepperd, "Quaternion from Rotation Matrix", 1978.
@@ -188,12 +188,12 @@ def _quaternions(matrices: Floats, file: PoseFile) -> Floats:
 
 
 def _messages(link: PoseLink, prefix: str, stamps: Stamps, poses: Floats) -> np.ndarray:
-    """Return one message per pose, shape (n, bytes)."""
+    """Return the bytes of one TFMessage per pose, shape (n, bytes)."""
     before = f"{prefix}/" if prefix else ""
     sample = TransformStamped(1, before + link.parent, before + link.child, Transform())
     template = np.frombuffer(encode_transforms((sample,)), dtype=np.uint8)
     rows = np.tile(template, (len(stamps), 1))
-    # Behind the 4 bytes of the encapsulation and the 4 of the count.
+    # The stamp is after 4 bytes of CDR's header and 4 bytes of the number of transforms.
     rows[:, 8:12] = (stamps // NANOSECONDS).astype("<i4")[:, None].view(np.uint8)
     rows[:, 12:16] = (stamps % NANOSECONDS).astype("<u4")[:, None].view(np.uint8)
     rows[:, -56:] = np.ascontiguousarray(poses, dtype="<f8").view(np.uint8)
@@ -201,7 +201,7 @@ def _messages(link: PoseLink, prefix: str, stamps: Stamps, poses: Floats) -> np.
 
 
 def _joined(parts: "list[tuple[int, Stamps, np.ndarray]]") -> Batch:
-    """Merge all links' messages into one batch, in order of time."""
+    """Merge the messages of all links into one batch, in order of time."""
     lengths = np.concatenate([np.full(len(when), rows.shape[1]) for _, when, rows in parts])
     senders = np.concatenate([np.full(len(when), number) for number, when, _ in parts])
     log_times = np.concatenate([when for _, when, _ in parts])

@@ -1,6 +1,6 @@
-"""Table of pose file formats: recognition, reader and convention of each.
+"""Table of the formats of pose files: how each is recognised and read, and its convention.
 
-A new format needs a function that recognises the first bytes, a reader, and one entry.
+A new format needs a function that recognises the first bytes, a reader, and one entry in the table.
 """
 
 import re
@@ -22,10 +22,10 @@ _JSON: Final = re.compile(r'"(frames|transform_matrix|camera_angle_x|fl_x|camera
 
 
 class Head:
-    """The first bytes of a file, as text, lines and words."""
+    """First bytes of a file, as text, lines and numbers."""
 
     def __init__(self, data: bytes) -> None:
-        """Take the bytes; the last line is left out if it may be incomplete."""
+        """Decode the first bytes; the last line is omitted if it may be incomplete."""
         self.data = data
         self.text = data.decode("utf-8-sig", "replace")
         lines = self.text.splitlines()
@@ -33,12 +33,12 @@ class Head:
 
     @cached_property
     def row(self) -> str:
-        """First line that is neither empty nor a comment."""
+        """First line that is neither empty nor a comment; "" if there is none."""
         return next((one for one in map(str.strip, self.lines) if one and one[0] != "#"), "")
 
     @cached_property
     def numbers(self) -> list[float]:
-        """Numbers of that line; empty if one of its words is not a number."""
+        """Numbers in that first line (`row`); empty if one of its words is not a number."""
         try:
             return [float(one) for one in self.row.replace(",", " ").split()]
         except ValueError:
@@ -46,17 +46,17 @@ class Head:
 
     @property
     def has_commas(self) -> bool:
-        """Whether commas separate the numbers of that line."""
+        """Whether the numbers in `row` are separated by commas."""
         return "," in self.row
 
     @property
     def has_nanoseconds(self) -> bool:
-        """Whether the first word of that line is an integer too large for seconds."""
+        """Whether the first word of `row` is an integer too large for seconds."""
         word = self.row.partition(",")[0].strip()
         return word.isdigit() and len(word) < 20 and int(word) >= _FIRST_NANOSECONDS
 
     def has_line(self, pattern: str) -> bool:
-        """Whether a line matches a pattern at its beginning."""
+        """Whether some line begins with text that matches a pattern."""
         return re.search(rf"^(?:{pattern})", self.text, re.MULTILINE) is not None
 
 
@@ -65,14 +65,14 @@ class PoseFormat:
     """One format of pose files.
 
     Attributes:
-        name: Name, as --pose-format takes it.
-        fits: Whether a file that begins so may have it.
-        read: Reads a file.
+        name: Name for --pose-format.
+        fits: Function that checks whether a file's first bytes may be of this format.
+        read: Function that reads a file.
         parent: Default name of the parent.
         child: Default name of the child.
-        convention: Numbers in words.
-        inverse: Whether its numbers map the parent's points into the child.
-        axes: Axes of its cameras, where they are not those of the frame that is made.
+        convention: Description of the numbers.
+        inverse: Whether the numbers map points from the parent to the child.
+        axes: Axes of the cameras, if other than ROS's optical axes.
     """
 
     name: str
@@ -222,20 +222,20 @@ FORMATS: Final = (
         axes="opencv",
     ),
 )
-"""Every format of pose files that is read."""
+"""All supported formats of pose files."""
 
 
 def format_named(name: str) -> PoseFormat:
-    """Return a format by its name.
+    """Return the format of pose files with a name.
 
     Raises:
-        UsageError: If there is none.
+        UsageError: If there is no such format.
     """
     for one in FORMATS:
         if one.name == name:
             return one
     names = ", ".join(one.name for one in FORMATS)
-    raise UsageError(f"--pose-format takes one of {names}, not '{name}'.")
+    raise UsageError(f"--pose-format must be one of {names}, not '{name}'.")
 
 
 def recognised(data: bytes, name: str) -> PoseFormat | None:
@@ -248,12 +248,12 @@ def recognised(data: bytes, name: str) -> PoseFormat | None:
     found = [one for one in FORMATS if one.fits(head)]
     if len(found) > 1:
         names = " and ".join(f"{one.name} ({one.convention})" for one in found)
-        raise InputError(f"'{name}' fits {names}: --pose-format NAME decides.")
+        raise InputError(f"'{name}' fits {names}: choose with --pose-format NAME.")
     return found[0] if found else None
 
 
 def convention_of(word: str, path: Path) -> str:
-    """Describe the convention of a file's poses in a sentence."""
+    """Return a sentence that describes the convention of a file's poses."""
     form, options = format_of_file(word, path)
     said = form.convention
     if options.inverted:
@@ -267,11 +267,11 @@ def convention_of(word: str, path: Path) -> str:
 
 
 def format_of_file(word: str, path: Path) -> tuple[PoseFormat, PoseOptions]:
-    """Return the format of a file, and its options.
+    """Return the format of a pose file, and the options given for the file.
 
     Raises:
         InputError: If the file is not a pose file.
-        UsageError: If --pose-format names none.
+        UsageError: If --pose-format does not name a format.
     """
     options = options_of(word)
     prefix, _ = path_behind_prefix(word)
@@ -282,5 +282,5 @@ def format_of_file(word: str, path: Path) -> tuple[PoseFormat, PoseOptions]:
     with path.open("rb") as file:
         form = recognised(file.read(HEAD), str(path))
     if form is None:
-        raise InputError(f"'{path}' is no pose file any more.")
+        raise InputError(f"'{path}' is not a pose file any more.")
     return form, options

@@ -1,4 +1,4 @@
-"""Links of a pose file as read: stamps and numbers in the file's convention."""
+"""Links of a pose file as read, with stamps and numbers in the file's convention."""
 
 from array import array
 from collections import Counter
@@ -14,13 +14,13 @@ from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.recordings.poses.pose_options import PoseOptions
 
 MOST_POSES: Final = 10_000_000
-"""Poses of one file that are read."""
+"""Maximum number of poses in one file."""
 
 LARGEST_FILE: Final = 1 << 31
-"""Bytes of one file that is read."""
+"""Maximum size of a file, bytes."""
 
 LONGEST_LINE: Final = 1 << 20
-"""Bytes of one line of text."""
+"""Maximum length of a line of text, bytes."""
 
 _LAST: Final = (1 << 31) * NANOSECONDS
 _LONGEST_NUMBER: Final = 64
@@ -28,15 +28,15 @@ _LONGEST_NUMBER: Final = 64
 
 @dataclass(slots=True)
 class PoseLink:
-    """One link: pose of a child in its parent, once or over time.
+    """Poses of one child in its parent, at one or many times.
 
     Attributes:
         parent: Name of the parent.
         child: Name of the child.
-        static: Whether the one pose holds at all times.
-        width: Numbers of one pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of the matrix).
-        stamps: Nanoseconds, one a pose.
-        numbers: The poses, concatenated.
+        static: Whether the link has a single pose, valid at all times.
+        width: Numbers per pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of the matrix).
+        stamps: Stamp of each pose, nanoseconds.
+        numbers: Numbers of all poses, concatenated.
     """
 
     parent: str
@@ -51,22 +51,22 @@ class PoseLink:
 
 
 class PoseFile:
-    """A pose file during reading: lines, options, and unusual rows.
+    """A pose file while it is read, with its options and notes about unusual rows.
 
     Attributes:
-        path: Path.
-        options: Options of reading.
-        default: Names of the format's frames.
-        oddities: Rows that were left out or out of order, as the middle of a sentence.
+        path: Path of the file.
+        options: Options for reading.
+        default: Names of parent and child in the format.
+        oddities: Number of unusual rows (omitted or out of order), by a part of a sentence.
     """
 
     def __init__(self, path: Path, options: PoseOptions, default: tuple[str, str]) -> None:
-        """Take a file.
+        """Prepare to read a file.
 
         Args:
-            path: Path.
-            options: Options of reading.
-            default: Names of parent and child, where the options name none.
+            path: Path of the file.
+            options: Options for reading.
+            default: Names of parent and child, if the options have none.
         """
         self.path = path
         self.options = options
@@ -76,11 +76,11 @@ class PoseFile:
 
     @property
     def frames(self) -> tuple[str, str]:
-        """Names of parent and child."""
+        """Names of parent and child, from the options or else the format."""
         return self.default if self.options.frames is None else self.options.pair()
 
     def link(self, width: int = 7) -> PoseLink:
-        """Make the single link of a trajectory."""
+        """Return an empty link between the file's two frames, for a trajectory."""
         return PoseLink(*self.frames, width=width)
 
     def open(self) -> BinaryIO:
@@ -98,7 +98,7 @@ class PoseFile:
         return file
 
     def lines(self, path: Path | None = None) -> Iterator[str]:
-        """Yield every line of the file, or of one beside it, without line ends."""
+        """Yield every line of the file (or of another file, `path`) without line ends."""
         name = path or self.path
         own = PoseFile(name, self.options, self.default)
         self._place = 0
@@ -117,7 +117,7 @@ class PoseFile:
                 yield line.replace(",", " ").split()
 
     def fail(self, expected: str, found: str, path: Path | None = None) -> NoReturn:
-        """Raise an error about the current line.
+        """Raise an error about the current line: what was expected, and what was found.
 
         Raises:
             InputError: Always, with the file and the line.
@@ -127,7 +127,7 @@ class PoseFile:
         )
 
     def floats(self, words: list[str], expected: str) -> list[float]:
-        """Parse numbers; refuse other words."""
+        """Parse words as numbers; raise an error for other words."""
         try:
             return [float(word) for word in words]
         except ValueError:
@@ -135,7 +135,7 @@ class PoseFile:
             self.fail(expected, f"'{bad[:40]}'")
 
     def seconds(self, word: str, expected: str, path: Path | None = None) -> Stamp:
-        """Parse a stamp in seconds, exact to the nanosecond."""
+        """Parse a stamp in seconds; return nanoseconds, exactly."""
         whole, _, part = word.partition(".")
         is_short = word.isascii() and len(word) < 24 and len(part) <= 9
         if is_short and whole.isdigit() and (part.isdigit() or not part):
@@ -144,7 +144,7 @@ class PoseFile:
         return self._decimal(word, NANOSECONDS, expected, path)
 
     def nanoseconds(self, word: str, expected: str) -> Stamp:
-        """Parse a stamp in nanoseconds."""
+        """Parse a stamp in nanoseconds; return nanoseconds."""
         if word.isascii() and word.isdigit() and len(word) < 24:
             return self._checked(int(word), word, expected, None)
         return self._decimal(word, 1, expected, None)
@@ -172,8 +172,7 @@ class PoseFile:
         return stamp
 
     def at_rate(self, link: PoseLink) -> None:
-        """Compute stamps for a link's poses from --pose-rate; the first stamp is one period after
-        0.
+        """Compute stamps for a link's poses from --pose-rate, beginning one period after 0.
 
         Raises:
             InputError: If --pose-rate was not given.
@@ -182,20 +181,20 @@ class PoseFile:
         if rate is None:
             raise InputError(f"'{self.path}' has no stamps: give a rate with --pose-rate HZ.")
         count = len(link.numbers) // link.width
-        # Stamp 0 asks for the latest in tf2, so no pose can have it.
+        # In tf2, stamp 0 means the latest, so the first pose must not have it.
         link.stamps = array("q", (round(place * 1e9 / rate) for place in range(1, count + 1)))
 
     def check_count(self, link: PoseLink) -> None:
-        """Refuse a file with more poses than the limit.
+        """Raise an error if a link has more poses than the limit.
 
         Raises:
-            InputError: If the file has more poses.
+            InputError: If there are more than `MOST_POSES` poses.
         """
         if len(link.numbers) > MOST_POSES * link.width:
             raise InputError(f"'{self.path}' has more than {MOST_POSES:,} poses: split it.")
 
     def name(self, word: str) -> str:
-        """Make a frame name from a text in the file.
+        """Return a word of the file as a frame name, after checking it.
 
         Raises:
             InputError: If the name is empty, too long, or contains a zero character.
@@ -205,19 +204,19 @@ class PoseFile:
         return word
 
     def renamed(self, what: str, links: list[PoseLink]) -> list[PoseLink]:
-        """Rename the frames of the single link of a file that names them itself, as --frames says.
+        """Rename the frames of a file's single link as --frames says, though the file has names.
 
         Args:
-            what: Plural of what the file holds: "pairs", "links".
-            links: The links.
+            what: Plural noun for the contents of the file: "pairs", "links".
+            links: Links of the file.
 
         Raises:
-            UsageError: If there are several.
+            UsageError: If --frames is given and the file has several links.
         """
         if self.options.frames is not None:
             if len(links) > 1:
                 raise UsageError(
-                    f"'{self.path}' holds {len(links)} {what} with names of their own: leave out "
+                    f"'{self.path}' has {len(links)} {what} with their own names: leave out "
                     "--frames."
                 )
             for link in links:

@@ -11,7 +11,7 @@ from typing import Any, Final
 from tftool.base.errors import UsageError
 
 AXES: Final = ("opencv", "opengl")
-"""Names of the axes that a camera can have: z forward and y down, or z back and y up."""
+"""Names of camera axes: "opencv" (z forward, y down) or "opengl" (z back, y up)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,12 +19,12 @@ class PoseOptions:
     """Options for reading one pose file.
 
     Attributes:
-        frames: Names of its frames, "PARENT:CHILD"; those of the format if None.
-        pose_rate: Poses in a second, for a file without stamps.
-        pose_format: Name of the format; decided by content if None.
-        inverted: Whether the file holds the inverse of its format's usual poses.
-        axes: Axes of the file's cameras, one of `AXES`; those of the format if None.
-        prefix: Name that goes before each frame, with a slash.
+        frames: Names of the frames, "PARENT:CHILD"; None for the format's names.
+        pose_rate: Poses per second, for a file without stamps.
+        pose_format: Name of the format; None to recognise it from the content.
+        inverted: Whether the file has the inverse of its format's usual poses.
+        axes: Axes of the file's cameras, one of `AXES`; None for the format's axes.
+        prefix: Name to put before each frame name, followed by a slash.
     """
 
     frames: str | None = None
@@ -40,12 +40,14 @@ class PoseOptions:
         if self.pose_rate is not None and not (
             math.isfinite(self.pose_rate) and 1e-6 <= self.pose_rate <= 1e6
         ):
-            raise UsageError(f"--pose-rate takes poses in a second, not {self.pose_rate:g}.")
+            raise UsageError(
+                f"--pose-rate must be a number of poses per second, not {self.pose_rate:g}."
+            )
         if self.axes is not None and self.axes not in AXES:
-            raise UsageError(f"--axes takes {' or '.join(AXES)}, not '{self.axes}'.")
+            raise UsageError(f"--axes must be {' or '.join(AXES)}, not '{self.axes}'.")
 
     def pair(self) -> tuple[str, str]:
-        """Names of parent and child.
+        """Return the names of parent and child in `frames`.
 
         Raises:
             UsageError: If the text is not two different names with a colon between.
@@ -53,18 +55,18 @@ class PoseOptions:
         parent, _, child = (self.frames or "").partition(":")
         if not parent or not child or ":" in child or parent == child:
             raise UsageError(
-                f"--frames takes two names, such as odom:base_link, not '{self.frames}'."
+                f"--frames must be two names, such as odom:base_link, not '{self.frames}'."
             )
         return parent, child
 
     def refuse(self, what: str) -> None:
-        """Refuse these options if FROM is not a pose file.
+        """Raise an error if any of these options was given, for a source that is not a pose file.
 
         Args:
             what: Name of the source, as the beginning of a sentence.
 
         Raises:
-            UsageError: If one was given.
+            UsageError: If an option was given.
         """
         given = [
             f"--{one.name.replace('_', '-')}"
@@ -80,8 +82,8 @@ class ChosenOptions:
     """Options for all pose files of one command, and for some of them by name.
 
     Attributes:
-        every: Options for files that have none of their own.
-        by_name: Options by the word that names a file.
+        every: Options for files without separate options.
+        by_name: Options of single files, by the word that names the file.
     """
 
     every: PoseOptions = PoseOptions()
@@ -94,10 +96,9 @@ _NONE: Final = ChosenOptions()
 
 @contextmanager
 def pose_options(chosen: ChosenOptions) -> Iterator[None]:
-    """Apply options to pose files read within this block.
+    """Apply options to all pose files that are read within this `with` block.
 
-    A recording is opened at many places by its name alone; each of them reads the same file with
-    the same options.
+    Recordings are opened in many places by name only: this gives all of them the same options.
     """
     token = _CHOSEN.set(chosen)
     try:
@@ -107,18 +108,18 @@ def pose_options(chosen: ChosenOptions) -> Iterator[None]:
 
 
 def options_of(word: str) -> PoseOptions:
-    """Return the options for a file."""
+    """Return the options for the file that a word names."""
     chosen = _CHOSEN.get(_NONE)
     return chosen.by_name.get(word, chosen.every)
 
 
 def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
-    """Collect options, each for the file before it.
+    """Return options by file: an option belongs to the file before it.
 
-    An option that follows no file is for every file.
+    An option before the first file belongs to all files.
 
     Args:
-        given: Each option's word before it, its name and its value.
+        given: For each option the word of the file before it, the option's name and its value.
     """
     every: dict[str, Any] = {}
     named: dict[str, dict[str, Any]] = {}
@@ -132,15 +133,15 @@ def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
 
 
 def names_file(word: str) -> bool:
-    """Whether a word is a file, with or without a prefix."""
+    """Whether a word names a file, with or without a prefix (NAME=FILE)."""
     return path_behind_prefix(word)[1] is not None
 
 
 def path_behind_prefix(word: str) -> tuple[str, Path | None]:
-    """Split NAME=FILE into prefix and file; no prefix if the whole word is a file.
+    """Split NAME=FILE into prefix and file; the prefix is empty if the whole word is a file.
 
     Returns:
-        The prefix, and the file; None where there is no such file.
+        The prefix, and the file; None if there is no such file.
     """
     try:
         if Path(word).exists():

@@ -1,4 +1,4 @@
-"""Readers of trajectories: TUM, TUM with commas, EuRoC, KITTI, and tables of `export`."""
+"""Readers of trajectories: TUM, TUM with commas, EuRoC, KITTI, and files of `tftool export`."""
 
 import csv
 from array import array
@@ -16,11 +16,11 @@ TUM_ROW: Final = "8 numbers (stamp x y z qx qy qz qw)"
 EUROC_ROW: Final = "8 numbers or more (stamp in ns, x y z, qw qx qy qz)"
 KITTI_ROW: Final = "12 numbers (the upper three rows of a matrix)"
 TABLE_COLUMNS: Final = ("stamp_ns", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw")
-"""Columns of the CSV and Parquet files that `export` writes."""
+"""Columns of the CSV and Parquet files that `tftool export` writes."""
 
 
 def read_tum(file: PoseFile) -> list[PoseLink]:
-    """Read TUM's trajectory: a stamp in seconds, the position, the quaternion with w last."""
+    """Return the link in a TUM trajectory: stamp in seconds, position, quaternion with w last."""
     link = file.link()
     for words in file.rows():
         if len(words) != 8:
@@ -32,7 +32,7 @@ def read_tum(file: PoseFile) -> list[PoseLink]:
 
 
 def read_euroc(file: PoseFile) -> list[PoseLink]:
-    """Read EuRoC's data.csv: whole nanoseconds, the position, the quaternion with w first."""
+    """Return the link in EuRoC's data.csv: nanoseconds, position, quaternion with w first."""
     link = file.link()
     for words in file.rows():
         if len(words) < 8:
@@ -45,7 +45,7 @@ def read_euroc(file: PoseFile) -> list[PoseLink]:
 
 
 def read_kitti(file: PoseFile) -> list[PoseLink]:
-    """Read KITTI's poses; stamps come from a file beside it, else from --pose-rate."""
+    """Return the link in KITTI's poses, with stamps from a second file or --pose-rate."""
     link = file.link(width=12)
     for words in file.rows():
         if len(words) != 12:
@@ -60,7 +60,7 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
         try:
             file.at_rate(link)
         except InputError as error:
-            raise InputError(f"{error} Or put them into '{beside[0].name}' beside it.") from None
+            raise InputError(f"{error} Or put stamps into '{beside[0].name}' beside it.") from None
         return [link]
     for words in file.rows(path=times):
         link.stamps.append(file.seconds(words[0], "a stamp in seconds", times))
@@ -76,7 +76,7 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
 
 
 def read_csv(file: PoseFile) -> list[PoseLink]:
-    """Read the CSV of `export`: named columns, with names if there are several pairs."""
+    """Return the links in a CSV file of `tftool export`, whose columns have names."""
     links: dict[tuple[str, str], PoseLink] = {}
     columns: list[int] = []
     names: list[int] = []
@@ -106,7 +106,7 @@ def read_csv(file: PoseFile) -> list[PoseLink]:
 
 
 def read_npz(file: PoseFile) -> list[PoseLink]:
-    """Read the NumPy archive of `export`.
+    """Return the link in a NumPy archive of `tftool export`.
 
     Raises:
         InputError: If the file has other arrays, or their shapes do not match.
@@ -157,7 +157,7 @@ def read_npz(file: PoseFile) -> list[PoseLink]:
 
 
 def read_parquet(file: PoseFile) -> list[PoseLink]:
-    """Read the Parquet table of `export`.
+    """Return the links in a Parquet table of `tftool export`.
 
     Raises:
         InputError: If the file has other columns.

@@ -1,4 +1,4 @@
-"""Records of a ROS 1 bag, and the message entries of a chunk's index.
+"""Parsing of the records of a ROS 1 bag, and of the index of a chunk.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -20,7 +20,7 @@ from tftool.recordings.containers import ROS1_MAGIC
 from tftool.recordings.contract import Stamps
 
 Entries: TypeAlias = npt.NDArray[np.uint32]
-"""Of each message seconds, nanoseconds, and where its record begins, shape (n, 3)."""
+"""Index entries: seconds, nanoseconds and offset of each message's record, shape (n, 3)."""
 
 MESSAGE: Final = b"\x02"
 BAG: Final = b"\x03"
@@ -38,11 +38,11 @@ _HEAD = 4096
 
 
 def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int]:
-    """Parse a record's header; return it, its data's offset and length.
+    """Return the header of a record, and the offset and length of the record's data.
 
     Raises:
         InputError: If the record is too long, or longer than the file.
-        struct.error: If the head is cut.
+        struct.error: If the header is cut off.
     """
     block = file.up_to(position, _HEAD)
     (length,) = U32.unpack_from(block)
@@ -55,7 +55,7 @@ def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int
 
 
 class ChunkInfo(NamedTuple):
-    """A chunk in a bag's index: offset, times, and messages per connection."""
+    """Entry of a chunk in a bag's index: offset, times, and number of messages per connection."""
 
     position: int
     start: Stamp
@@ -64,7 +64,7 @@ class ChunkInfo(NamedTuple):
 
 
 def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
-    """Return a bag's header, its index's offset, and the index; 0 and b"" without one.
+    """Return a bag's header, and the offset and bytes of its index; 0 and b"" without an index.
 
     Raises:
         InputError: If the header is missing, or the index is not in the file.
@@ -83,7 +83,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
 
 
 def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
-    """Read a chunk info record.
+    """Parse a chunk info record of the index.
 
     Raises:
         KeyError: If the header lacks a field.
@@ -96,15 +96,15 @@ def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
 
 
 def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Return offsets, lengths and log times of a connection's messages.
+    """Return offsets and lengths of the payloads of a connection's messages, and their log times.
 
     Args:
-        data: A chunk's records.
-        entries: Index entries of its messages.
-        connection: Connection of the messages.
+        data: Bytes of a chunk's records.
+        entries: Index entries of the messages.
+        connection: Number of the connection.
 
     Raises:
-        InputError: If the index points at something else.
+        InputError: If the index points to something other than these messages.
     """
     first = int(entries[0, 2])
     if first > len(data) - 4:
@@ -136,10 +136,10 @@ def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Sta
 
 
 def _within(places: Stamps, data: Bytes) -> Stamps:
-    """Return the four-byte numbers at some offsets.
+    """Return the four-byte numbers at some offsets in a chunk's data.
 
     Raises:
-        InputError: If one is outside.
+        InputError: If an offset is outside the data.
     """
     if len(data) < 4 or int(places.max()) > len(data) - 4:
         raise InputError("its index points outside of it")
@@ -147,14 +147,14 @@ def _within(places: Stamps, data: Bytes) -> Stamps:
 
 
 def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes, bytes], int, int]]:
-    """Yield every record's header, and the start and end of its data.
+    """Yield the header of every record, and the start and end of the record's data.
 
     Args:
-        data: Records.
-        partial: Whether the last one may be cut.
+        data: Bytes of the records.
+        partial: Whether the last record may be cut off.
 
     Raises:
-        InputError: At a record that exceeds the end.
+        InputError: If a record extends beyond the data.
     """
     position, size = 0, len(data)
     while position + 8 <= size:
@@ -177,7 +177,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
 
 
 def fields_of(header: bytes) -> dict[bytes, bytes]:
-    """Return the fields of a header, by name."""
+    """Return the fields of a record's header, by name."""
     found = {}
     position, size = 0, len(header)
     while position + 4 <= size:
@@ -192,6 +192,6 @@ def fields_of(header: bytes) -> dict[bytes, bytes]:
 
 
 def time_of(raw: bytes) -> Stamp:
-    """Return the stamp that eight bytes of a header mean, nanoseconds."""
+    """Return the stamp, nanoseconds, in eight bytes of a header."""
     sec, nanosec = _TIME.unpack(raw)
     return int(sec) * NANOSECONDS + int(nanosec)

@@ -1,4 +1,4 @@
-"""Reading ROS 1 bags of version 2.0: by index, else chunk by chunk up to any damage.
+"""Reader of ROS 1 bags of version 2.0: by index, else chunk by chunk up to any damage.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -42,19 +42,19 @@ _KEPT = (b"callerid", b"latching", b"md5sum")
 
 
 class Rosbag1(ChunkedReader):
-    """A ROS 1 bag; see `ContainerReader`."""
+    """Reader of a ROS 1 bag; see `ContainerReader`."""
 
     kind = "ROS 1 bag"
     container = "bag"
     magic = ROS1_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open the file and list its contents.
+        """Open the file, and find its connections and chunks.
 
         Args:
-            path: Path.
-            by_index: Whether its messages are to be read by its index, which is made where the
-                file has none; otherwise they are read with `blocks`.
+            path: Path of the file.
+            by_index: Whether messages are read by the index, which is built if the file has none;
+                otherwise they are read with `blocks`.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -72,7 +72,7 @@ class Rosbag1(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """List the contents, by the index or without it."""
+        """Find the connections and chunks, by the index or without it."""
         complete = False
         try:
             complete = self._read_index()
@@ -88,16 +88,16 @@ class Rosbag1(ChunkedReader):
             self.end = max((high for _, high in spans), default=0)
 
     def origin(self, number: int) -> tuple[bytes, bytes]:
-        """Return a connection's topic, and its publisher's header, as recorded."""
+        """Return the topic of a connection, and the header from its publisher, as recorded."""
         return self._headers[number]
 
-    # Content
+    # Index
 
     def _read_index(self) -> bool:
-        """Read the index at the end; return whether there is one.
+        """Read the index at the end of the file; return whether there is an index.
 
         Raises:
-            InputError: If the index is damaged; also the others of `FAULTS`.
+            InputError: If the index is damaged; the other `FAULTS` are possible too.
         """
         bag, place, data = index_of(self)
         if place == 0:
@@ -113,7 +113,7 @@ class Rosbag1(ChunkedReader):
         infos = sorted(self._infos.values())
         if not self._by_index:
             if infos:
-                # How it is written shows in its first chunk.
+                # Detect compression and size from the first chunk.
                 self._chunk_at(infos[0].position, *record_head(self, infos[0].position))
             return True
         (count,) = U32.unpack(bag[b"chunk_count"])
@@ -130,13 +130,13 @@ class Rosbag1(ChunkedReader):
         return True
 
     def _forget(self) -> None:
-        """Drop everything known, to start again."""
+        """Drop everything found so far, to start again."""
         super()._forget()
         self._headers.clear()
         self._infos.clear()
 
     def _describe(self, header: Mapping[bytes, bytes], data: bytes) -> None:
-        """Register a connection of a record."""
+        """Register the connection that a record describes."""
         check_told(len(data))
         (number,) = U32.unpack(header[b"conn"])
         if number in self.channels:
@@ -153,7 +153,7 @@ class Rosbag1(ChunkedReader):
         name = topic.decode("utf-8", "surrogateescape")
         self._learn(number, Channel(name, text(b"type"), "ros1", "ros1msg", definition, metadata))
 
-    # From front to back
+    # Sequential reading
 
     def blocks(self) -> Iterator[Chunk]:
         """Yield the chunks of the bag."""
@@ -162,9 +162,7 @@ class Rosbag1(ChunkedReader):
             self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> Iterator[Chunk]:
-        """Walk through the file record by record; record where it ends, and whether it ends
-        properly.
-        """
+        """Yield the chunks while reading record by record; note how the file ends."""
         position, size = len(ROS1_MAGIC), self.size
         while position < size:
             try:
@@ -195,7 +193,7 @@ class Rosbag1(ChunkedReader):
     def _chunk_at(
         self, position: int, header: Mapping[bytes, bytes], data: int, length: int
     ) -> Chunk:
-        """Return the chunk of a record."""
+        """Return the chunk of a record, and update `style`."""
         chunk = Chunk(self, position)
         self._look_at(chunk, header, data, length)
         style = self.style
@@ -204,7 +202,7 @@ class Rosbag1(ChunkedReader):
         return chunk
 
     def _look_at(self, chunk: Chunk, header: Mapping[bytes, bytes], data: int, length: int) -> None:
-        """Parse a chunk's header."""
+        """Parse a chunk's header, and set the chunk's fields."""
         if header.get(b"op") != CHUNK:
             raise InputError(f"no chunk is at byte {chunk.position}")
         chunk.cut = data + length > self.size
@@ -215,7 +213,7 @@ class Rosbag1(ChunkedReader):
         (chunk.size,) = U32.unpack(header[b"size"])
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Skip the index after a chunk, and use it if the bag's own index agrees."""
+        """Read the index after a chunk, and use it if the bag's own index agrees."""
         counts: dict[int, int] = {}
         while chunk.behind < self.size:
             try:
@@ -233,7 +231,7 @@ class Rosbag1(ChunkedReader):
             chunk.whole = True
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """Return the messages in some records; see `ChunkedReader`."""
+        """Yield the headers of the messages in some records; see `ChunkedReader`."""
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == MESSAGE:
@@ -244,11 +242,11 @@ class Rosbag1(ChunkedReader):
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Return the message facts in a chunk's index; see `ChunkedReader`."""
+        """Yield the places of messages from a chunk's index; see `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)
-            # Most writers put the time last in a message's header.
+            # Most writers put the time at the end of a message's header.
             times = np.stack([words_at(data, starts - n, "<u4") for n in (12, 8)], axis=1)
             marks = words_at(data, starts - 16, "<u4")
             if (times != entries[:, :2]).any() or (marks != _BEFORE_TIME).any():
@@ -256,13 +254,13 @@ class Rosbag1(ChunkedReader):
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, twice, and no sequences; see `ChunkedReader`."""
+        """Return log times, the same as publish times, and zeros; see `ChunkedReader`."""
         sec, nanosec = (words_at(data, starts - n, "<u4").astype(np.int64) for n in (12, 8))
         log_times = sec * NANOSECONDS + nanosec
         return log_times, log_times, np.zeros(len(starts), dtype=np.int64)
 
     def walked_table(self, chunk: Chunk) -> MessageTable:
-        """Return a chunk's messages; only they show when the chunk begins and ends."""
+        """Return a chunk's messages, and set the chunk's start and end from their log times."""
         found = super().walked_table(chunk)
         chunk.start = int(found.log_times.min()) if len(found) else 0
         chunk.end = int(found.log_times.max()) if len(found) else 0
@@ -273,7 +271,7 @@ class Rosbag1(ChunkedReader):
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams; see `Container`."""
+        """Yield the messages of some streams in batches; see `Container`."""
         chosen = self._chosen(wanted)
 
         def batch_of(chunk: Chunk, ahead: Ahead) -> Batch | None:
@@ -300,12 +298,12 @@ class Rosbag1(ChunkedReader):
         )
 
     def _locate(self, chunk: Chunk) -> None:
-        """Find a chunk's data, if its offset is unknown."""
+        """Find the offset of a chunk's data, if it is unknown."""
         if not chunk.place:
             self._look_at(chunk, *record_head(self, chunk.position))
 
     def _entries(self, chunk: Chunk, chosen: Container[int]) -> list[tuple[int, Entries]]:
-        """Return the index records after a chunk: chosen connections with messages, and entries."""
+        """Return the index entries after a chunk, by number of each chosen connection."""
         counts = chunk.counts or {}
         expected = len(counts) * 64 + 12 * sum(counts.values()) + 64
         data = self.up_to(chunk.place + chunk.packed, expected)
@@ -325,7 +323,7 @@ class Rosbag1(ChunkedReader):
         return found
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the part of a chunk to decompress ahead; None if it is read otherwise."""
+        """Return the data of a chunk to decompress ahead of reading; None if there is none."""
         try:
             self._locate(chunk)
         except FAULTS:

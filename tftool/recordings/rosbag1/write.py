@@ -1,4 +1,4 @@
-"""Writing ROS 1 bags of version 2.0: chunks with index, connections, and the end.
+"""Writer of ROS 1 bags of version 2.0: chunks with indexes, connections, and the bag's index.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -32,9 +32,9 @@ from tftool.recordings.rosbag1.format import (
 COMPRESSIONS: Final = ("none", "bz2", "lz4")
 
 CHUNK_SIZE: Final = 768 * 1024
-"""Bytes of messages in a chunk, as ROS 1 has it."""
+"""Default size of a chunk's uncompressed messages, bytes, as in ROS 1."""
 
-_HEADER_SIZE: Final = 4096  # of the bag's own record, which is written again in the end
+_HEADER_SIZE: Final = 4096  # bytes of the bag's header record, which is written again at the end
 _BEFORE: Final = b"\x26\x00\x00\x00\x04\x00\x00\x00op=\x02\x09\x00\x00\x00conn="
 _BETWEEN: Final = b"\x0d\x00\x00\x00time="
 _HEADS = np.dtype(
@@ -47,17 +47,17 @@ _HEADS = np.dtype(
         ("length", "<u4"),
     ]
 )
-"""A message's record up to its payload: three fields of 4, 9 and 13 bytes, and a length."""
+"""numpy's type of a message's record before the payload: fields of 4, 9 and 13 bytes, a length."""
 
 _LATEST: Final = 2**32 * NANOSECONDS
 
 
 class Rosbag1Writer(ChunkedWriter):
-    """Writer of a ROS 1 bag, whose streams are connections."""
+    """Writer of a ROS 1 bag; its channels are connections."""
 
     @staticmethod
     def in_style(path: Path, style: Mapping[str, Any], *, profile: str) -> "Rosbag1Writer":
-        """Create the file of an edit; see `ContainerFormat.create_like`."""
+        """Create an output file of an edit; see `ContainerFormat.create_like`."""
         del profile
         size = style.get("chunk_size") or CHUNK_SIZE
         return Rosbag1Writer(
@@ -69,12 +69,12 @@ class Rosbag1Writer(ChunkedWriter):
     def __init__(
         self, path: Path, *, compression: str = "none", chunk_size: int = CHUNK_SIZE
     ) -> None:
-        """Create the file; an existing one is replaced.
+        """Create the file; replace an existing file.
 
         Args:
-            path: Path.
-            compression: "none", "bz2" or "lz4", of each chunk.
-            chunk_size: Bytes of messages in a chunk before they are compressed.
+            path: Path of the file.
+            compression: Compression of each chunk: "none", "bz2" or "lz4".
+            chunk_size: Size of a chunk's uncompressed messages, bytes.
 
         Raises:
             UsageError: If the compression is not known, or not installed.
@@ -146,7 +146,7 @@ class Rosbag1Writer(ChunkedWriter):
             self.flush()
 
     def write_table(self, table: MessageTable) -> bool:
-        """Append messages together; return whether that was possible, else nothing is appended."""
+        """Append messages in bulk; return False, with nothing appended, if this is impossible."""
         logs = table.log_times
         known = self._defined.issuperset(table.owners)
         if not known or not 0 <= int(logs.min()) <= int(logs.max()) < _LATEST:
@@ -160,7 +160,7 @@ class Rosbag1Writer(ChunkedWriter):
         ends = np.append(places[1:], len(data))
         begin = 0
         while begin < len(table):
-            # Up to the message with which the chunk is full.
+            # Append up to the message that fills the chunk.
             moved = self._length - int(places[begin])
             full = int(np.searchsorted(ends, self._chunk_size - moved))
             end = min(full + 1, len(table))
@@ -202,7 +202,7 @@ class Rosbag1Writer(ChunkedWriter):
         self._put(b"".join(parts))
 
     def agrees(self, schemas: Mapping[int, object]) -> bool:
-        """Return True: bags have no type numbers that could collide."""
+        """Return True, because bags have no schema numbers that could conflict."""
         return True
 
     def adopt(self, channel: Channel, number: int, origin: tuple[bytes, bytes]) -> None:
@@ -210,13 +210,13 @@ class Rosbag1Writer(ChunkedWriter):
 
         Args:
             channel: The connection.
-            number: Number.
-            origin: Its topic and its publisher's header there; see `Rosbag1.origin`.
+            number: Number of the connection in both bags.
+            origin: Topic and publisher's header of the connection; see `Rosbag1.origin`.
         """
         self._add_connection(number, *origin)
 
     def end_block(self, chunk: Chunk) -> None:
-        """Do nothing: a bag's chunks are closed by size."""
+        """Do nothing: a chunk of a bag ends when it is full."""
 
     def copy_chunk(self, chunk: Chunk) -> None:
         """Copy a chunk and its index from another bag."""
@@ -250,7 +250,7 @@ class Rosbag1Writer(ChunkedWriter):
             self._file.close()
 
     def _head(self, place: int) -> bytes:
-        """Pack the bag's header record, padded to its size."""
+        """Return the bag's header record, padded to its fixed size."""
         fields = packed_fields(
             {
                 "op": BAG,
@@ -264,7 +264,7 @@ class Rosbag1Writer(ChunkedWriter):
 
 
 class Ros1Messages(Rosbag1Writer):
-    """Writer of ROS 2 messages into a ROS 1 bag; see `ContainerWriter`."""
+    """Writer that converts ROS 2 messages and writes a ROS 1 bag; see `ContainerWriter`."""
 
     def __init__(self, path: Path, *, compression: str | None = None) -> None:
         """Create the file; see `Rosbag1Writer`."""
@@ -272,10 +272,10 @@ class Ros1Messages(Rosbag1Writer):
         self._payloads: dict[int, Callable[[bytes], bytes]] = {}
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Register a stream.
+        """Register a ROS 2 channel as a connection; return its number.
 
         Raises:
-            InputError: If ROS 1 has no such type.
+            InputError: If ROS 1 has no equivalent type.
         """
         conversion = as_ros1(channel)
         number = super().channel(conversion.channel, number)
@@ -290,25 +290,25 @@ class Ros1Messages(Rosbag1Writer):
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message."""
+        """Convert and append one message."""
         super().write(channel, log_time, self._payloads[channel](payload))
 
 
 def packed_fields(fields: Mapping[str, bytes]) -> bytes:
-    """Pack a header's fields: "name=value", each preceded by its length."""
+    """Return the bytes of a header's fields: "name=value", each with its length in front."""
     pairs = [name.encode() + b"=" + value for name, value in fields.items()]
     return b"".join(U32.pack(len(pair)) + pair for pair in pairs)
 
 
 def record(fields: Mapping[str, bytes], data: bytes) -> bytes:
-    """Pack a record with header and data."""
+    """Return the bytes of a record with header and data."""
     head = packed_fields(fields)
     return U32.pack(len(head)) + head + U32.pack(len(data)) + data
 
 
 def _message(number: int, sec: int, nanosec: int, length: int) -> bytes:
-    """Pack a message's record without its payload."""
-    # By hand, as there is one for each message.
+    """Return the bytes of a message's record without its payload."""
+    # Not by `record`, which is slower, because each message needs one.
     return b"".join(
         (
             _BEFORE,

@@ -1,6 +1,6 @@
-"""rosbag2's metadata, and opening of any found recording.
+"""Opening of rosbag2 folders, and of any other recording that was found.
 
-The metadata is only a hint: files are read whether they agree with it or not.
+rosbag2's metadata is only a hint: files are read even if they differ from it.
 """
 
 import re
@@ -35,7 +35,7 @@ _STEP: Final = 1 << 20
 
 
 def open_found(found: Found) -> Container:
-    """Open a found source.
+    """Open a recording that `find` returned.
 
     Raises:
         InputError: If the file cannot be read, or is not a recording.
@@ -48,7 +48,7 @@ def open_found(found: Found) -> Container:
     if found.kind is Kind.SEVERAL:
         return _joined(found.paths, [], by_time=True)
     if found.kind is Kind.POSES:
-        # As with yaml below: what few recordings need, start-up of all others does not import.
+        # Imported here, like yaml below, because few recordings need it.
         from tftool.recordings.poses.pose_container import open_poses
 
         return open_poses(found)
@@ -71,17 +71,17 @@ def _open_folder(folder: Path) -> Container:
 
 
 def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
-    """Return the files of a rosbag2 recording, in order; oddities are added to `damage`.
+    """Return the files of a rosbag2 recording, in order; add faults to `damage`.
 
     Raises:
-        InputError: If there is none.
+        InputError: If there are no files.
     """
     there = sorted(
         (path for path in folder.iterdir() if path.is_file() and _is_part(path)),
         key=_natural,
     )
     listed = _listed(folder, damage)
-    # A file that is no recording, as an empty one, is named when it is opened.
+    # Opening a file that is not a recording (an empty file, for example) reports it.
     parts = [folder / name for name in listed if (folder / name).is_file()]
     missing = [name for name in listed if not (folder / name).is_file()]
     others = [path for path in there if path not in parts]
@@ -93,7 +93,7 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
         if not parts and others:
             damage.append(f"Read instead: {_few([path.name for path in others])}.")
     if not listed or missing or not set(parts) <= set(there):
-        # Renamed parts are read too, behind those that are named.
+        # Parts that were renamed are read too, after those in the metadata.
         parts += others
     if not parts:
         raise InputError(
@@ -104,10 +104,10 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
 
 
 def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) -> Container:
-    """Open files as one recording; unreadable ones are reported, unless all are.
+    """Open files as one recording; report unreadable files, or raise an error if all are.
 
     Args:
-        paths: The files.
+        paths: Paths of the files.
         damage: List to append faults to.
         by_time: Whether to order recordings by their start, not by name.
     """
@@ -133,7 +133,7 @@ def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) 
 
 
 def _listed(folder: Path, damage: list[str]) -> list[str]:
-    """Return the files in the metadata, without a folder name in front."""
+    """Return the names of the files in a folder's metadata, without their folder."""
     path = folder / METADATA
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read as they are.")
@@ -157,13 +157,13 @@ def _is_part(path: Path) -> bool:
     try:
         return kind_of_file(path) in _PARTS
     except PermissionError:
-        return True  # it may be one, and whoever opens it names it
+        return True  # it may be a part, and opening it will report the error
     except InputError:
         return False
 
 
 def _natural(path: Path) -> list[tuple[int, str]]:
-    """Return a sort key that puts `run_2` before `run_10`."""
+    """Return a key that sorts file names by their numbers: `run_2` before `run_10`."""
     words = re.split(r"(\d+)", path.name)
     return [(int(word), "") if word.isdigit() else (0, word) for word in words]
 
@@ -174,7 +174,7 @@ def _few(names: Sequence[str]) -> str:
 
 
 class _Unpacked:
-    """A compressed file, decompressed to a temporary one."""
+    """Container of a compressed file, which is decompressed to a temporary file."""
 
     def __init__(self, path: Path) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="tftool-")
@@ -198,17 +198,17 @@ class _Unpacked:
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages per stream."""
+        """Return the number of messages of each stream."""
         return self._inner.counts
 
     def close(self) -> None:
-        """Close the file, and remove the decompressed one."""
+        """Close the file, and remove the temporary file."""
         self._inner.close()
         self._folder.cleanup()
 
 
 def unpack_file(path: Path, target: Path) -> str:
-    """Decompress a file; return its damage as a sentence."""
+    """Decompress a file to `target`; return a sentence about its damage, or ""."""
     free = shutil.disk_usage(target.parent).free
     limit = min(_LARGEST_UNPACKED, free - (1 << 26))
     plausible = most_of(path.stat().st_size)
@@ -232,24 +232,24 @@ def unpack_file(path: Path, target: Path) -> str:
             done += len(piece)
             if done > plausible:
                 raise InputError(
-                    f"'{path}' unpacks to more than {plausible} bytes, which no recording does."
+                    f"'{path}' unpacks to more than {plausible} bytes, which is implausible."
                 )
             if done > limit:
                 raise InputError(
-                    f"'{path}' unpacks to more than {limit} bytes, more than fits here: "
+                    f"'{path}' unpacks to more than {limit} bytes, more than fits on this disk: "
                     "unpack it on a larger disk ('zstd -d')."
                 )
             out.write(piece)
 
 
 class Joined:
-    """Containers in sequence; see `Container`."""
+    """Several containers that are read one after the other; see `Container`."""
 
     def __init__(self, parts: Sequence[tuple[str, Container]], damage: Sequence[str] = ()) -> None:
         """Join containers.
 
         Args:
-            parts: Each with its name.
+            parts: Name and container of each part.
             damage: Further damage to report.
         """
         self._parts = parts
@@ -272,7 +272,7 @@ class Joined:
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages per stream."""
+        """Return the number of messages of each stream, in all parts together."""
         found = [0] * len(self.streams)
         for (_, part), numbers in zip(self._parts, self._maps, strict=True):
             for number, count in zip(numbers.tolist(), part.counts, strict=True):
@@ -282,14 +282,14 @@ class Joined:
 
     @property
     def damage(self) -> list[str]:
-        """Return the damage with the names of the files."""
+        """Return sentences about the damage of all parts, with the names of the files."""
         return [
             *self._damage,
             *(f"{name}: {damage}" for name, part in self._parts for damage in part.damage),
         ]
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return 0: unknown before every part is read."""
+        """Return 0, because the number is unknown before every part is read."""
         return 0
 
     def batches(
@@ -316,7 +316,7 @@ class Joined:
 
 
 def _moved(progress: Progress | None, before: int, size: int) -> Progress | None:
-    """Convert a part's progress to that of the whole."""
+    """Return a function that converts a part's progress to progress of the whole recording."""
     if progress is None:
         return None
 

@@ -1,4 +1,4 @@
-"""Folders as rosbag2 records them: files of one kind, and metadata.yaml."""
+"""Writer of rosbag2 folders: files of one container format, and metadata.yaml."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -17,18 +17,18 @@ from tftool.recordings.find import METADATA
 _LARGEST_METADATA: Final = 1 << 24
 
 VERSION: Final = 9
-"""Of the metadata where nothing says otherwise."""
+"""Default version of the metadata."""
 
 
 @dataclass(frozen=True, slots=True)
 class FileFacts:
-    """Metadata of one file.
+    """Facts about one file for the metadata.
 
     Attributes:
-        name: Name in the folder.
-        start: Log time of its first message; 0 where there is none.
-        end: Log time of its last message.
-        count: Messages.
+        name: Name of the file in the folder.
+        start: Log time of the first message; 0 without messages.
+        end: Log time of the last message.
+        count: Number of messages.
     """
 
     name: str
@@ -49,11 +49,11 @@ def metadata_text(
 
     Args:
         storage: "mcap" or "sqlite3".
-        files: The files, in order.
-        topics: Number of messages each topic has.
-        compression: Format and mode of compression outside the storage.
-        old: Metadata of the recording it was made from: its version and what
-            else does not follow from the files is kept.
+        files: Facts about the files, in order.
+        topics: Number of messages of each channel.
+        compression: Format and mode of rosbag2's compression of files or messages.
+        old: Metadata of the original recording, if any: its version and other facts that do
+            not follow from the files are used again.
     """
     version = int((old or {}).get("version", VERSION))
     filled = [one for one in files if one.count]
@@ -91,7 +91,7 @@ def metadata_text(
 
 
 def _listed(topics: Mapping[Channel, int], version: int) -> list[dict[str, Any]]:
-    """Merge the channels of each topic."""
+    """Return the topics' part of the metadata, with the channels of each topic merged."""
     listed: dict[tuple[str, str], dict[str, Any]] = {}
     for channel, count in topics.items():
         key = channel.topic, channel.type
@@ -111,11 +111,11 @@ def _listed(topics: Mapping[Channel, int], version: int) -> list[dict[str, Any]]
 
 
 def read_metadata(folder: Path) -> dict[str, Any]:
-    """Read a folder's metadata.yaml.
+    """Return the contents of a folder's metadata.yaml.
 
     Raises:
-        OSError: If there is none, or it may not be read.
-        ValueError: If the file is too large, or no YAML.
+        OSError: If the file is missing or cannot be read.
+        ValueError: If the file is too large, or not YAML.
         KeyError: If the file does not describe a recording.
         TypeError: If a value has another type than rosbag2 writes.
     """
@@ -135,7 +135,7 @@ def read_metadata(folder: Path) -> dict[str, Any]:
 
 
 def write_metadata(folder: Path, text: str) -> None:
-    """Write a folder's metadata.
+    """Write a folder's metadata.yaml.
 
     Raises:
         OSError: If the file cannot be written.
@@ -144,7 +144,7 @@ def write_metadata(folder: Path, text: str) -> None:
 
 
 def _offers(text: str, version: int) -> Any:
-    """Return a topic's offered QoS in the metadata's version: text up to 8, then a list."""
+    """Return a topic's QoS in the form of a metadata version: text up to 8, then a list."""
     text = restyled(text, version)
     if version < VERSION:
         return text
@@ -154,19 +154,19 @@ def _offers(text: str, version: int) -> Any:
         return []
     if not isinstance(loaded, list):
         return []
-    # Readers want every policy, and not every recorder writes them all.
+    # Readers need every policy, but some recorders write only some.
     (defaults,) = yaml.safe_load(offers_text(static=False))
     return [{**defaults, **one} for one in loaded if isinstance(one, dict)]
 
 
 class FolderWriter:
-    """A rosbag2 folder of one file and its metadata; see `ContainerWriter`."""
+    """Writer of a rosbag2 folder with one file and its metadata; see `ContainerWriter`."""
 
     def __init__(self, folder: Path, file: Path, storage: str, inner: ContainerWriter) -> None:
-        """Take the folder and the writer of its file.
+        """Wrap the writer of the folder's file.
 
         Args:
-            folder: The folder.
+            folder: Path of the folder.
             file: Name of the file in the folder.
             storage: "mcap" or "sqlite3".
             inner: Writer of the file.
@@ -182,11 +182,11 @@ class FolderWriter:
 
     @property
     def size(self) -> int:
-        """Bytes written so far, buffered ones included."""
+        """Number of bytes written so far, including buffered bytes."""
         return self._inner.size
 
     def channel(self, channel: Channel) -> int:
-        """Register a stream."""
+        """Register a channel; return its number for `write`."""
         number = self._inner.channel(channel)
         self._channels.setdefault(number, channel)
         return number
@@ -199,13 +199,13 @@ class FolderWriter:
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message."""
+        """Append a message to a channel."""
         self._inner.write(channel, log_time, payload, publish_time, sequence)
         self._counts[channel] += 1
         self._low, self._high = min(self._low, log_time), max(self._high, log_time)
 
     def finish(self) -> None:
-        """Close the file, and write the metadata."""
+        """Complete the file, and write the metadata."""
         self._inner.finish()
         count = sum(self._counts.values())
         facts = FileFacts(self._file.name, self._low if count else 0, self._high, count)
@@ -213,5 +213,5 @@ class FolderWriter:
         write_metadata(self._folder, metadata_text(self._storage, [facts], topics))
 
     def abandon(self) -> None:
-        """Close the file unfinished."""
+        """Close the file without completing it."""
         self._inner.abandon()

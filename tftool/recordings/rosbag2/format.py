@@ -1,7 +1,7 @@
-"""Bulk reading of rosbag2's messages directly from sqlite's pages.
+"""Bulk reader of rosbag2's messages, directly from the pages of the sqlite file.
 
-Only plain pages are read this way: at the first unexpected page or row it stops, and sqlite itself
-continues after the last row read.
+Only plain pages are read in this way. At the first unexpected page or row the reader stops, and
+sqlite itself continues after the last row read.
 
 Source: the SQLite database file format, sections 1.3 to 1.6 and 2.1.
 """
@@ -23,32 +23,32 @@ from tftool.recordings.container import File
 from tftool.recordings.contract import Stamps
 
 Pages: TypeAlias = npt.NDArray[np.int64]
-"""Numbers of pages, the first of a file is 1, shape (n,)."""
+"""Numbers of pages, from 1, shape (n,)."""
 
 _HEAD: Final = 100
 _INTERIOR: Final = 0x05
 _LEAF: Final = 0x0D
 _DEEPEST: Final = 20
-_AT_ONCE: Final = 256  # pages
-_MOST_APART: Final = 2  # times as many are read to have them at once
-_LEAST_ROW: Final = 8  # bytes that a row takes
-_MOST_BYTES: Final = 64 << 20  # of messages that go on on other pages, in one batch
+_AT_ONCE: Final = 256  # pages read in one step
+_MOST_APART: Final = 2  # maximum ratio of pages read to pages needed, to read them with one call
+_LEAST_ROW: Final = 8  # minimum size of a row, bytes
+_MOST_BYTES: Final = 64 << 20  # bytes in one batch of messages that continue on other pages
 
 
 class _Odd(Exception):
-    """Error for anything unusual, which is left to sqlite."""
+    """Signal of unusual contents, which sqlite must read."""
 
 
 def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple[Batch, int]]:
-    """Yield the messages of some topics in order of their rows.
+    """Yield the messages of some topics in batches, in the order of rows.
 
     Args:
-        path: The file.
-        root: The page at which the table's tree begins; 0 reads nothing.
+        path: Path of the file.
+        root: Root page of the table; 0 reads nothing.
         streams: Stream number of each topic number of the file.
 
     Returns:
-        Pieces, each with the id of its last row: rows after the last one were not read.
+        Batches, each with the id of its last row; rows after the last batch must be read by sqlite.
     """
     if root < 2:
         return
@@ -65,7 +65,7 @@ def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple
 
 
 class _Table:
-    """Pages of a file."""
+    """Reader of the pages of one table in a file."""
 
     def __init__(self, file: File) -> None:
         head = file.at(0, _HEAD)
@@ -77,7 +77,7 @@ class _Table:
         if self._size < 512 or self._size & (self._size - 1) or self._usable < 480:
             raise _Odd
         room = _AT_ONCE * (self._size // _LEAST_ROW)
-        # For one batch after the other: new memory costs more.
+        # Reused for every batch, because new memory is slower.
         self._pages = np.empty(_MOST_APART * _AT_ONCE * self._size, dtype=np.uint8)
         self._senders = np.empty(room, dtype=np.int32)
         self._columns = [np.empty(room, dtype=np.int64) for _ in range(3)]
@@ -88,7 +88,7 @@ class _Table:
         return self._file.at((number - 1) * self._size, self._size)
 
     def batches(self, root: int, streams: dict[int, int]) -> Iterator[tuple[Batch, int]]:
-        """See `read_pages`."""
+        """Yield batches of messages with the id of the last row; see `read_pages`."""
         numbered = sorted(one for one in streams.items() if -(2**63) <= one[0] < 2**63)
         wanted = np.array(numbered, dtype=np.int64)
         for pages in self._leaves(root):
@@ -96,16 +96,16 @@ class _Table:
                 yield self._batch(*self._read(pages[begin : begin + _AT_ONCE]), wanted)
 
     def _read(self, pages: Pages) -> tuple[Bytes, Pages]:
-        """Read pages; return their bytes, and the offset of each page."""
+        """Read pages; return the bytes, and the offset of each page in the bytes."""
         first, apart = int(pages.min()), pages - pages.min()
         span = int(apart.max()) + 1
         if span <= _MOST_APART * len(pages):
-            # Reading the bytes between them, an index as a rule, costs less than another call.
+            # Reading the pages between them (usually an index) costs less than another call.
             found = self._pages[: span * self._size]
             self._file.into((first - 1) * self._size, found.data)
             return found, apart * self._size
         found = self._pages[: len(pages) * self._size]
-        # Where a run begins, and the next one.
+        # Begin and end of each run of consecutive pages.
         runs = np.flatnonzero(np.diff(pages, prepend=-1) != 1).tolist()
         for run, end in itertools.pairwise([*runs, len(pages)]):
             room = found.data[run * self._size : end * self._size]
@@ -113,12 +113,12 @@ class _Table:
         return found, np.arange(0, len(found), self._size, dtype=np.int64)
 
     def _leaves(self, root: int) -> Iterator[Pages]:
-        """Yield the numbers of the leaf pages in order of rows, in groups."""
+        """Yield the numbers of the table's leaf pages in order of rows, in groups."""
         page = self._page(root)
         if page[0] == _LEAF:
             yield np.array([root])
             return
-        # Pages that are to be looked into, the next one last, and their depth.
+        # Pages to visit with their depth; the next page is last.
         waiting, seen = [(root, 0)], 0
         while waiting:
             number, depth = waiting.pop()
@@ -169,7 +169,7 @@ class _Table:
         return Batch(pages, starts, lengths, times, senders), self._last
 
     def _joined(self, raw: bytes, cell: int, length: int) -> bytes:
-        """Return the data of a row that continues on other pages."""
+        """Return the message of a row that continues on other pages."""
         size, place = _varint(raw, cell)
         _, place = _varint(raw, place)
         usable = self._usable
@@ -195,7 +195,7 @@ class _Table:
 
 
 def _varint(data: bytes, place: int) -> tuple[int, int]:
-    """Parse a varint: up to nine bytes with seven bits each; return it and its end."""
+    """Parse a variable-length integer of sqlite (up to nine bytes); return it and its end."""
     found = 0
     for end in range(place, place + 8):
         found = found << 7 | data[end] & 0x7F

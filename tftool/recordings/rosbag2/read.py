@@ -1,4 +1,4 @@
-"""Reading rosbag2's sqlite files, without writing any file beside them."""
+"""Reader of rosbag2's sqlite files, which writes no other file beside them."""
 
 import shutil
 import sqlite3
@@ -22,16 +22,16 @@ from tftool.recordings.contract import Progress
 from tftool.recordings.decompression import LARGEST, unpack_beginning
 from tftool.recordings.rosbag2.format import read_pages
 
-_ROWS: Final = 2048  # fetched at a time
+_ROWS: Final = 2048  # rows fetched in one step
 _ROOM: Final = bytes(8)
-_MOST_BYTES: Final = 1 << 26  # of them, but for the last one
+_MOST_BYTES: Final = 1 << 26  # bytes of these rows; the last row may exceed it
 _MOST_COPIED: Final = 1 << 30
 _LARGEST_VALUE: Final = 1 << 28  # bytes of one value
 _MOST_DEFINED: Final = 1 << 26  # characters of all definitions
 _MOST_GAPS: Final = 40
 _LEAST_HEAD: Final = 4096
 
-# Names, kinds, and which is the primary key.
+# Name, type and position in the primary key of each column.
 _COLUMNS: Final = [
     ("id", "INTEGER", 1),
     ("topic_id", "INTEGER", 0),
@@ -42,31 +42,31 @@ _COLUMNS: Final = [
 _NAMES: Final = {name for name, _, _ in _COLUMNS}
 _DEFINITION: Final = "encoded_message_definition"
 
-# The second where what sqlite says of a damaged file quotes bytes that are no text.
+# sqlite's message about a damaged file may contain bytes that are not text.
 _FAULTS: Final = (sqlite3.Error, UnicodeDecodeError)
 
 
 class Sqlite:
-    """One `.db3` file; see `ContainerReader`.
+    """Reader of a `.db3` file; see `ContainerReader`.
 
     Attributes:
-        path: Path.
-        unpacks: Whether `blocks` unpacks messages that rosbag2 compressed each by itself.
-        topic_ids: Number of each stream in the file's rows.
+        path: Path of the file.
+        unpacks: Whether `blocks` decompresses messages that rosbag2 compressed one by one.
+        topic_ids: Id of each stream's topic in the file.
     """
 
     kind = "rosbag2 (sqlite3)"
     container = "db3"
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open the file and list its contents.
+        """Open the file, and find its topics.
 
         Args:
-            path: Path.
-            by_index: Makes no difference: rows are read in their order in any case.
+            path: Path of the file.
+            by_index: Ignored: rows are always read in their order.
 
         Raises:
-            InputError: If the file is damaged, or no recording.
+            InputError: If the file is damaged, or not a recording.
             OSError: If the file cannot be opened.
         """
         self.path = path
@@ -92,7 +92,7 @@ class Sqlite:
     def _open(self, path: Path) -> sqlite3.Connection:
         log = path.with_name(path.name + "-wal")
         if log.exists() and log.stat().st_size:
-            # The last messages are only in there. To read them, sqlite writes.
+            # The last messages are only in the log. sqlite must write to read them, so use a copy.
             if path.stat().st_size + log.stat().st_size <= _MOST_COPIED:
                 self._copy = tempfile.TemporaryDirectory(prefix="tftool-")
                 copied = Path(self._copy.name) / "recording.db3"
@@ -104,7 +104,7 @@ class Sqlite:
                 "The recording was not closed, and its end, in a write-ahead log, is left out: "
                 f"'sqlite3 {path.name} .recover' on a copy brings it in."
             )
-        # Immutable: no locks, no journal, nothing is made beside it.
+        # With immutable, sqlite creates no lock or journal beside the file.
         return _connected(f"file:{quote(str(path))}?mode=ro&immutable=1")
 
     def close(self) -> None:
@@ -116,7 +116,7 @@ class Sqlite:
     def _read_topics(self) -> None:
         names = self._columns("topics")
         if not ({"id", "name", "type"} <= names and self._columns("messages") >= _NAMES):
-            raise InputError(f"'{self.path}' is a database, but holds no recording of rosbag2.")
+            raise InputError(f"'{self.path}' is a database, but not a recording of rosbag2.")
         columns = ["id", "name", "type"]
         for name, without in (
             ("serialization_format", "'cdr'"),
@@ -149,14 +149,14 @@ class Sqlite:
             self.streams.append(shown)
 
     def _columns(self, table: str) -> set[str]:
-        """Return a table's columns; none of a view, which may be endless."""
+        """Return the names of a table's columns; empty for a view, which may be endless."""
         asked = "select count(*) from sqlite_master where lower(name) = ? and type = 'table'"
         if self._base.execute(asked, (table,)).fetchone() != (1,):
             return set()
         return {row[1] for row in self._base.execute(f"pragma table_info({table})")}
 
     def _definitions(self) -> dict[str, tuple[str, str]]:
-        """Return the encoding and definition of each type, where recorded."""
+        """Return the encoding and the definition of each type, if recorded."""
         found: dict[str, tuple[str, str]] = {}
         names = self._columns("message_definitions")
         if not names >= {"topic_type", _DEFINITION}:
@@ -175,7 +175,7 @@ class Sqlite:
         return found
 
     def _span(self) -> tuple[int, int]:
-        # At once where there is an index, as a rule; all is looked at where that gives a text.
+        # Usually an index gives the result at once; if a timestamp is text, search all rows.
         for where in ("", " where typeof(timestamp) = 'integer'"):
             ends = (f"(select {end}(timestamp) from messages{where})" for end in ("min", "max"))
             low, high = self._base.execute(f"select {', '.join(ends)}").fetchone()
@@ -185,7 +185,7 @@ class Sqlite:
 
     @cached_property
     def counts(self) -> list[int]:
-        """Return the number of messages per stream."""
+        """Return the number of messages of each stream."""
         found: dict[int, int] = {}
         try:
             found.update(
@@ -200,26 +200,26 @@ class Sqlite:
         return [found.get(number, 0) for number in self.topic_ids]
 
     def blocks(self) -> "Iterator[Rows]":
-        """Yield the rows of the file in the order of recording."""
+        """Yield the messages in blocks, in the order of recording."""
         for batch in self.batches(list(self.channels)):
             if len(batch):
-                # Kept while further ones are read, into the same memory. No other container has
-                # moments before 1970.
+                # Copy, because the next batch reuses the memory. Times before 1970 become 0, as
+                # other containers cannot store them.
                 kept, moments = batch.buffer.copy(), np.maximum(batch.log_times, 0)
                 yield Rows(replace(batch, buffer=kept, log_times=moments), self.unpacks)
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams; see `Container`."""
+        """Yield the messages of some streams in batches; see `Container`."""
         if not wanted:
             return
         streams = {self.topic_ids[number]: number for number in wanted}
-        # Numbers of its own rows, no text of a stranger's.
+        # The query contains only numbers, no text from the file.
         topics = ",".join(map(str, streams))
-        # Messages that are compressed each by itself take more than their beginning.
+        # A compressed message needs more bytes than its beginning.
         data = "data" if head is None else f"substr(data, 1, {max(head, _LEAST_HEAD)})"
-        # Where it is one topic its number is not asked for: less is made for every row.
+        # With a single topic, its id is not queried, which saves time for every row.
         which = "" if len(streams) == 1 else "topic_id, "
         asked = (
             f"select id, {which}timestamp, {data} from messages "
@@ -238,7 +238,7 @@ class Sqlite:
             try:
                 cursor = self._base.execute(asked, (last,))
                 while rows := _some(cursor):
-                    # The columns of a table may hold anything.
+                    # A column may contain values of any type.
                     sound = [row for row in rows if type(row[0]) is type(row[-2]) is int]
                     if len(sound) < len(rows):
                         self._note("an id or a timestamp is no whole number")
@@ -250,7 +250,7 @@ class Sqlite:
                         progress(self.size * last // max(top, 1), self.size)
                 return
             except _FAULTS as error:
-                # Behind a damaged page others may be sound: jump over it, farther each time.
+                # Pages after a damaged one may be readable: skip rows, more each time.
                 self._note(error)
                 gaps += 1
                 if gaps > _MOST_GAPS:
@@ -266,12 +266,12 @@ class Sqlite:
             ((root, text),) = self._base.execute(asked).fetchall()
         except (*_FAULTS, ValueError):
             return 0
-        # In a table of either kind the primary key is not the row's own number.
+        # In such tables the primary key is not the row id.
         other = any(words in str(text).lower() for words in ("without rowid", "desc"))
         return int(root) if columns == _COLUMNS and not other else 0
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the approximate number of messages: counting takes as long as reading."""
+        """Return the approximate number of messages, because counting takes as long as reading."""
         return self._last_row()
 
     def _last_row(self) -> int:
@@ -290,24 +290,24 @@ class Sqlite:
 
 
 class Rows:
-    """Rows of a database; see `Block`."""
+    """Block of consecutive rows of a database; see `Block`."""
 
     whole = False
     counts: Mapping[int, int] | None = None
 
     def __init__(self, batch: Batch, unpacks: bool) -> None:
-        """Take messages, and whether each was compressed."""
+        """Wrap a batch; `unpacks` tells whether its messages are compressed one by one."""
         self._batch = batch
         self._unpacks = unpacks
         self.start = int(batch.log_times.min())
         self.end = int(batch.log_times.max())
 
     def sound(self) -> bool:
-        """Return True: there is no checksum."""
+        """Return True, because there are no checksums."""
         return True
 
     def table(self) -> MessageTable:
-        """Return its messages."""
+        """Return the messages of the rows."""
         batch, moments = self._batch, self._batch.log_times
         data, starts, lengths = batch.buffer, batch.starts, batch.lengths
         if self._unpacks:
@@ -329,13 +329,13 @@ def _connected(uri: str) -> sqlite3.Connection:
     except _FAULTS as error:
         raise InputError(f"The database cannot be opened: {error}.") from error
     base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LARGEST_VALUE)
-    # Texts may be anything.
+    # Text columns may contain bytes that are not UTF-8.
     base.text_factory = lambda raw: raw.decode("utf-8", "surrogateescape")
     return base
 
 
 def _some(cursor: sqlite3.Cursor) -> list[Any]:
-    """Return the next rows, limited by memory; their data is the last column."""
+    """Return the next rows of a query, limited by memory; the data is the last column."""
     rows, held = [], 0
     for row in cursor:
         rows.append(row)
@@ -350,7 +350,7 @@ def _batch(rows: list[Any], streams: dict[int, int]) -> Batch:
     if set(map(type, blobs)) != {bytes}:
         blobs = tuple(bytes(blob) if isinstance(blob, bytes) else b"" for blob in blobs)
     lengths = np.fromiter(map(len, blobs), dtype=np.int64, count=len(rows))
-    # With room before the first for a row's beginning.
+    # With space before the first message, because `rows_of` begins before it.
     buffer = np.frombuffer(b"".join((_ROOM, *blobs)), dtype=np.uint8)
     starts = np.cumsum(lengths) - lengths + len(_ROOM)
     if len(streams) == 1:

@@ -1,4 +1,4 @@
-"""Writing rosbag2's sqlite files, in schema version 4."""
+"""Writer of rosbag2's sqlite files, in schema version 4."""
 
 import sqlite3
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 
-_ROWS: Final = 2048  # inserted at a time
+_ROWS: Final = 2048  # rows inserted in one step
 _SCHEMA: Final = """
 create table schema(schema_version integer primary key, ros_distro text not null);
 create table metadata(id integer primary key, metadata_version integer not null,
@@ -27,27 +27,27 @@ insert into schema values (4, '');
 
 
 class SqliteWriter:
-    """Writer of a `.db3` file, whose streams are topics; see `ContainerWriter`.
+    """Writer of a `.db3` file, whose channels are topics; see `ContainerWriter`.
 
     Attributes:
-        counts: Messages by topic.
+        counts: Number of messages by topic.
     """
 
     @classmethod
     def in_style(cls, path: Path, style: Mapping[str, Any], *, profile: str) -> "SqliteWriter":
-        """Create the file of an edit; see `ContainerFormat.create_like`."""
+        """Create an output file of an edit; see `ContainerFormat.create_like`."""
         del style, profile
         return cls(path)
 
     def __init__(self, path: Path, *, compression: str | None = None) -> None:
-        """Create the file; an existing one is replaced.
+        """Create the file; replace an existing file.
 
         Args:
-            path: Path.
-            compression: "none": the container has no other.
+            path: Path of the file.
+            compression: Only "none" or None.
 
         Raises:
-            UsageError: If another compression is asked for.
+            UsageError: If another compression is given.
             OSError: If the file cannot be written.
         """
         if compression not in (None, "none"):
@@ -60,7 +60,7 @@ class SqliteWriter:
         self._types: set[str] = set()
         self.counts: dict[int, int] = {}
         path.open("xb").close()
-        # No journal: the file counts for nothing before it is whole and has its name.
+        # No journal is needed: an incomplete file never gets its final name.
         self._base = sqlite3.connect(path, isolation_level=None)
         with translated(path):
             self._base.execute("pragma journal_mode = off")
@@ -71,7 +71,7 @@ class SqliteWriter:
 
     @property
     def size(self) -> int:
-        """Bytes of messages so far."""
+        """Number of bytes of messages so far."""
         return self._bytes
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
@@ -91,7 +91,7 @@ class SqliteWriter:
         kind_hash = channel.extra("topic_type_hash")
         with translated(self._path):
             self._base.execute(
-                # Of a damaged recording a text may be any bytes: those are kept.
+                # In a damaged recording text may be any bytes, which are copied unchanged.
                 f"insert into topics values (?{', cast(? as text)' * 5})",
                 (
                     number,
@@ -152,12 +152,12 @@ class SqliteWriter:
             self._base.close()
 
     def abandon(self) -> None:
-        """Close the file unfinished."""
+        """Close the file without completing it."""
         self._base.close()
 
 
 class translated:  # noqa: N801 -- used as a function in a `with`
-    """Convert sqlite's errors to those of a written file."""
+    """Context that converts sqlite's errors to errors about a written file."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
