@@ -305,3 +305,43 @@ def test_a_turned_link_turns_its_solid():
 
     known = placed[np.isfinite(placed).all(1)]
     np.testing.assert_allclose(np.ptp(known, axis=0), [3, 0.2, 0.2], atol=0.01)
+
+
+def spread(count):
+    """A fan of frames around one root, far enough from each other for a name each."""
+    frames = [SpaceFrame("root", Transform())]
+    for number in range(count):
+        angle = 2.0 * np.pi * number / count
+        place = (np.cos(angle), np.sin(angle), 0.1 * (number % 2))
+        frames.append(SpaceFrame(f"tip_{number:02}", Transform(place), "root"))
+    return frames
+
+
+def test_a_small_picture_names_the_chosen_frame_first_and_counts_the_unnamed():
+    frames = tuple(spread(40))
+    small = text(cells(SpacePicture("root", frames, chosen="tip_31"), columns=40, rows=15))
+    large = text(cells(SpacePicture("root", frames, chosen="tip_31"), columns=160, rows=50))
+
+    assert "tip_31" in small
+    assert small.count("tip_") < 6 < large.count("tip_")
+    assert re.search(r"grid \S+ m, \d\d of 41 frames unnamed", small)
+    few = text(cells(SpacePicture("root", tuple(spread(3)), chosen="tip_01"), columns=60, rows=30))
+    assert "unnamed" not in few
+
+
+def test_names_do_not_cover_the_robot_where_there_is_room_beside_it(picture):
+    lines = text(cells(picture, columns=80, rows=40)).splitlines()
+    named = [line for line in lines if "ball" in line or "base" in line]
+
+    assert len(named) == 2, lines
+    # A name within the robot would have parts of it on both sides.
+    assert not any(re.search(r"[▀▄].*[a-z]{4}.*[▀▄]", line) for line in named)
+
+
+def test_a_ground_of_ascii_has_dots_only_at_crossings():
+    picture = SpacePicture("root", tuple(spread(3)))
+    plain = text(cells(picture, columns=80, rows=40, ascii_only=True))
+    lines = text(cells(picture, columns=80, rows=40))
+
+    assert plain.isascii()
+    assert sum(sign in ".':" for sign in plain) < 0.4 * sum("⠀" < sign <= "⣿" for sign in lines)

@@ -1,6 +1,6 @@
 """Placement of labels beside frames, so that no label covers another."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from rich.cells import cell_len
@@ -72,7 +72,11 @@ class Placer:
         self._before: dict[str, tuple[int, int]] = {}
 
     def placed(
-        self, labels: list[Label], hard: set[tuple[int, int]], soft: set[tuple[int, int]]
+        self,
+        labels: list[Label],
+        hard: set[tuple[int, int]],
+        soft: set[tuple[int, int]],
+        solid: Collection[tuple[int, int]] = frozenset(),
     ) -> list[PlacedLabel]:
         """Place every label; omit a label that has no room near its frame.
 
@@ -80,6 +84,7 @@ class Placer:
             labels: Labels, the most important first.
             hard: Cells (row, column) that no label may cover; the placed labels' cells are added.
             soft: Cells that a label covers only if it must.
+            solid: Cells that a label covers only if there is no room around them.
         """
         found = []
         for label in labels:
@@ -92,6 +97,7 @@ class Placer:
                 if any(cell in hard for cell in cells):
                     continue
                 cost += 0.4 * sum(cell in soft for cell in cells)
+                cost += 4.0 * sum(cell in solid for cell in cells)
                 # Directly beside another label, the two would read as one word.
                 cost += 3.0 * ((row, column - 1) in hard and column - 1 != label.column)
                 if best is None or cost < best[0]:

@@ -10,12 +10,13 @@ from typing import Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from rich.cells import cell_len
 
 from tftool.base.color import Color
 from tftool.base.fixed_width import plain
 from tftool.drawing import theme
 from tftool.drawing.cells import NONE, CellSheet, Dots, Line, dots_of, packed
-from tftool.drawing.labels import Label, Placer, label_text
+from tftool.drawing.labels import Label, PlacedLabel, Placer, label_text
 from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length
 
 Floats: TypeAlias = npt.NDArray[np.float32]
@@ -24,7 +25,10 @@ Tones = Literal["full", "few", "none"]
 """Number of colours of a terminal: all, sixteen, or none."""
 
 MOST_NAMED: Final = 40
-"""Largest number of frames whose names are written."""
+"""Largest number of names that are written."""
+
+CELLS_PER_NAME: Final = 150
+"""Cells of a picture for each name: on a small one, names would hide the robot."""
 
 MOST_POINTS: Final = 1_000_000
 """Points of triangles that are processed at once, to limit memory."""
@@ -67,14 +71,15 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        names: Frames with their labels and their dots, right and down from the corner.
+        names: Frames with their labels, the number of frames that share it, and their dots, right
+            and down from the corner; the most important first.
         grid: Metres between two lines of the grid.
     """
 
     image: Floats
     depth: DepthBuffer
     layers: Sequence[Layer]
-    names: Sequence[tuple[SpaceFrame, str, float, float]]
+    names: Sequence[tuple[SpaceFrame, str, int, float, float]]
     grid: float
 
 
@@ -147,6 +152,7 @@ def drawn(
     palette: theme.Palette = theme.DARK,
     *,
     tinted: bool = True,
+    sparse: bool = False,
 ) -> DrawnSpace:
     """Draw a picture in columns × rows of cells.
 
@@ -157,6 +163,7 @@ def drawn(
         rows: Height in cells of four dots.
         palette: Colours of the screen.
         tinted: Whether the solid under the cursor takes the colour of the cursor.
+        sparse: Whether the ground is a dot at each crossing of its grid, in place of lines.
     """
     width, height = 2 * columns, 4 * rows
     poses = {one.name: one.pose for one in picture.frames}
@@ -183,10 +190,13 @@ def drawn(
         image[_edges(whose, depth.depths)] *= 0.6
     places = view.project(np.array([one.pose.translation for one in picture.frames]).reshape(-1, 3))
     names = [
-        (one, name, 0.5 * width + x, 0.5 * height - y)
-        for one, name, (x, y, _) in _named(picture, places.tolist())
+        (one, name, count, 0.5 * width + x, 0.5 * height - y)
+        for one, name, count, (x, y, _) in _named(picture, places.tolist())
     ]
-    return DrawnSpace(image, depth, _layers(picture, view, rows, palette), names, view.grid)
+    ground = _ground(picture, view, sparse=sparse)
+    layers = [Layer(theme.paper(palette).grid, view.project(ground), is_hidden=True)]
+    layers += _layers(picture, view, rows, palette)
+    return DrawnSpace(image, depth, layers, names, view.grid)
 
 
 def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
@@ -228,30 +238,46 @@ def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
 
 def _named(
     picture: SpacePicture, places: Sequence[Sequence[float]]
-) -> list[tuple[SpaceFrame, str, Sequence[float]]]:
-    """Return (frame, label, position); frames at one place share a label, the chosen one first."""
+) -> list[tuple[SpaceFrame, str, int, Sequence[float]]]:
+    """Return (frame, label, number of frames, position); frames at one place share a label.
+
+    The chosen frame is first, then the pair, tips, roots, and all others.
+    """
     labels: dict[tuple[int, int], list[int]] = {}
-    order = sorted(range(len(places)), key=lambda n: picture.frames[n].name != picture.chosen)
-    for number in order[:MOST_NAMED]:
+    parents = {one.parent for one in picture.frames}
+
+    def weight(number: int) -> tuple[bool, bool, bool, bool]:
+        one = picture.frames[number]
+        is_tip = one.name not in parents
+        return (
+            one.name != picture.chosen,
+            one.name not in picture.pair,
+            not is_tip,
+            one.parent is not None,
+        )
+
+    for number in sorted(range(len(places)), key=weight):
         x, y, _ = places[number]
         if abs(x) + abs(y) < 1e6:
             labels.setdefault((round(x / 3.0), round(y / 5.0)), []).append(number)
     found = []
     for group in labels.values():
+        group.sort(key=lambda number: (picture.frames[number].name != picture.chosen, number))
         names = [plain(picture.frames[number].name) for number in group]
         shown = 2 if len("".join(names[:2])) <= 18 else 1
         more = f" +{len(names) - shown}" if len(names) > shown else ""
-        found.append((picture.frames[group[0]], ", ".join(names[:shown]) + more, places[group[0]]))
+        label = ", ".join(names[:shown]) + more
+        found.append((picture.frames[group[0]], label, len(group), places[group[0]]))
     return found
 
 
 def _layers(
     picture: SpacePicture, view: Viewpoint, rows: int, palette: theme.Palette
 ) -> list[Layer]:
-    """Return the lines in drawing order: ground, trails, lines to parents, the pair, axes."""
+    """Return the lines in drawing order: trails, lines to parents, the pair, axes."""
     paper = theme.paper(palette)
     poses = {one.name: one.pose for one in picture.frames}
-    layers = [Layer(paper.grid, view.project(_ground(picture, view)), is_hidden=True)]
+    layers = []
     lines = picture.lines
     for packed_color in np.unique(lines.colors).tolist():
         color = Color(packed_color >> 16, packed_color >> 8 & 255, packed_color & 255)
@@ -274,8 +300,8 @@ def _layers(
     return layers
 
 
-def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
-    """Return the lines of the ground grid under the frames, shape (n, 2, 3)."""
+def _ground(picture: SpacePicture, view: Viewpoint, *, sparse: bool) -> npt.NDArray[np.float64]:
+    """Return the lines of the ground grid under the frames, or its crossings, shape (n, 2, 3)."""
     step = view.grid
     places = np.array([one.pose.translation[:2] for one in picture.frames]).reshape(-1, 2)
     places = places if len(places) else np.zeros((1, 2))
@@ -287,6 +313,9 @@ def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
     (left, near), (right, far) = low * step, high * step
     along = np.arange(low[0], high[0] + 0.5) * step
     across = np.arange(low[1], high[1] + 0.5) * step
+    if sparse:
+        crossings = [(x, y, 0.0) for x in along for y in across]
+        return np.repeat(np.array(crossings).reshape(-1, 1, 3), 2, axis=1)
     lines = [((x, near, 0.0), (x, far, 0.0)) for x in along]
     lines += [((left, y, 0.0), (right, y, 0.0)) for y in across]
     return np.array(lines).reshape(-1, 2, 3)
@@ -325,8 +354,10 @@ class SpaceCanvas:
         if not columns or not rows:
             return [[] for _ in range(rows)]
         tinted = self._tones == "full"
-        drawing = drawn(picture, view, columns, rows, self._palette, tinted=tinted)
-        self._places = [(x / 2.0, y / 4.0, one.name) for one, _, x, y in drawing.names]
+        drawing = drawn(
+            picture, view, columns, rows, self._palette, tinted=tinted, sparse=self._ascii
+        )
+        self._places = [(x / 2.0, y / 4.0, one.name) for one, _, _, x, y in drawing.names]
         sheet = self._shaded(drawing)
         # A cell with a line shows one colour of the solid: of its upper half, else the lower.
         halves = sheet.inks if self._has_halves else sheet.grounds
@@ -383,9 +414,8 @@ class SpaceCanvas:
     def _dotted(self, drawing: DrawnSpace) -> Dots:
         """Return the lines as braille dots; a cell has the colour of its last line."""
         columns, rows = self.columns, self.rows
-        solid = drawing.depth.owners >= 0
         # Lines of the ground never cover a cell of a solid.
-        free = np.logical_not(solid.reshape(rows, 4, columns, 2).any((1, 3)))
+        free = np.logical_not(_solid(drawing, columns, rows))
         dots = Dots(columns, rows)
         for layer in drawing.layers:
             ends = layer.ends * [1, -1, 1] + [columns, 2 * rows, 0]
@@ -402,29 +432,62 @@ class SpaceCanvas:
         self, drawing: DrawnSpace, chosen: str, sheet: CellSheet, marked: npt.NDArray[np.bool_]
     ) -> None:
         """Write the names of frames into a sheet, where they cover no other name."""
-        named: dict[str, SpaceFrame] = {}
-        labels = []
-        for one, name, x, y in drawing.names:
+        named: dict[str, tuple[SpaceFrame, int]] = {}
+        labels: list[Label] = []
+        most = max(3, min(MOST_NAMED, self.columns * self.rows // CELLS_PER_NAME))
+        for one, name, count, x, y in drawing.names:
             column, row = int(x // 2), int(y // 4)
-            if 0 <= column < self.columns and 0 <= row < self.rows:
-                text = label_text(name, one.age, self.columns, 14, ascii_only=self._ascii)
+            if 0 <= column < self.columns and 0 <= row < self.rows and len(labels) < most:
+                text = label_text(name, one.age, self.columns, 18, ascii_only=self._ascii)
                 labels.append(Label(one.name, text, column, row, 1))
-                named[one.name] = one
+                named[one.name] = one, count
         # Names beside a robot are easier to read than names on it.
-        soft = marked | (sheet.inks != NONE)
-        cells = set(zip(*(place.tolist() for place in np.nonzero(soft)), strict=True))
-        hint = f"grid {drawing.grid:g} m"[: self.columns]
-        taken = {(self.rows - 1, column) for column in range(len(hint) + 1)}
+        solid = _solid(drawing, self.columns, self.rows)
+        total = sum(count for _, _, count, _, _ in drawing.names)
+        hint = f"grid {drawing.grid:g} m"
+        # The longest hint that the picture may need keeps its place free.
+        taken = {(self.rows - 1, column) for column in range(len(hint) + 24)}
         palette = self._palette
-        for placed in self._placer.placed(labels, taken, cells):
-            one = named[placed.label.name]
-            if placed.is_far and one.name != chosen:
-                continue
+        told = 0
+        leaders = Dots(self.columns, self.rows)
+        found = self._placer.placed(labels, taken, _places(marked), _places(solid))
+        for placed in found:
+            told += named[placed.label.name][1]
+            if placed.is_far:
+                leaders.draw(_leader(placed), packed(palette.dim))
+        leaders.masks[marked | solid] = 0
+        sheet.lay(leaders, ascii_only=self._ascii)
+        for placed in found:
+            one, _ = named[placed.label.name]
             color = theme.readable(theme.of_name(one.name), palette)
             ink = packed(theme.of_age(color, one.age, palette))
             text, is_chosen = placed.label.text, one.name == chosen
             sheet.write(placed.column, placed.row, text, ink, bold=is_chosen, clears=True)
-        sheet.write(0, self.rows - 1, hint, packed(palette.dim), clears=True)
+        if told < total:
+            hint += f", {total - told} of {total} frames unnamed"
+        sheet.write(0, self.rows - 1, hint[: self.columns], packed(palette.dim), clears=True)
+
+
+def _solid(drawing: DrawnSpace, columns: int, rows: int) -> npt.NDArray[np.bool_]:
+    """Return the cells that have a part of a solid."""
+    points = (drawing.depth.owners >= 0).reshape(rows, 4, columns, 2)
+    cells: npt.NDArray[np.bool_] = np.logical_or.reduce(points, (1, 3))
+    return cells
+
+
+def _places(cells: npt.NDArray[np.bool_]) -> set[tuple[int, int]]:
+    """Return row and column of each true cell."""
+    return set(zip(*(place.tolist() for place in np.nonzero(cells)), strict=True))
+
+
+def _leader(placed: PlacedLabel) -> npt.NDArray[np.float64]:
+    """Return the line from a label's nearer end to its frame, in dots, shape (1, 2, 2)."""
+    label = placed.label
+    last = placed.column + cell_len(label.text) - 1
+    column = min(max(label.column, placed.column), last)
+    return np.array(
+        [[(2 * column + 1, 4 * placed.row + 2), (2 * label.column + 1, 4 * label.row + 2)]], float
+    )
 
 
 def _few_shades(colors: npt.NDArray[np.floating]) -> Indices:

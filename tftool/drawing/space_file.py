@@ -18,7 +18,7 @@ from tftool.base.escaping import visible
 from tftool.drawing import theme
 from tftool.drawing.labels import Label, PlacedLabel, Placer
 from tftool.drawing.space import OrbitCamera, SpacePicture
-from tftool.drawing.space_canvas import DrawnSpace, corners_of, drawn
+from tftool.drawing.space_canvas import MOST_NAMED, DrawnSpace, corners_of, drawn
 
 COLUMNS, ROWS = 640, 220
 """Width and height of the picture in cells of 2 × 4 points."""
@@ -39,7 +39,7 @@ def drawn_file(
     sheet = drawn(picture, view, COLUMNS, ROWS, palette)
     labels = [
         Label(one.name, visible(name), round(x / _WIDE), round(y / _HIGH), 1)
-        for one, name, x, y in sheet.names
+        for one, name, _, x, y in sheet.names[:MOST_NAMED]
     ]
     placed = Placer(2 * COLUMNS // _WIDE, 4 * ROWS // _HIGH).placed(labels, set(), set())
     if form == "svg":
