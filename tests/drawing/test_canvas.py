@@ -10,6 +10,8 @@ from rich.cells import cell_len
 from tftool.base.color import Color
 from tftool.drawing import sprites, theme
 from tftool.drawing.canvas import Canvas
+from tftool.drawing.cells import Dots, packed, woven
+from tftool.drawing.line_plot import draw_curve
 from tftool.drawing.plane import (
     ColoredLines,
     Drawn,
@@ -530,3 +532,22 @@ def test_a_name_across_the_edge_of_the_field_is_read_on_both_grounds():
     assert not beside[1]
     assert on_field[0] != beside[0]
     assert set(named(FIELD - 2.5)) == {on_field, beside}
+
+
+def curve(height, color):
+    dots = Dots(12, 3)
+    draw_curve(dots, np.array([0.0, 1.0]), np.array([height, height]), color)
+    return dots
+
+
+def test_curves_that_share_their_cells_take_turns_and_each_keeps_its_own():
+    red, blue = Color(255, 0, 0), Color(0, 0, 255)
+    level, other = curve(0.5, red), curve(0.5, blue)
+
+    (row,) = [row for row in woven([level, other]).colors.tolist() if max(row) >= 0]
+
+    assert row.count(packed(red)) == row.count(packed(blue)) == 6
+    assert row[:3] == [packed(red)] * 3
+    apart = woven([level, curve(0.0, blue)])
+    assert sorted({max(row) for row in apart.colors.tolist()}) == [-1, packed(blue), packed(red)]
+    assert (woven([level]).masks == level.masks).all()

@@ -182,6 +182,29 @@ class Dots:
         ]
 
 
+DASH: Final = 3
+"""Cells of one curve in a row where several share their cells."""
+
+
+def woven(layers: Sequence[Dots]) -> Dots:
+    """Lay curves into one picture; in cells of several, they take turns from left to right.
+
+    One colour alone would hide the others where they run side by side. A cell shows only the dots
+    of the curve whose turn it is.
+
+    Args:
+        layers: The dots of each curve, all of one size; at least one.
+    """
+    masks = np.stack([one.masks for one in layers])
+    has = masks > 0
+    turn = np.arange(masks.shape[2]) // DASH % np.maximum(has.sum(0), 1)
+    chosen = (has & (np.cumsum(has, 0) - 1 == turn)).argmax(0)[None]
+    found = Dots(*masks.shape[:0:-1])
+    found.masks = np.take_along_axis(masks, chosen, 0)[0]
+    found.colors = np.take_along_axis(np.stack([one.colors for one in layers]), chosen, 0)[0]
+    return found
+
+
 class CellSheet:
     """Characters and colours of columns × rows of cells.
 

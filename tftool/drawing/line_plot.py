@@ -14,7 +14,7 @@ from tftool.base.fixed_width import fitted
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme
-from tftool.drawing.cells import Dots, packed
+from tftool.drawing.cells import Dots, packed, woven
 from tftool.frames.pair_samples import Trajectory, trajectory_of
 from tftool.frames.pair_series import (
     PlotPanel,
@@ -105,15 +105,19 @@ def over_time(
         # With several pairs, each curve has its own name instead of a title.
         pair = visible(f"{found[0].source} in {found[0].target}")
         text.append(f"{fitted(pair, look.width)}\n", style="bold")
-    rows = ROWS
+    tall, taller = ROWS, 0
     if look.height is not None:
         around = 2 + len(told) + (len(found) == 1)
-        rows = max(LEAST_ROWS, (look.height - around) // max(1, len(drawn)) - 1)
+        room = look.height - around - len(drawn)
+        tall = max(LEAST_ROWS, room // max(1, len(drawn)))
         # With an odd number of lines, a tick in the middle line is exactly in the middle.
-        rows -= 1 - rows % 2
+        tall -= 1 - tall % 2
+        # The first panels share the lines that remain, in pairs.
+        taller = max(0, room - tall * len(drawn)) // 2
     number = 1
-    for panel in drawn:
+    for place, panel in enumerate(drawn):
         text.append_text(_titled(panel, look, number))
+        rows = tall + 2 * (place < taller)
         for line in _drawn(panel, (low, high), shaded, rows, look, number):
             text.append_text(line)
         number += len(panel.curves)
@@ -145,9 +149,11 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
     wide, high = per_cell * columns, 2.0 * per_cell * rows
     middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)
     left, bottom = middle_x - 0.5 * wide, middle_y - 0.5 * high
-    dots = Dots(columns, rows)
+    layers = [Dots(columns, rows) for _ in curves]
     for place, (_, x, y) in enumerate(curves):
-        draw_curve(dots, (x - left) / wide, (y - bottom) / high, colors[place % len(colors)])
+        color = colors[place % len(colors)]
+        draw_curve(layers[place], (x - left) / wide, (y - bottom) / high, color)
+    dots = woven(layers)
     text = Text(no_wrap=True, overflow="crop")
     for place, (label, x, y) in enumerate(curves):
         holds = np.flatnonzero(np.isfinite(x))
@@ -211,12 +217,13 @@ def _drawn(
     labels = [""] * rows
     labels[:: (rows - 1) // (len(ticks) - 1)] = reversed(tick_labels(ticks))
     first, last = span
-    dots = Dots(columns, rows)
+    layers = [Dots(columns, rows)]
     for place in seen:
         one = panel.curves[place]
         times, values = thinned(one.times, one.values, 16 * columns)
+        layers.append(Dots(columns, rows))
         draw_curve(
-            dots,
+            layers[-1],
             (times - first) / (last - first),
             (values - low) / (high - low),
             look.colors[place % len(look.colors)],
@@ -229,7 +236,7 @@ def _drawn(
             max(0, min(begin, columns - 1)), max(0, min(max(end, begin + 1), columns))
         ):
             shade[column] = ":" if look.ascii_only else "░"
-    for label, cells in zip(labels, dots.rows(ascii_only=look.ascii_only), strict=True):
+    for label, cells in zip(labels, woven(layers).rows(ascii_only=look.ascii_only), strict=True):
         below = zip(cells, shade, strict=True)
         yield _row(label, [cell if cell[1] else (sign, "dim") for cell, sign in below], look)
 
