@@ -109,7 +109,7 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
     conflict = found(made, "publisher-conflict")
     assert conflict.facts["apart"] == pytest.approx(0.04)
     assert conflict.confidence is Confidence.LIKELY
-    assert conflict.evidence[0].startswith("A and B: 10 stamps carry two values")
+    assert conflict.evidence[0].startswith("base_link in odom: A and B, 10 stamps carry two values")
     assert conflict.severity is Severity.ERROR
 
     few = robot()
@@ -317,7 +317,7 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     # Nothing says where the camera is mounted.
     assert finding.facts["join"] is None
     assert finding.fixes[0].command == ""
-    assert "nothing in the data says where camera_link belongs" in finding.fixes[0].text
+    assert "nothing in the data says where to join camera_link" in finding.fixes[0].text
 
     bare = robot(laser=False, scans=False)
     bare.moving("turret", "gun")
@@ -327,6 +327,38 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
     finding = found(made, "split-tree")
     assert (finding.severity, finding.topics) == (Severity.ERROR, ("/image",))
+
+
+def test_trees_that_nothing_joins_are_one_finding():
+    made = robot()
+    made.moving("arm_left", "wheel_left")
+    made.moving("arm_right", "wheel_right")
+    assert ids(made) == ["split-tree"]
+    finding = found(made, "split-tree")
+    assert finding.message == "arm_left, arm_right are not joined to the tree of odom"
+    assert len(finding.evidence) == 2
+    assert "where to join arm_left, arm_right:" in finding.fixes[0].text
+
+
+def test_wheels_of_one_message_with_two_publishers_are_one_finding():
+    made = robot()
+    for tick in range(150):
+        for begin, angle in ((0.0, 0.0), (0.025, 1.5)):
+            at = tick * 0.05 + begin
+            for name, factor in (("left", 1.0), ("right", 0.9)):
+                wheel = (0.0, 0.1, 0.0, *turned(2.0 * at + factor * angle, 1))
+                made.sent("base_link", name, at, wheel)
+                row = made.records["base_link", name, False][-1]
+                number = made.records["base_link", "left", False][-1][2]
+                made.records["base_link", name, False][-1] = (row[0], row[1], number)
+    made.moving("base_link", "head")
+    made.moving("base_link", "head", pose=stands)
+    conflicts = [one for one in made.judged().findings if one.id == "publisher-conflict"]
+    assert [one.edges for one in conflicts] == [
+        (("base_link", "left"), ("base_link", "right")),
+        (("base_link", "head"),),
+    ]
+    assert conflicts[0].message.startswith("left in base_link, right in base_link are published")
 
 
 def test_odometry_messages_say_which_transform_is_missing():

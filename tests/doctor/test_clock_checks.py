@@ -358,3 +358,44 @@ def test_a_localiser_of_ros_2_may_repeat_the_pose_of_its_last_scan():
     assert "repeated-stamp" not in ids(made, notes=True)
     made.kind = "ROS 1 bag"
     assert "repeated-stamp" in ids(made, notes=True)
+
+
+def test_constants_that_ros_1_dates_ahead_tell_no_clock_of_a_simulation():
+    made = Robot(start=3.0, log_from=START)
+    made.moving("odom", "base_link", hz=10)
+    made.moving("base_link", "wheel", hz=10)
+    for plate in ("bottom", "top"):
+        made.moving("base_link", plate, hz=5, pose=stands, offset=0.5)
+    made.static("base_link", "laser")
+    made.hears("/scan", "laser", latency=0.002)
+    assert "stale-stamp" not in ids(made, notes=True)
+
+
+@pytest.mark.parametrize("hours", [15 / 3600, -168.0])
+def test_a_localiser_on_the_recorders_clock_is_off_the_others_and_no_more(hours):
+    made = shifted(-hours)
+    made.kind = "ROS 1 bag"
+    made.moving("map", "odom", hz=20, pose=stands, offset=0.05)
+    rows = made.records["map", "odom", False]
+    made.records["map", "odom", False] = [
+        (stamp - seconds(hours * 3600), pose, number) for stamp, pose, number in rows
+    ]
+    finding = found(made, "clock-offset")
+    assert finding.edges == (("map", "odom"),)
+    off = "14.94 s" if hours > 0 else "168 hours"
+    assert finding.message.startswith(f"odom in map is {off}")
+    assert ("played" in finding.fixes[0].text) == (hours < -1)
+    assert ids(made) == ["clock-offset"]
+
+
+def test_a_delay_that_varies_is_a_queue_and_no_clock():
+    made = robot(odometry=False, scans=False)
+    for tick in range(160):
+        made.sent("odom", "base_link", tick * 0.05, drives(tick * 0.05), latency=1.0 + tick / 400)
+    cure = found(made, "stale-stamp").fixes[0].text
+    assert cure.startswith("the delay varies by 318 ms")
+    assert "clocks" not in cure
+
+    steady = robot(odometry=False, scans=False)
+    steady.moving("odom", "base_link", latency=0.8)
+    assert "clocks" in found(steady, "stale-stamp").fixes[0].text

@@ -125,6 +125,11 @@ def test_statics_that_come_late():
     assert finding.topics == ("/scan",)
     assert finding.facts["late"] == pytest.approx(seconds(3.0), abs=seconds(0.02))
 
+    # One that was sent before the recorder ran is only heard late.
+    _, mount, number = made.records["base_link", "laser", True][0]
+    made.records["base_link", "laser", True][0] = (seconds(START - 60.0), mount, number)
+    assert "static-late" not in ids(made, notes=True)
+
 
 def test_statics_that_are_offered_to_no_late_subscriber():
     made = robot()
@@ -241,6 +246,34 @@ def test_messages_older_than_the_cache():
     assert "cache-short" not in [
         one.id for one in made.judged(Settings(cache_time=seconds(30))).findings
     ]
+
+
+def test_old_messages_that_nothing_places_need_no_larger_cache():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=20.0)
+    made.hears("/nav", "wgs84", kind="nav_msgs/Odometry", end=5.0, latency=13.0)
+    made.hears("/imu", "laser", kind="sensor_msgs/Imu", end=5.0, latency=13.0)
+    assert "cache-short" not in [one.id for one in made.judged().findings]
+
+
+def test_waits_of_one_period_of_fast_odometry_are_not_reported():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=30, latency=0.001)
+    made.hears("/scan", "laser", hz=5, latency=0.001)
+    assert ids(made, notes=True) == []
+    slower = robot(odometry=False, scans=False)
+    slower.moving("odom", "base_link", hz=12, latency=0.001)
+    slower.hears("/scan", "laser", hz=5, latency=0.001)
+    finding = found(slower, "sensor-outruns-tf")
+    # One message waits at a time: a queue of one is no advice.
+    assert not any("queue" in fix.text for fix in finding.fixes)
+
+
+def test_two_samples_at_once_have_not_stopped():
+    made = robot()
+    for at in (2.0, 2.02):
+        made.sent("base_link", "arm", at)
+    assert "edge-stopped" not in ids(made)
 
 
 def test_messages_before_the_first_transform_are_lost():

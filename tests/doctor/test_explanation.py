@@ -176,8 +176,8 @@ def test_two_clocks_never_meet():
             "odom",
             "camera_link",
             Cause.SPLIT,
-            "nothing in the data says where camera_link belongs: check the node that should "
-            "publish it (a driver, the robot description and its joint states, a localiser)",
+            "nothing in the data says where to join camera_link: check the node that should "
+            "publish that (a driver, the robot description and its joint states, a localiser)",
         ),
     ],
 )

@@ -23,6 +23,11 @@ _SYNCHRONISE = (
     ),
     Fix("a larger timeout does not help against a constant offset"),
 )
+_PLAY_AGAIN = Fix(
+    "a recording was probably played beside nodes that run on the present time: {play_again}"
+)
+_PLAYED = seconds(3600)
+"""From what offset on old data is likelier than two clocks."""
 _COMPARE = (
     Fix(
         "compare the clocks of the two computers (chronyc tracking); if they agree, or both "
@@ -176,7 +181,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     why="AMCL stamps its transform 1 s ahead, and offsets of 0.1 s are in use; ROS 1's "
     "static publishers and gmapping stamp theirs one period ahead, its "
     "robot_state_publisher fixed joints 0.5 s",
-    because_of=(("stream", "clock-mixture"),),
+    because_of=(("stream", "clock-mixture clock-offset"),),
 )
 def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms are stamped later than they arrive."""
@@ -267,12 +272,6 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
     detail="{what}: {late:span} late (median)",
     consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
-    fixes=(
-        Fix(
-            "stamp each transform when it is made, not with the last measurement's stamp; "
-            "compare the clocks (chronyc tracking)"
-        ),
-    ),
     causes=(
         "the stamp is copied from an old measurement",
         "the publisher's clock is behind",
@@ -297,25 +296,43 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             least = max(least, track.period)
         if len(track.stamps) > 1 and track.median_latency > least and not stands_still(track):
             severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
-            yield hit_of(
-                track, {"what": track.name, "late": track.median_latency}, severity=severity
-            )
+            yield _late(track, track.name, severity)
     for heard in model.heard:
         # A latched message is old by intention, and where nothing moves an old one is as good.
         if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
-            yield hit_of(heard, {"what": heard.topic, "late": heard.median_latency})
+            yield _late(heard, heard.topic, Severity.WARNING)
+
+
+_STEADY = seconds(0.1)
+"""Within what a delay that no queue makes varies, from its 10 % to its 90 % quantile."""
+
+
+def _late(stream: "Track | Heard", name: str, severity: Severity) -> Hit:
+    low, high = (int(one) for one in np.percentile(stream.latency, (10, 90)))
+    cure = (
+        "stamp each transform when it is made, not with the last measurement's stamp; compare the "
+        "clocks (chronyc tracking)"
+    )
+    if high - low > _STEADY:
+        cure = (
+            f"the delay varies by {span(high - low)}, as of data that queues, not of a clock: look "
+            "for a slow network, a slow recorder or a busy computer; send less, or record on the "
+            "robot"
+        )
+    facts = {"what": name, "late": stream.median_latency}
+    return hit_of(stream, facts, severity=severity, fixes=(Fix(cure),))
 
 
 @check(
     "clock-offset",
     Severity.WARNING,
     rule="the median latency of a sensor's messages is below -{seconds:g} s (for a laser "
-    "scan: less one scan), or differs from that of a recording that is shifted as a "
-    "whole. A note if steady streams (95 % within {spread:g} s, {samples:g} messages), "
-    "none ahead and each later than its own period, form groups more than {apart:g} s "
-    "apart",
+    "scan: less one scan), or messages or transforms are on the recorder's clock in a recording "
+    "that is shifted as a whole. A note if steady streams (95 % within {spread:g} s, "
+    "{samples:g} messages), none ahead and each later than its own period, form groups "
+    "more than {apart:g} s apart",
     headline="{topic} {found}",
     detail="{groups}",
     consequence="{so}",
@@ -338,7 +355,12 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 )
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
     """A sensor's stamps are in the future: two clocks differ."""
-    alike: dict[int, list[Heard]] = defaultdict(list)
+    alike: dict[int, list[Track | Heard]] = defaultdict(list)
+    by = 0 if model.shift is None else model.shift.by
+    for track in model.dynamic if by else ():
+        # What is merely late is on the clock of the others.
+        if len(track.stamps) > 2 and 4 * abs(track.median_latency + by) < abs(by):
+            alike[-track.median_latency].append(track)
     for heard in model.heard:
         if len(heard.stamps) < 3 or not heard.is_spatial:
             continue
@@ -353,23 +375,25 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         if ahead > allowed or is_off:
             same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
             alike[same].append(heard)
-    for ahead, heards in alike.items():
-        topics = tuple(dict.fromkeys(heard.topic for heard in heards))
+    for ahead, streams in alike.items():
+        names = tuple(dict.fromkeys(_name(one) for one in streams))
+        heards = [one for one in streams if isinstance(one, Heard)]
         yield Hit(
-            topics=topics,
+            edges=tuple(one.edge for one in streams if isinstance(one, Track)),
+            topics=tuple(dict.fromkeys(heard.topic for heard in heards)),
             frames=tuple(dict.fromkeys(heard.frame for heard in heards)),
-            since=min(int(heard.logs[0]) for heard in heards),
-            count=sum(len(heard.stamps) for heard in heards),
+            since=min(int(one.logs[0]) for one in streams),
+            count=sum(len(one.stamps) for one in streams),
             facts={
-                "topic": several(topics),
+                "topic": several(names),
                 "ahead": ahead,
                 "groups": _offsets(model),
-                "found": f"{'is' if len(topics) == 1 else 'are'} {span(abs(ahead))} off the other "
+                "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} off the other "
                 "clocks",
                 "so": "each lookup at these stamps asks for what is not there"
                 + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
             },
-            fixes=_SYNCHRONISE,
+            fixes=_SYNCHRONISE if abs(ahead) < _PLAYED else (_PLAY_AGAIN, *_SYNCHRONISE),
             alone=True,
         )
     if not alike:
@@ -652,7 +676,7 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(
         ("anything", "time-jump-back"),
         ("child", "publisher-conflict two-parents"),
-        ("edge", "wild-stamp"),
+        ("edge", "wild-stamp clock-offset"),
     ),
 )
 def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -706,7 +730,7 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
         ("anything", "time-jump-back"),
         ("stream", "clock-mixture"),
         ("child", "publisher-conflict two-parents"),
-        ("edge", "wild-stamp repeated-stamp"),
+        ("edge", "wild-stamp clock-offset repeated-stamp"),
     ),
 )
 def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:

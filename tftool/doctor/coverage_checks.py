@@ -44,8 +44,8 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     "edge-stopped",
     Severity.ERROR,
     rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
-    "share of {share:g}, before the recording's end, while other streams continue; "
-    "except detections of a camera that have no children",
+    "share of {share:g}, before the recording's end, while other streams continue; of "
+    "{samples:g} samples or more, except detections of a camera that have no children",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
@@ -54,7 +54,7 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
         "a node that crashed",
         "a lost sensor",
     ),
-    limits={"periods": STOPPED_PERIODS, "seconds": STOPPED_AFTER, "share": 0.05},
+    limits={"periods": STOPPED_PERIODS, "seconds": STOPPED_AFTER, "share": 0.05, "samples": 5},
     needs=("log times",),
     because_of=(
         ("stream", "clock-mixture"),
@@ -68,7 +68,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
     alive: list[Track | Heard] = [*model.dynamic, *model.heard]
     latest = max((int(one.logs[-1]) for one in alive if len(one.logs)), default=model.start)
     for track in model.dynamic:
-        if len(track.stamps) < 2:
+        if len(track.stamps) < limits["samples"]:
             continue
         last = int(track.logs[-1])
         before = model.end - last
@@ -134,7 +134,7 @@ def _is_detection(model: Model, track: Track) -> bool:
     "timeouts of consumers cover shorter gaps",
     because_of=(
         ("child", "publisher-conflict two-parents"),
-        ("edge", "edge-stopped nan-transform"),
+        ("edge", "edge-stopped nan-transform clock-offset"),
     ),
 )
 def gap(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -295,7 +295,7 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
     "static-late",
     Severity.WARNING,
     rule="a static first arrives more than {seconds:g} s after the first message in a frame "
-    "below it",
+    "below it, and is not dated before that message: then only the recorder heard it late",
     headline="{where} {concerned:arrives|arrive} later than messages that need {concerned:it|them}",
     detail="{edge}: {late:span} late; before it: {missed}",
     consequence="a listener that ran from the start could not place these messages, although the "
@@ -322,7 +322,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
         missed = [
             (heard, int(np.count_nonzero(heard.logs < first)))
             for heard in spatial
-            if heard.frame in below
+            if heard.frame in below and not 0 < int(track.stamps[0]) < int(heard.stamps[0])
         ]
         missed = [(heard, count) for heard, count in missed if count]
         late = max((first - int(heard.logs[0]) for heard, _ in missed), default=0)
@@ -464,7 +464,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         "SteveMacenski/slam_toolbox#576",
         "ApolloAuto/apollo#12088",
     ),
-    limits={"seconds": 0.1, "never": 0.05, "refused": 0.5, "note": 0.03, "messages": 5},
+    limits={"seconds": 0.1, "never": 0.05, "refused": 0.5, "note": 0.05, "messages": 5},
     needs=(
         "log times",
         "headers",
@@ -611,7 +611,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
         *((Fix(f"or {often}") if later < wait * NANOSECONDS else Fix(often),) if often else ()),
         *((ahead,) if waits.link.is_localisation else ()),
         *((mount,) if not waits.link.moves else ()),
-        Fix(f"let the message filter's queue hold {depth} message{'s' * (depth > 1)}"),
+        *((Fix(f"let the message filter's queue hold {depth} messages"),) if depth > 1 else ()),
     )
 
 
@@ -670,6 +670,8 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages are older than the cache time when they arrive."""
     for heard in model.heard:
         if not heard.is_spatial or len(heard.stamps) < 3 or model.rests(heard.frame):
+            continue
+        if heard.frame not in model.frames or last_part(heard.type) in _NOT_PLACED:
             continue
         latency = heard.latency[heard.stamps != 0]
         if not len(latency):

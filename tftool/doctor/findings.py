@@ -165,5 +165,6 @@ class Hit:
     severity: Severity | None = None
     confidence: Confidence = Confidence.CERTAIN
     fixes: tuple[Fix, ...] = ()
-    alone: bool = False
-    """Whether it makes a finding of its own, however many alike there are."""
+    alone: bool | str = False
+    """Whether it makes a finding of its own, however many alike there are; or a word that it shares
+    with those it makes one with. Of these, the fact `named` is the name in the headline."""

@@ -182,12 +182,12 @@ def _findings(
     for number, (check, _) in enumerate(hits):
         of_check[check.id].append(number)
     causes = [_cause_of(number, hits, of_check) for number in range(len(hits))]
-    grouped: dict[tuple[str, Severity, str | None, int], list[Hit]] = {}
+    grouped: dict[tuple[str, Severity, str | None, int | str], list[Hit]] = {}
     for number, ((check, hit), cause) in enumerate(zip(hits, causes, strict=True)):
         severity = hit.severity or check.severity
         if severity is Severity.ERROR and hit.confidence is Confidence.POSSIBLE:
             severity = Severity.WARNING  # an error is what the data shows
-        key = (check.id, severity, cause, number if hit.alone else -1)
+        key = (check.id, severity, cause, number if hit.alone is True else str(hit.alone))
         grouped.setdefault(key, []).append(hit)
     findings = [
         replace(
@@ -272,12 +272,16 @@ def _joined(check: Check, hits: list[Hit], limits: Limits, words: Mapping[str, s
     """Merge similar hits of one check into a finding."""
     first = hits[0]
     concerned = _concerned(hits)
+    named = list(dict.fromkeys(str(hit.facts["named"]) for hit in hits if "named" in hit.facts))
     facts = {
         "frames": several(first.frames),
         **first.facts,
         "where": several(concerned, 3),
         "concerned": len(concerned),
+        "named": several(named),
+        "many": len(named),
     }
+    words = {**words, "named": several(named)}
     evidence = evidence_lines(check.detail, hits)
     changed = {name: value for name, value in limits.items() if value != check.limits[name]}
     if changed:

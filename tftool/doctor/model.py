@@ -445,9 +445,12 @@ class Model:
         """Return a simulation clock's readings and their log times; estimated without `/clock`."""
         kept: list[tuple[Stamps, Stamps]] = []
         offset, steady = 0, True
-        for stream in self._streams():
-            if isinstance(stream, Track) and stream.is_localisation:
-                continue
+        streams = [
+            one for one in self._streams() if not (isinstance(one, Track) and one.is_localisation)
+        ]
+        # ROS 1 dates constants ahead: they tell the clock only if nothing else does.
+        moving = [one for one in streams if not isinstance(one, Track) or one.moves]
+        for stream in moving or streams:
             mask = (stream.stamps < SIMULATED_BELOW) & (stream.stamps != 0)
             if not mask.any():
                 continue

@@ -9,6 +9,7 @@ from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import proposed_frame, quoted
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import Heard, family, last_part
 
 check = checks_of(Area.NAMES)
@@ -124,20 +125,27 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
     if _is_scoped(model, name):
         fixes.append(Fix("{scoped}"))
     join = proposed_frame(model, name.removeprefix("/"), kinds)
-    if name.startswith("/"):
-        fixes.insert(0, Fix(f'set frame_id to "{name[1:]}": no frame of tf2 begins with a slash'))
     if join is not None:
         # Evidence for the frame itself comes before a name that is near.
-        return (join.fix, *fixes) if join.why else (*fixes, join.fix)
-    source = "a localiser" if last_part(name) == "map" else "a driver, robot_state_publisher"
-    text = "set frame_id of the publisher to the name in tf, or start what should publish the frame"
-    return tuple(fixes) or (Fix(f"{text} ({source})"),)
+        fixes = [join.fix, *fixes] if join.why else [*fixes, join.fix]
+    if not fixes:
+        source = "a localiser" if last_part(name) == "map" else "a driver, robot_state_publisher"
+        fixes = [
+            Fix(
+                "set frame_id of the publisher to the name in tf, or start what should publish "
+                f"the frame ({source})"
+            )
+        ]
+    if name.startswith("/"):
+        fixes.append(Fix(f'and set frame_id to "{name[1:]}": no frame of tf2 begins with a slash'))
+    return tuple(fixes)
 
 
 @check(
     "slash-twins",
     Severity.ERROR,
-    rule="a frame in a header begins with a slash, and tf knows the name without it",
+    rule="a frame in a header begins with a slash, and tf knows the name without it. In ROS 1 a "
+    "warning: its tf strips the slash",
     headline="{topic} names {frame}, tf knows {known}",
     detail="{topic}: {frame}, {count:times}",
     consequence="every direct tf2 lookup refuses (message filters and tf 1 strip the slash): "
@@ -159,6 +167,7 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
                 topics=(heard.topic,),
                 since=int(heard.logs[0]) if len(heard.logs) else None,
                 count=len(heard.stamps),
+                severity=Severity.WARNING if is_ros1(model.evidence) else None,
                 facts={
                     "frame": heard.frame,
                     "known": heard.frame[1:],
@@ -178,6 +187,7 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     consequence="harmless to tf2; tools that compare names see two frames",
     fixes=(Fix("remove the slash in the publisher"),),
     causes=("a publisher written for tf 1",),
+    because_of=(("anything", "slash-twins"),),
 )
 def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
     """Names in transforms have a leading slash."""
@@ -348,6 +358,7 @@ def _shared(one: str, other: str) -> int:
         "ros-controls/ros2_controllers#533",
         "ros/robot_state_publisher#205",
     ),
+    because_of=(("child", "static-and-dynamic"),),
 )
 def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     """Some frames have a prefix that others lack."""

@@ -108,8 +108,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     " as half a metre). Each track needs {samples:g} samples and a share of {share:g}, "
     "the track must change {changes:g} times or more, and motion at constant velocity "
     "must explain all samples {worse:g} times worse than each track alone",
-    headline="{edge} is published by {first} and {second} with different values{seen}",
-    detail="{first} and {second}: {told}, {apart:m} and {turned:deg} apart (median), "
+    headline="{named} {many:is|are} published by {first} and {second} with different values{seen}",
+    detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
     consequence="{child} jumps back and forth in {parent}, and with it everything below",
     causes=(
@@ -145,11 +145,18 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     # Where fewer than two are known by name, no edge has two that are.
     named = len({one.node for one in model.evidence.transforms.publishers if one.node}) > 1
     told_of: dict[tuple[str, str], Hit] = {}
+    apart: list[Track] = []
     for track in model.dynamic:
         hit = _named_conflict(model, track, limits) if named else None
         hit = hit or _values_at_one_stamp(track, limits) or _unnamed_conflict(track, limits)
-        if hit is not None:
-            told_of[track.edge] = hit
+        if hit is None:
+            continue
+        # What shares messages shares the nodes that send them.
+        like = (t for t in apart if np.isin(track.messages, t.messages).mean() > 0.5)
+        sent_with = next(like, track)
+        if sent_with is track:
+            apart.append(track)
+        told_of[track.edge] = replace(hit, alone=f"{sent_with.name} {hit.facts['first']}")
     odometry = model.evidence.odometry
     for told in () if odometry is None else [Track(edge, odometry) for edge in odometry.edges]:
         told.arrivals = told.logs
@@ -386,6 +393,7 @@ def _conflict(
         confidence=confidence,
         facts={
             "edge": track.name,
+            "named": track.name,
             "child": track.child,
             "parent": track.parent,
             "first": names[0],

@@ -105,7 +105,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     rule="there is more than one root. An error if messages are in a frame of a smaller "
     "tree; a note if each tree is a whole robot, or if no message is in one of two "
     "trees that hold one frame in two conventions (odom, odom_ned)",
-    headline="{root} is not joined to the tree of {main_root}",
+    headline="{named} {many:is|are} not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
     consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
     causes=(
@@ -141,7 +141,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         if (_is_complete(main) and _is_complete(tree)) or _is_convention(tree, topics):
             severity = Severity.NOTE
         join = proposed_join(model, main, tree)
-        fix = nothing_says(model, tree.root) if join is None else join.fix
+        fix = nothing_says(model, "{named}") if join is None else join.fix
         used = [f"{topic} ({count} messages)" for topic, count in topics.items()]
         yield Hit(
             frames=(tree.root, *sorted(tree.frames - {tree.root})),
@@ -149,6 +149,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
             severity=severity,
             facts={
                 "root": tree.root,
+                "named": tree.root,
                 "main_root": main.root,
                 "number": number,
                 "used": used,
@@ -159,7 +160,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
                 else {"parent": join.edge[0], "child": join.edge[1], "guess": join.guess},
             },
             fixes=(fix,),
-            alone=True,
+            alone="nothing says where" if join is None else True,
         )
 
 
@@ -168,8 +169,8 @@ def nothing_says(model: Model, root: str) -> Fix:
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
     return Fix(
-        f"nothing in the data says where {root} belongs: check the node that should publish "
-        f"it (a driver, the robot description and its joint states, a localiser){static}"
+        f"nothing in the data says where to join {root}: check the node that should publish "
+        f"that (a driver, the robot description and its joint states, a localiser){static}"
     )
 
 

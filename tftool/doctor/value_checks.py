@@ -341,7 +341,10 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
     ),
     limits={"metres": 0.05, "degrees": 2.0, "share": 0.5},
     needs=("odometry",),
-    because_of=(("frame", "split-tree"),),
+    because_of=(
+        ("frame", "split-tree"),
+        ("child", "static-and-dynamic"),
+    ),
 )
 def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
     """An odometry message and the transform of the same frames disagree."""

@@ -22,7 +22,8 @@ def render(model: Model, steps: Sequence[LocalisationStep]) -> RenderableType:
     if not steps:
         return Text(visible(f"{model.evidence.name}: no steps"))
     table = Table(box=None, pad_edge=False, title_justify="left", title_style="bold")
-    table.title = visible(f"{model.evidence.name}: {len(steps):,} steps")
+    counted = "1 step" if len(steps) == 1 else f"{len(steps):,} steps"
+    table.title = visible(f"{model.evidence.name}: {counted}")
     for name in ("at", "edge", "within", "step", "", "drift before it", ""):
         table.add_column(name, justify="left" if name == "edge" else "right", no_wrap=True)
     for step in steps:
