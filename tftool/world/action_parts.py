@@ -1,4 +1,4 @@
-"""An action's services and topics as in ROS 2, on top of a world's actions."""
+"""Services and topics that belong to an action in ROS 2, made from the actions of a world."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -12,50 +12,50 @@ if TYPE_CHECKING:
     from tftool.world.world import World
 
 KEPT: Final = 100
-"""Goals kept for each action, running ones and, for late requests, ended ones; beyond this
-number of running goals a new one is refused."""
+"""Goals stored for each action: running ones and, for late requests, ended ones. When as many goals
+are running, a new one is rejected."""
 
 CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
 STATUS: Final = "action_msgs/msg/GoalStatusArray"
 
 ACTIVE: Final = {"executing": 2, "canceling": 3}
 ENDED: Final = {"succeeded": 4, "canceled": 5, "aborted": 6}
-"""The numbers of action_msgs' GoalStatus."""
+"""Number in action_msgs/GoalStatus of each final state of a goal."""
 
 _EVERY_GOAL = bytes(16)
 _NO_ERROR, _REJECTED, _UNKNOWN_GOAL, _ENDED = 0, 1, 2, 3
 
 
 class Tasks:
-    """Running tasks, which are cancelled when their owner closes."""
+    """Set of running asyncio tasks, which are cancelled when their owner closes."""
 
     def __init__(self) -> None:
         self._tasks: set[asyncio.Task[None]] = set()
 
     def start(self, work: Coroutine[Any, Any, None]) -> None:
-        """Run something concurrently."""
+        """Run a coroutine concurrently, as a task of this set."""
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
     def cancel(self) -> None:
-        """Cancel all tasks that still run."""
+        """Cancel all tasks that are still running."""
         for task in tuple(self._tasks):
             task.cancel()
 
 
 def message(ros_type: str, **fields: Any) -> Any:
-    """Return a message, or a part of a service or action, by its full name."""
+    """Return a message, or a part of a service or action, by its full name and fields."""
     return INTERFACES.part(ros_type)(**fields)
 
 
 def goal_id_message(goal_id: bytes) -> Any:
-    """Convert a goal's id to a message."""
+    """Convert a goal's id of 16 bytes to a UUID message."""
     return message("unique_identifier_msgs/msg/UUID", uuid=goal_id)
 
 
 def goal_info(goal_id: bytes, accepted: Stamp) -> Any:
-    """Return a goal's id and acceptance stamp as a message."""
+    """Return a GoalInfo message with a goal's id and the time of its acceptance."""
     return message(
         "action_msgs/msg/GoalInfo", goal_id=goal_id_message(goal_id), stamp=_time(accepted)
     )
@@ -69,7 +69,7 @@ def _time(stamp: Stamp) -> Any:
 class ActionParts:
     """Server of an action's hidden services, and publisher of its hidden topics.
 
-    It tracks every goal, of any client, that is sent to the action's server in this world.
+    It tracks every goal that any client sends to the action's server in this world.
     """
 
     def __init__(
@@ -82,15 +82,15 @@ class ActionParts:
         on_status: Callable[[Any], object],
         warn: Callable[[str], object],
     ) -> None:
-        """Follow an action's goals.
+        """Start to track an action's goals.
 
         Args:
-            world: World of the action.
-            name: The action's name.
-            interface: Type, "package/action/Name".
-            on_feedback: Is given each FeedbackMessage.
-            on_status: Is given the states of all goals when one of them changes.
-            warn: Is given a sentence for the log.
+            world: World with the action's server.
+            name: Name of the action.
+            interface: Type of the action, "package/action/Name".
+            on_feedback: Function called with each FeedbackMessage.
+            on_status: Function called with the states of all goals when one of them changes.
+            warn: Function called with a sentence for the log.
         """
         self._world = world
         self._name = name
@@ -105,18 +105,18 @@ class ActionParts:
         self._stop = world.watch_goals(name, self._follow, name)
 
     def close(self) -> None:
-        """Stop following; running goals are not reported any more."""
+        """Stop tracking; goals that still run are not reported any more."""
         self._is_closed = True
         self._stop()
         self._tasks.cancel()
 
     def give_up(self) -> None:
-        """Ask the running goal to end."""
+        """Request the cancellation of all goals."""
         for goal, _ in self._goals.values():
             goal.cancel()
 
     async def send_goal(self, asked: Any) -> Any:
-        """Send a goal; the response comes when its server has decided."""
+        """Handle a SendGoal request; return the response when the server has decided."""
         goal_id = bytes(asked.goal_id.uuid)
         now = self._world.clock.now()
         is_new = goal_id not in self._goals and goal_id not in self._undecided
@@ -132,14 +132,14 @@ class ActionParts:
         return message(f"{self._type}_SendGoal_Response", accepted=accepted, stamp=_time(now))
 
     def _has_room(self) -> bool:
-        """Whether one more goal may start; the oldest finished ones are dropped for it."""
+        """Return whether one more goal may start, after dropping old ended goals if needed."""
         if self._make_way(len(self._undecided)) <= 0:
             return True
         self._warn(f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.")
         return False
 
     def _make_way(self, others: int) -> int:
-        """Drop finished goals until one more fits; return how many are still too many."""
+        """Drop ended goals until one more fits; return how many goals are still too many."""
         surplus = len(self._goals) + others + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
         for goal_id in ended[: max(0, surplus)]:
@@ -166,7 +166,7 @@ class ActionParts:
             self._publish_status()
 
     async def _enters(self, goal: GoalHandle) -> bool:
-        """Record a goal when its server accepts it; return whether it does."""
+        """Wait until the server accepts or rejects a goal; track it and return True if accepted."""
         if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         if goal.goal_id not in self._goals:
@@ -176,7 +176,7 @@ class ActionParts:
         return True
 
     async def cancel_goal(self, asked: Any) -> Any:
-        """Cancel one goal or all; the response comes with the server's decision."""
+        """Handle a CancelGoal request for one goal or all; return the server's decision."""
         goal_id = bytes(asked.goal_info.goal_id.uuid)
         every = goal_id == _EVERY_GOAL
         chosen = [
@@ -202,7 +202,7 @@ class ActionParts:
         return message(f"{CANCEL_GOAL}_Response", return_code=code, goals_canceling=canceled)
 
     async def get_result(self, asked: Any) -> Any:
-        """Wait for a goal's result."""
+        """Handle a GetResult request: wait for the goal's end and return its result."""
         goal, _ = self._goals.get(bytes(asked.goal_id.uuid), (None, 0))
         answer = f"{self._type}_GetResult_Response"
         if goal is None:

@@ -1,12 +1,12 @@
 """Simulated and real clocks with one interface.
 
-No other module uses `time` or `asyncio.sleep`. A waiter states its moment and its place within that
-moment: (stamp, phase, rank, order of requests). Both clocks wake waiters in exactly that order,
-because asyncio itself breaks ties between timers of one instant unpredictably.
+No other module uses `time` or `asyncio.sleep`. A waiter states the time it waits for and its place
+within that instant: (stamp, phase, rank, order of requests). Both clocks wake waiters in exactly
+that order, because asyncio itself breaks ties between timers of one instant unpredictably.
 
 On the simulated clock the event loop runs in virtual time too: when every task sleeps, time jumps
-to the next due moment, so that asyncio's own timeouts mean simulated time and ten minutes pass in a
-second.
+to the next time that a waiter waits for. So asyncio's own timeouts mean simulated time, and ten
+minutes pass in a second.
 """
 
 import asyncio
@@ -30,7 +30,7 @@ T = TypeVar("T")
 
 
 class Phase(IntEnum):
-    """Order of wake-ups within one instant."""
+    """Order in which waiters are woken within one instant."""
 
     SIMULATE = 0
     BROADCAST = 1
@@ -40,14 +40,15 @@ class Phase(IntEnum):
 
 
 class Clock(ABC):
-    """A source of stamps that can be waited on.
+    """Source of time on which tasks can wait.
 
     Attributes:
-        epoch: The moment the clock was made. Never 0, which means "latest".
-        rate: Seconds of the clock for each real second; infinite if simulated.
-        interrupted: Whether a signal has asked the run on it to end; known at once, even
-            while something holds up the loop, which would otherwise be the first to know.
-        when_killed: Called before a second signal ends the process: restore the terminal there.
+        epoch: Time at which the clock was made, nanoseconds. Never 0, which means "latest".
+        rate: Seconds of the clock per real second; infinite if simulated.
+        interrupted: Whether a signal has asked the run on this clock to end; set at once, even
+            while a node blocks the loop, which learns of the signal later.
+        when_killed: Functions called before a second signal ends the process, such as one that
+            restores the terminal.
         stopper: Stopper that can end the run; None while nothing runs.
     """
 
@@ -69,35 +70,35 @@ class Clock(ABC):
 
     @abstractmethod
     def now(self) -> Stamp:
-        """The present time, in nanoseconds."""
+        """Return the current time of the clock in nanoseconds."""
 
     @abstractmethod
     def new_loop(self) -> asyncio.AbstractEventLoop:
-        """Make an event loop that runs in this clock's time."""
+        """Create an event loop that runs in this clock's time."""
 
     def interrupt(self) -> None:
-        """Record that a signal was received."""
+        """Record that a signal was received, which asks the run to end."""
         self.interrupted = True
 
     @abstractmethod
     def limit(self, until: Stamp | None) -> None:
-        """End a node that blocks the loop when the run should be over.
+        """Set the time after which a node that blocks the event loop is ended.
 
         Args:
-            until: The end of the run; None where it needs no watching any more.
+            until: End of the run, nanoseconds; None to end no node any more.
         """
 
     @abstractmethod
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """Return a future that is done after `patience` real seconds; cancel it to give up."""
+        """Return a future that is done after `patience` real seconds, unless it is cancelled."""
 
     async def wait_for_end(
         self, tasks: "Collection[asyncio.Task[Any]]"
     ) -> "set[asyncio.Task[Any]]":
-        """Wait for cancelled tasks, for `PATIENCE` real seconds; without limit after a signal.
+        """Wait for cancelled tasks to end, for `PATIENCE` real seconds; unlimited after a signal.
 
         Returns:
-            The ones that have not returned.
+            The tasks that have not ended.
         """
         waiting = set(tasks)
         timer = self.real_timer(PATIENCE)
@@ -111,19 +112,19 @@ class Clock(ABC):
         return waiting
 
     def elapsed(self) -> Duration:
-        """Time since the clock's epoch, in nanoseconds."""
+        """Return the nanoseconds since the clock's epoch."""
         return self.now() - self.epoch
 
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`; if that is past, at its turn in this instant.
+        """Return a future that is done at `stamp`, or at its turn in this instant if that is past.
 
-        Cancel it to give it up.
+        To stop the timer, cancel the future.
 
         Raises:
-            TypeError: If `stamp` is not a whole number: 0.5 of a nanosecond is a slip of who
-                meant seconds, and NaN would be no moment at all.
+            TypeError: If `stamp` is not a whole number: a fraction of a nanosecond, such as 0.5, is
+                likely meant in seconds, and NaN is not a time.
         """
         stamp = whole(stamp)
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
@@ -132,15 +133,15 @@ class Clock(ABC):
         return future
 
     async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait until a time; a past one still waits for its turn."""
+        """Wait until a time; if that is past, wait for the turn in this instant."""
         await self.timer(stamp, phase, rank)
 
     async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait for a duration, in nanoseconds of this clock."""
+        """Wait for a duration in nanoseconds of this clock."""
         await self.timer(self.now() + duration, phase, rank)
 
     def _next_due(self) -> Stamp | None:
-        """Return when the next waiter is due; drop cancelled ones."""
+        """Return the time of the next waiter, and drop cancelled ones; None without waiters."""
         while self._waiters:
             if not self._waiters[0][4].done():
                 return self._waiters[0][0]
@@ -149,22 +150,22 @@ class Clock(ABC):
 
 
 class SimClock(Clock):
-    """Simulated time: stands still while anything runs, jumps when everything waits.
+    """Simulated clock: time stands still while a task runs, and jumps when all tasks wait.
 
     Two runs are exactly equal. One waiter is woken at a time, and all its effects are complete
-    before the next one of the same instant is woken.
+    before the next waiter of the same instant is woken.
 
     Attributes:
-        alarms: Number of timers of real time are set.
-        paced: Number of real processes run beside the world: while there are any, simulated
+        alarms: Number of timers of real time that are set.
+        paced: Number of real processes that run beside the world: while there are any, simulated
             time passes no faster than real time, so that they keep up with it.
     """
 
     def __init__(self, epoch: Stamp = seconds(1000)) -> None:
-        """Start at `epoch`.
+        """Create a clock that starts at `epoch`, in nanoseconds.
 
         Raises:
-            ValueError: If `epoch` is not after 0; 0 means "latest" in every question.
+            ValueError: If `epoch` is not after 0; 0 means "latest" in every lookup.
         """
         if epoch <= 0:
             raise ValueError("a simulated clock starts after 0, which means 'latest'")
@@ -174,26 +175,26 @@ class SimClock(Clock):
         self._now = epoch
 
     def now(self) -> Stamp:
-        """The simulated time, in nanoseconds."""
+        """Return the simulated time in nanoseconds."""
         return self._now
 
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`; a past one gets its turn in this instant."""
+        """Return a future that is done at `stamp`, or at its turn in this instant if it is past."""
         return super().timer(max(whole(stamp), self._now), phase, rank)
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
-        """Make an event loop that runs in this clock's time."""
+        """Create an event loop that runs in this clock's time."""
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that blocks simulated time for `STANDSTILL` real seconds."""
+        """Set that a node is ended once it blocks simulated time for `STANDSTILL` real seconds."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """Return a future that is done after `patience` real seconds, whatever is simulated."""
+        """Return a future that is done after `patience` real seconds, in any simulated time."""
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
 
@@ -218,14 +219,14 @@ class SimClock(Clock):
     def wait_really(
         self, loop_timer: float | None, select: Callable[[float | None], list[Any]]
     ) -> list[Any]:
-        """Wait in real time until the next timer is due or something comes from outside.
+        """Wait in real time until the next timer is due or an event comes from outside.
 
         Args:
-            loop_timer: As for `advance`.
-            select: Waits for events from outside, at most for a number of seconds.
+            loop_timer: Seconds until asyncio's own next timer; None without one.
+            select: Function that waits for events from outside, at most for a number of seconds.
 
         Returns:
-            The events; time has advanced by as long as they took.
+            The events; simulated time has advanced by the time that was waited.
         """
         due = self._next_due()
         left = None if due is None else (due - self._now) / NANOSECONDS
@@ -239,12 +240,12 @@ class SimClock(Clock):
         return events
 
     def advance(self, loop_timer: float | None) -> bool:
-        """Jump to the next due timer and wake it; return False if there is none.
+        """Jump to the next due timer and wake its waiter; return False if there is no timer.
 
-        Called by the clock's own event loop when every task waits.
+        The clock's own event loop calls this when every task waits.
 
         Args:
-            loop_timer: Seconds until asyncio's own next timer, None without one.
+            loop_timer: Seconds until asyncio's own next timer; None without one.
         """
         due = self._next_due()
         # Rounded up: of a timer that is a nanosecond early asyncio would ask again, for ever.
@@ -263,7 +264,7 @@ class SimClock(Clock):
 
 @contextlib.contextmanager
 def paced(clock: Clock) -> Iterator[None]:
-    """Let no simulated time pass faster than real time inside this block."""
+    """Limit simulated time to the speed of real time inside this block."""
     if isinstance(clock, SimClock):
         clock.paced += 1
     try:
@@ -274,7 +275,7 @@ def paced(clock: Clock) -> Iterator[None]:
 
 
 class WallClock(Clock):
-    """Real time since the Unix epoch, optionally running faster or slower.
+    """Clock of real time since the Unix epoch, which may run faster or slower.
 
     Steps of the system's clock have no effect: it is read once, then a monotonic clock counts.
     """
@@ -282,14 +283,14 @@ class WallClock(Clock):
     def __init__(
         self, rate: float = 1.0, *, epoch: Stamp | None = None, head_start: Duration = 0
     ) -> None:
-        """Start now, at `rate` times real time.
+        """Create a clock that starts now and runs at `rate` times real time.
 
         Args:
-            rate: Seconds of the clock for each real second.
-            epoch: First time, such as the moment a recording began; the present
-                less the head start if None.
-            head_start: How much of the past to live through first, as fast as it can be
-                simulated, so that a world is already under way at the first look at it.
+            rate: Seconds of the clock per real second.
+            epoch: First time, such as the start of a recording; None for the present time less the
+                head start.
+            head_start: Nanoseconds of the past to simulate first, as fast as possible, so that the
+                world is already moving when a user first sees it.
 
         Raises:
             ValueError: If `rate` is not a positive number between a billionth and a
@@ -311,7 +312,7 @@ class WallClock(Clock):
         self._simulated: Stamp | None = self.epoch if head_start else None
 
     def now(self) -> Stamp:
-        """Nanoseconds since the Unix epoch (at rate 1)."""
+        """Return the current time: at rate 1, nanoseconds since the Unix epoch."""
         return self._real() if self._simulated is None else self._simulated
 
     def _real(self) -> Stamp:
@@ -319,20 +320,20 @@ class WallClock(Clock):
         return self.epoch + (passed if self.rate == 1.0 else round(passed * self.rate))
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
-        """Make an ordinary event loop."""
+        """Create an ordinary asyncio event loop."""
         return asyncio.new_event_loop()
 
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`; the alarm is set anew if it is the earliest."""
+        """Return a future that is done at `stamp`, or at its turn in this instant if it is past."""
         future = super().timer(stamp, phase, rank)
         if self._waiters[0][4] is future:
             self._set_alarm()
         return future
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that still blocks the loop at that time."""
+        """Set the time after which a node that blocks the event loop is ended."""
         if self.stopper is not None:
             wait = None if until is None else (until - self.now()) / (NANOSECONDS * self.rate)
             # A thread waits for no more than some hundred years.
@@ -376,7 +377,7 @@ class WallClock(Clock):
         asyncio.get_running_loop().call_soon(self._wake)
 
     def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
-        """Return the time up to which a head start runs; None once it has reached the present."""
+        """Return the time up to which a head start is simulated, or None in the present."""
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
@@ -393,21 +394,21 @@ class WallClock(Clock):
 
 
 class FollowedClock(WallClock):
-    """Clock that follows real time until it is set; then it waits at each value until set again.
+    """Clock of real time until it is set; from then on it stands still until it is set again.
 
-    Clock of a world that shares a session: while another process publishes `/clock`, for example to
-    play a recording, that time is used. A wait keeps its remaining duration when time falls back,
-    or when its source changes.
+    It is the clock of a world that shares a session (a group of processes that exchange frames):
+    while another process publishes `/clock`, for example to play a recording, that time is used. A
+    waiter keeps its remaining duration when time falls back, or when the source of time changes.
 
     Attributes:
-        fell_back: Called with the nanoseconds by which a new time is before the present one.
+        fell_back: Functions called with the nanoseconds by which time has fallen back.
     """
 
     def __init__(self, told: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
-        """Read real time, or stand still at a time from the start.
+        """Create a clock that shows real time, or stands still at a time from the start.
 
         Args:
-            told: Function called with that moment.
+            told: Time in nanoseconds to stand still at; None for real time.
             epoch: Time at which the clock began, if earlier.
         """
         super().__init__(epoch=told if epoch is None else epoch)
@@ -417,18 +418,18 @@ class FollowedClock(WallClock):
 
     @property
     def is_told(self) -> bool:
-        """Whether the clock has been set."""
+        """Whether the clock is set to a time, and stands still."""
         return self._told is not None
 
     def now(self) -> Stamp:
-        """The time it was last set to, else the present."""
+        """Return the time that the clock was last set to, else real time."""
         return super().now() if self._told is None else self._told
 
     def tell(self, moment: Stamp) -> None:
-        """Set the time; call in the loop that runs on this clock.
+        """Set the time; call this in the event loop that runs on this clock.
 
         Args:
-            moment: Nanoseconds; 0 and less, which are not moment, count as 1.
+            moment: Time in nanoseconds; 0 and less, which are not valid times, count as 1.
         """
         before, is_first = self.now(), self._told is None
         self._told = max(moment, 1)
@@ -446,7 +447,7 @@ class FollowedClock(WallClock):
             self.fell_back.call(-change)
 
     async def told_once(self, patience: Duration) -> None:
-        """Wait until the clock is set for the first time, at most for a duration in real time."""
+        """Wait until the clock is set for the first time, at most for a duration of real time."""
         first = self._first = asyncio.get_running_loop().create_future()
         if self.is_told:
             first.set_result(None)
@@ -457,18 +458,18 @@ class FollowedClock(WallClock):
             timer.cancel()
 
     def run_on(self) -> None:
-        """Continue in real time from the present value."""
+        """Continue in real time from the time that the clock was last set to."""
         if self._told is not None:
             self._started = time.monotonic_ns() - (self._told - self.epoch)
             self._told = None
             self._set_alarm()
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that blocks the loop, which only a clock in real time can detect."""
+        """Set the time after which a node that blocks the loop is ended, if this is real time."""
         super().limit(None if self.is_told else until)
 
     def _shift(self, change: Duration) -> None:
-        """Shift every waiter so that it waits as long as before."""
+        """Move every waiter's time by a duration, so that it waits as long as before."""
         self._waiters = [
             (stamp + change, phase, rank, asked, future)
             for stamp, phase, rank, asked, future in self._waiters
@@ -490,7 +491,8 @@ class FollowedClock(WallClock):
 def pace_of(clock: Clock) -> Clock:
     """Return the clock for waits that a person watches, while the world runs on `clock`.
 
-    Real time if the world's time comes from outside, as that may pause, or run at any rate.
+    That is real time if the world's time comes from another process, which may pause it or run it
+    at any rate.
     """
     if not isinstance(clock, FollowedClock):
         return clock
@@ -505,23 +507,23 @@ def _set(future: "asyncio.Future[None]") -> None:
 
 
 def _others_wait_their_turn() -> bool:
-    """Whether the running loop has work to do; asyncio has no public function for this."""
+    """Return whether the running loop has work to do; asyncio has no public function for this."""
     return bool(getattr(asyncio.get_running_loop(), "_ready", ()))
 
 
 def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
-    """Run a coroutine to its end on the loop that belongs to `clock`.
+    """Run a coroutine to its end on an event loop of `clock`.
 
-    The first SIGINT or SIGTERM cancels it, so that every `finally` runs; code that does not return
-    within two seconds is named on stderr, and a second signal ends the process with status 130,
-    whatever it is doing.
+    The first SIGINT or SIGTERM cancels the coroutine, so that every `finally` runs. Code that does
+    not end within two seconds is named on stderr. A second signal ends the process with status 130
+    at once.
 
     Returns:
-        The result of the coroutine.
+        Result of the coroutine.
 
     Raises:
         KeyboardInterrupt: If a signal ended the run; the cause is an error during the stop.
-        Exception: Any of the coroutine, or of a task that it started.
+        Exception: Any that the coroutine, or a task that it started, raises.
     """
     loop = clock.new_loop()
     clock.interrupted = False
@@ -547,7 +549,7 @@ def _real_seconds() -> float:
 
 
 def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[T]") -> T:
-    """Run a task and its remaining subtasks to their end; return its result."""
+    """Run a task, and tasks that it left running, to their end; return the task's result."""
     failure: BaseException | None = None
     try:
         loop.run_until_complete(task)
@@ -569,7 +571,7 @@ def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[
 
 
 def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseException | None:
-    """Cancel the remaining tasks, and return the first exception from them."""
+    """Cancel the tasks that are left, and return the first exception from them."""
 
     async def cancel(tasks: "set[asyncio.Task[Any]]") -> BaseException | None:
         for task in tasks:
@@ -608,7 +610,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
         return self.clock.now() / NANOSECONDS
 
     def is_forsaken(self) -> bool:
-        """Whether nothing outside can wake this loop any more."""
+        """Return whether no file, thread or real timer can wake this loop any more."""
         selector: Any = getattr(self, "_selector", None)
         # The one file that is always there is the loop's own wake-up pipe.
         files = 0 if selector is None else len(selector.get_map())
@@ -617,7 +619,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
 
 
 class _VirtualSelector(selectors.DefaultSelector):
-    """Selector of a virtual loop: where a real one would wait, the clock jumps."""
+    """Selector of a virtual loop: instead of waiting, it lets the clock jump."""
 
     POLL_EVERY = 64
 
@@ -627,7 +629,7 @@ class _VirtualSelector(selectors.DefaultSelector):
         self._calls = 0
 
     def select(self, timeout: float | None = None) -> Any:
-        """Poll for signals and threads now and then; jump when the loop has nothing to run."""
+        """Poll for signals and threads now and then; let time jump when no task can run."""
         # A real poll costs a system call; a run of a million jumps cannot afford one for each.
         self._calls += 1
         if self._calls % self.POLL_EVERY == 0 or self.has_files():
@@ -651,5 +653,5 @@ class _VirtualSelector(selectors.DefaultSelector):
         return super().select(None)
 
     def has_files(self) -> bool:
-        """Whether anything besides the loop's own pipe is watched."""
+        """Return whether the loop watches files other than its own wake-up pipe."""
         return len(self.get_map()) > 1

@@ -1,7 +1,7 @@
-"""Publishers and subscriptions of topics with their quality of service.
+"""Publishers and subscriptions of topics, with their quality of service.
 
-Publishers and subscriptions of all nodes, also those of other processes, are entered here. Topics
-inside one process, such as pressed keys, have no ROS type and are not entered.
+The publishers and subscriptions of all nodes are stored here, also those of other processes. Topics
+inside one process, such as pressed keys, have no ROS type and no entry.
 """
 
 from collections import deque
@@ -22,9 +22,11 @@ class Timing:
     """Deadline and liveliness of a topic's publishers, offered or requested.
 
     Attributes:
-        deadline: At most so long between two messages, nanoseconds; None for any time.
-        lease: After how long without a sign of life a publisher counts as dead; None for never.
-        is_manual: Whether a message, or asserting it, is a sign of life, and not just to be there.
+        deadline: Longest time between two messages, nanoseconds; None for no limit.
+        lease: Time without a sign of life after which a publisher counts as dead, nanoseconds;
+            None for never.
+        is_manual: Whether a publisher must publish or assert its liveliness to count as alive;
+            else its process does so for it.
         lifespan: Age at which a message expires, as shown to programs; None for never.
     """
 
@@ -39,11 +41,11 @@ class Quality:
     """Quality of service of a publisher or a subscription.
 
     Attributes:
-        depth: Number of messages wait, or are kept for late subscribers.
-        is_reliable: Whether none may be lost on the way.
+        depth: Number of messages that a queue holds, or that are stored for late subscribers.
+        is_reliable: Whether every message must be delivered.
         is_latched: Whether late subscribers get earlier messages (transient local).
-        keeps_all: Whether nothing that waits is dropped, whatever the depth.
-        timing: Rate of the messages; None if unknown.
+        keeps_all: Whether a queue drops no message, whatever the depth.
+        timing: Deadline and liveliness; None if unknown.
     """
 
     depth: int = 10
@@ -54,17 +56,17 @@ class Quality:
 
 
 USUAL: Final = Quality(depth=7)
-"""What turtlesim offers, and nodes that ask for nothing else."""
+"""Quality of service of turtlesim, and default for all nodes."""
 
 TF: Final = Quality(depth=100)
-"""tf2's quality of /tf."""
+"""Quality of service of /tf in tf2."""
 
 TF_STATIC: Final = Quality(depth=1, is_latched=True)
-"""tf2's quality of /tf_static."""
+"""Quality of service of /tf_static in tf2."""
 
 
 def conflict(offered: Quality, requested: Quality) -> str:
-    """Return the policy in which a publisher offers less than is requested; "" if none."""
+    """Return the policy in which a publisher offers less than is requested; "" if there is none."""
     if requested.is_reliable and not offered.is_reliable:
         return "RELIABILITY"
     if requested.is_latched and not offered.is_latched:
@@ -85,17 +87,17 @@ def _is_longer(offered: Duration | None, requested: Duration | None) -> bool:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Endpoint:
-    """One publisher or subscription.
+    """Publisher of a topic, or subscription to it.
 
     Attributes:
-        role: Publisher or subscription.
-        node: Node of the endpoint.
-        topic: The topic's name, without a leading slash.
-        interface: The exchanged type, "std_msgs/msg/String".
+        role: Whether this is a publisher or a subscription.
+        node: Name of the node.
+        topic: Name of the topic, without a leading slash.
+        interface: Type of the messages, such as "std_msgs/msg/String".
         quality: Offered or requested quality of service.
-        is_remote: Whether the endpoint is another process's.
-        deliver: Receives, for a latched subscription here, earlier messages and their senders.
-        kept: Messages that late subscribers of a latched publisher here get.
+        is_remote: Whether the endpoint belongs to another process.
+        deliver: Function that gives a latched subscription earlier messages, with their senders.
+        kept: Messages that a latched publisher stores for late subscribers.
     """
 
     role: Role
@@ -109,14 +111,14 @@ class Endpoint:
 
 
 class Endpoints:
-    """All endpoints of a world and of the worlds linked to it."""
+    """Publishers and subscriptions of a world, and of the worlds linked to it."""
 
     def __init__(self, changed: Callable[[], object], warn: Callable[[str, str], object]) -> None:
-        """Start empty.
+        """Create an empty store.
 
         Args:
-            changed: Called when an offer is added or removed.
-            warn: Called with a node and a sentence it should log.
+            changed: Function called when an endpoint is added, removed, or changes its liveliness.
+            warn: Function called with a node's name and a sentence for its log.
         """
         self._changed = changed
         self._warn = warn
@@ -124,7 +126,7 @@ class Endpoints:
         self._silent: set[Endpoint] = set()
 
     def add(self, endpoint: Endpoint) -> Callable[[], None]:
-        """Add an endpoint; call the returned function to remove it."""
+        """Add an endpoint; return a function that removes it."""
         others = self._by_topic.setdefault(endpoint.topic, [])
         others.append(endpoint)
         for other in others:
@@ -146,25 +148,25 @@ class Endpoints:
         return remove
 
     def set_alive(self, endpoint: Endpoint, alive: bool) -> None:
-        """Record whether a publisher keeps its liveliness."""
+        """Record whether a publisher counts as alive, by its liveliness."""
         if alive is (endpoint in self._silent):
             (self._silent.discard if alive else self._silent.add)(endpoint)
             self._changed()
 
     def is_alive(self, endpoint: Endpoint) -> bool:
-        """Whether a publisher keeps its liveliness, as far as known."""
+        """Return whether a publisher counts as alive, as far as known."""
         return endpoint not in self._silent
 
     def of(self, topic: str, role: Role) -> list[Endpoint]:
-        """Return a topic's publishers or subscriptions."""
+        """Return the publishers of a topic, or its subscriptions."""
         return [one for one in self._by_topic.get(topic, ()) if one.role == role]
 
     def topics(self) -> list[str]:
-        """Return the names of all topics with an endpoint."""
+        """Return the names of all topics that have an endpoint."""
         return list(self._by_topic)
 
     def _compare(self, publisher: Endpoint, subscription: Endpoint) -> None:
-        """Report on both sides that two endpoints are incompatible, and why."""
+        """Log a warning for both nodes if their endpoints are incompatible."""
         policy = conflict(publisher.quality, subscription.quality)
         if not policy or publisher.interface != subscription.interface:
             return

@@ -1,4 +1,4 @@
-"""Recorders of a world's transforms in a separate buffer, and of headers for the doctor."""
+"""Recording of a world's transforms into a second buffer, and of message headers."""
 
 import asyncio
 from collections.abc import Callable, Coroutine, Iterator
@@ -21,12 +21,12 @@ T = TypeVar("T")
 
 @contextmanager
 def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer, TransformLog]]:
-    """Record every transform of a world in a separate buffer, and in order of arrival.
+    """Record every transform of a world in a second buffer, and in a list by arrival.
 
     Args:
-        world: World that broadcasts them.
-        cache_time: How far back the buffer remembers; all of it if None. The world's own buffer
-            prunes, and a later question may ask for any moment.
+        world: World whose transforms are recorded.
+        cache_time: Cache time of the second buffer, nanoseconds; None to keep everything. The
+            world's own buffer prunes, but later lookups may need any time.
     """
     buffer = Buffer(cache_time or NO_LIMIT, max_frames=world.buffer.max_frames)
     log, stop = logged_in(world, buffer)
@@ -39,10 +39,10 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
 def logged_in(
     world: World, buffer: Buffer | None = None
 ) -> tuple[TransformLog, Callable[[], None]]:
-    """Record a world's transforms in order of arrival, and in a buffer if there is one.
+    """Record a world's transforms in order of arrival, and in a buffer if one is given.
 
     Returns:
-        The record, and a function that ends it.
+        The record, and a function that ends the recording.
     """
     log = TransformLog()
 
@@ -66,7 +66,7 @@ def logged_in(
 
 
 def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
-    """Run work on a world's clock; in a new thread if a loop already runs here."""
+    """Run a coroutine on a world's clock, in a new thread if this thread has a running loop."""
     try:
         asyncio.get_running_loop()
     except RuntimeError:
@@ -79,7 +79,7 @@ def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
 
 
 MOST: Final = 50
-"""Messages of each topic that are heard: images would take the place of everything else."""
+"""Most messages received per topic, so that images do not crowd out other messages."""
 
 MOST_TOPICS: Final = 500
 
@@ -87,7 +87,7 @@ _HEADER: Final = "std_msgs/msg/Header"
 
 
 class HeaderListener:
-    """Subscriber to the first messages of each topic whose type begins with a header."""
+    """Recorder of the headers of the first messages on topics of other processes."""
 
     def __init__(self) -> None:
         self._world: World | None = None
@@ -96,7 +96,7 @@ class HeaderListener:
         self._is_looking = False
 
     def begin(self, world: World) -> None:
-        """Subscribe to what other processes publish, now and later."""
+        """Subscribe to the present and future topics of other processes."""
         self._world = world
         world.watch(self._look, "doctor")
 
@@ -131,7 +131,7 @@ class HeaderListener:
         self._stops[key] = world.topic(publisher.topic, kind).subscribe(hear, "doctor")
 
     def headers(self) -> "dict[str, Headers]":
-        """Return the received headers in columns, by topic."""
+        """Return the received headers as columns, by topic."""
         import numpy as np  # most worlds are never judged
 
         from tftool.recordings.contract import Headers

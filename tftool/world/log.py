@@ -1,4 +1,4 @@
-"""Log lines of nodes, kept for screens and passed to listeners."""
+"""Log messages of nodes, stored for screens and passed to listeners."""
 
 import math
 from collections import deque
@@ -12,23 +12,22 @@ from tftool.base.stamps import NANOSECONDS, Stamp
 Level = Literal["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]
 
 LEVELS: tuple[Level, ...] = get_args(Level)
-"""From what hardly matters to what ends everything."""
+"""Severities of log messages, in ascending order."""
 
 PROBLEMS: tuple[Level, ...] = ("WARN", "ERROR", "FATAL")
-"""Levels that a user should see, from any node."""
+"""Severities that a user should see, from any node."""
 
 
 @dataclass(frozen=True, slots=True)
 class LogRecord:
-    """One line of a log.
+    """One log message.
 
     Attributes:
-        stamp: Time of the record, by the world's clock.
-        level: Severity of the record.
-        node: Node that logged it.
-        text: The logged text. It may hold strangers' names: escape it where it is shown.
-        program: Program of the node, if there are several: two of them may
-            have nodes of one name.
+        stamp: Time of the message on the world's clock, nanoseconds.
+        level: Severity.
+        node: Name of the node that logged it.
+        text: Text, which may contain names from other processes: escape it for display.
+        program: Name of the node's program; two programs may have nodes of the same name.
     """
 
     stamp: Stamp
@@ -38,28 +37,28 @@ class LogRecord:
     program: str = ""
 
     def __str__(self) -> str:
-        """Return the line in the form of ROS 2's console; a logger's name has dots for slashes."""
+        """Return the message in the format of ROS 2's console, with dots in a logger's name."""
         second, rest = divmod(self.stamp, NANOSECONDS)
         logger = self.node.replace("/", ".")
         return f"[{self.level}] [{second}.{rest:09d}] [{logger}]: {self.text}"
 
 
 MOST_KINDS: Final = 20
-"""How many kinds of line of one origin are told apart; further ones are counted together."""
+"""Number of kinds of messages that are counted separately; further kinds are counted together."""
 
 
 class Repeats:
-    """Counter of similar lines: the first is logged, then the 10th, the 100th and so on."""
+    """Counter of similar log messages: the 1st, 10th, 100th and so on are logged."""
 
     def __init__(self) -> None:
         self._counts: dict[str, int] = {}
 
     def said(self, kind: str, text: str) -> str:
-        """Count a line; return the text to log, "" if it is only counted.
+        """Count a message; return its text if it is to be logged, else "".
 
         Args:
-            kind: The common part of similar lines.
-            text: The line.
+            kind: Part that similar messages have in common.
+            text: Text of the message.
         """
         others = kind not in self._counts and len(self._counts) >= MOST_KINDS
         if others:
@@ -77,17 +76,17 @@ class Repeats:
 
 
 class Log:
-    """The last thousand lines, and listeners for each new one."""
+    """Store of the last log messages, which passes each new one to listeners."""
 
     def __init__(
         self, now: Callable[[], Stamp], keep: int = 1000, report: Report | None = None
     ) -> None:
-        """Start empty.
+        """Create an empty log.
 
         Args:
-            now: Gives the stamp of a line.
-            keep: Number of lines are kept.
-            report: Called with an exception of a listener; see `Listeners`.
+            now: Function that returns the time of a new message.
+            keep: Number of messages to store.
+            report: Function called with an exception of a listener; see `Listeners`.
         """
         self.records: deque[LogRecord] = deque(maxlen=keep)
         self._now = now
@@ -96,30 +95,30 @@ class Log:
     def listen(
         self, callback: Callable[[LogRecord], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Call `callback` with every further line until the returned function is called.
+        """Call `callback` with every further message; return a function that ends this.
 
-        What it raises is reported under the name of its `owner`.
+        Exceptions of the callback are reported under the name `owner`.
         """
         return self._listeners.add(callback, owner)
 
     def debug(self, node: str, text: str) -> None:
-        """Log a line for debugging."""
+        """Log a message of a node with level DEBUG."""
         self.add("DEBUG", node, text)
 
     def info(self, node: str, text: str) -> None:
-        """Log information."""
+        """Log a message of a node with level INFO."""
         self.add("INFO", node, text)
 
     def warn(self, node: str, text: str) -> None:
-        """Log a warning."""
+        """Log a message of a node with level WARN."""
         self.add("WARN", node, text)
 
     def error(self, node: str, text: str) -> None:
-        """Log an error."""
+        """Log a message of a node with level ERROR."""
         self.add("ERROR", node, text)
 
     def add(self, level: Level, node: str, text: str, *, program: str = "") -> None:
-        """Store a line and pass it on."""
+        """Store a message and pass it to the listeners."""
         record = LogRecord(self._now(), level, node, text, program)
         self.records.append(record)
         self._listeners.call(record)

@@ -1,8 +1,8 @@
-"""Memory limit for a live world's transforms; beyond it the oldest are dropped.
+"""Memory limit for the transforms of a live world; beyond it the oldest are dropped.
 
-Like tf2's, a buffer prunes only by time: a publisher at a very high rate, or with stamps a
-nanosecond apart, could fill the memory of every subscriber. Recordings are not limited here: they
-end.
+Like tf2's, a buffer prunes only by time. So a publisher with a very high rate, or with stamps a
+nanosecond apart, could fill the memory of every subscriber. Recordings have no such limit, because
+they end.
 """
 
 import os
@@ -13,23 +13,23 @@ from tftool.base.errors import UsageError
 from tftool.buffer.buffer import Buffer
 
 MAX_BYTES: Final = 512 << 20
-"""About eight million samples: 800 links at 1000 Hz for 10 s."""
+"""Default limit in bytes, about eight million samples: 800 links at 1000 Hz for 10 s."""
 
 VARIABLE: Final = "TFTOOL_BUFFER_MB"
-"""The environment variable that says otherwise, in megabytes."""
+"""Environment variable with another limit, in megabytes."""
 
 EVERY: Final = 16_384
-"""After how many samples it is looked again: a megabyte of them."""
+"""Number of new samples, about a megabyte, after which the memory is checked again."""
 
 Say = Callable[[str], object]
-"""Called with a sentence about dropped samples."""
+"""Function called with a sentence about dropped samples."""
 
 
 def allowed(environment: Mapping[str, str] = os.environ) -> int:
-    """Return the number of bytes for samples: from the environment, else `MAX_BYTES`.
+    """Return the memory limit in bytes: from the environment variable, else `MAX_BYTES`.
 
     Raises:
-        UsageError: If the environment names no number of megabytes.
+        UsageError: If the variable's value is not a number of megabytes.
     """
     given = environment.get(VARIABLE, "")
     if not given:
@@ -44,7 +44,7 @@ def allowed(environment: Mapping[str, str] = os.environ) -> int:
 
 
 class MemoryBound:
-    """Keeps the samples of a live buffer within a memory limit.
+    """Limit that keeps a live buffer's samples within a number of bytes.
 
     Attributes:
         limit: Largest number of bytes.
@@ -53,7 +53,7 @@ class MemoryBound:
     __slots__ = ("_buffer", "_said", "_say", "_unseen", "limit")
 
     def __init__(self, buffer: Buffer, say: Say, limit: int) -> None:
-        """Watch a buffer; `say` is called once for each frame whose history is shortened."""
+        """Watch a buffer; call `say` once for each frame whose history is shortened."""
         self.limit = limit
         self._buffer = buffer
         self._say = say
@@ -61,7 +61,7 @@ class MemoryBound:
         self._said: set[str] = set()
 
     def note(self, samples: int) -> None:
-        """Count `samples` more; now and then check the memory that all of them use."""
+        """Count new samples; now and then, check the memory that all samples use."""
         self._unseen += samples
         if self._unseen >= EVERY:
             self._unseen = 0

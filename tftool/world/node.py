@@ -1,4 +1,4 @@
-"""A node: one coroutine, `run`, in a world; it waits on the world's clock only."""
+"""Base class of nodes: a node is one coroutine, `run`, that waits on its world's clock."""
 
 import asyncio
 import inspect
@@ -17,34 +17,34 @@ from tftool.world.world import TopicPublisher, TransformMessage, World
 T = TypeVar("T")
 
 CATCH_UP = 5
-"""How many late ticks of a timer are made up for before it slips."""
+"""Number of missed times that a timer catches up on before its schedule shifts."""
 
 PATIENCE = 5.0
-"""Seconds that nodes of ours wait for an answer from another process."""
+"""Seconds that a node waits for a response from another process."""
 
 LATE = seconds(1.0)
-"""From how far behind a timer on it is said."""
+"""Delay of a timer, in nanoseconds, from which a warning is logged."""
 
 
 class Node(Resident):
     """Base of nodes: override `run`, and wait with `every` or the clock.
 
     Attributes:
-        world: World.
-        name: Its name, in logs and as the authority of its transforms.
-        rank: Number among the nodes of the world, in the order of joining.
-        phase: Place within an instant.
+        world: World that the node belongs to.
+        name: Name in logs, also the authority of the node's transforms.
+        rank: Number of the node in the order of joining the world.
+        phase: Turn of the node within an instant.
     """
 
     phase: ClassVar[Phase] = Phase.CONSUME
     _is_passive: ClassVar[bool] = False
 
     def __init__(self, world: World, name: str) -> None:
-        """Join `world` as `name`.
+        """Add the node to a world under a name.
 
         Raises:
-            TftoolError: If a node of that name is there.
-            TypeError: If its class has no coroutine `run`. A plain `Node` needs none: code
+            TftoolError: If the world has a node of that name already.
+            TypeError: If the class has no coroutine `run`. A plain `Node` needs none: code
                 outside publishes and subscribes under its name.
         """
         kind = type(self)
@@ -66,40 +66,41 @@ class Node(Resident):
 
     @property
     def clock(self) -> Clock:
-        """The world's clock."""
+        """Clock of the node's world."""
         return self.world.clock
 
     @property
     def buffer(self) -> Buffer:
-        """The world's buffer."""
+        """Transform buffer of the node's world."""
         return self.world.buffer
 
     async def run(self) -> None:
-        """Run the node; it ends when this returns."""
+        """Do the node's work; the node ends when this coroutine returns."""
 
     def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
-        """Run something concurrently with `run`, as part of this node.
+        """Run a coroutine concurrently with `run`, as part of this node.
 
-        It may outlast `run`, and is cancelled when the node leaves or the world ends. Its exception
-        is the failure of this node.
+        It may outlast `run`, and is cancelled when the node is removed or the world ends. An
+        exception of the coroutine is a failure of this node.
 
         Returns:
-            The task; its result is None where the work has failed.
+            The task; its result is None if the coroutine failed.
 
         Raises:
-            TftoolError: If the world does not run.
+            TftoolError: If the world is not running.
         """
         return self.world.start_soon(self, work)
 
     async def every(self, period: Duration, *, immediately: bool = False) -> AsyncIterator[Stamp]:
         """Yield the times of a timer, at exact multiples of the period from now on.
 
-        The first tick is one period from now, as for a ROS timer. On the wall clock, a late node
-        makes up a few missed ticks, then the schedule shifts; a delay of a second is logged, once.
+        The first time is one period from now, as for a ROS timer. On the wall clock, a late node
+        catches up on a few missed times, then the schedule shifts; a delay of a second is logged,
+        once.
 
         Args:
-            period: Nanoseconds between two moments.
-            immediately: Whether the first moment is now.
+            period: Nanoseconds between two times.
+            immediately: Whether the first time is now.
 
         Raises:
             TypeError: If the period is not a whole number.
@@ -130,14 +131,14 @@ class Node(Resident):
     # Talking
 
     def publish(self, topic: str, value: Any) -> None:
-        """Publish on a topic; a new topic is created with the value's type."""
+        """Publish a value on a topic; a new topic takes the value's type."""
         publisher = self._publishers.get(topic)
         if publisher is None or publisher.kind is not type(value):
             publisher = self.publisher(topic, type(value))
         publisher.publish(value)
 
     def publisher(self, topic: str, kind: type[T], quality: Quality = USUAL) -> TopicPublisher[T]:
-        """Register as a publisher of a topic until this node ends, before the first message."""
+        """Register this node as a publisher of a topic, until the node ends."""
         publisher = self.world.publisher(self.name, topic, kind, quality)
         self._publishers[topic] = publisher
         self._until_end(publisher.close)
@@ -150,9 +151,9 @@ class Node(Resident):
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Call `callback` with every message; if it raises, this node has failed.
+        """Call `callback` with every message of a topic; an exception in it is this node's failure.
 
-        A latched subscription gets what latched publishers sent before, too.
+        A latched subscription also gets earlier messages of latched publishers.
         """
         return self._until_end(self.world.subscribe(self.name, topic, kind, callback, quality))
 
@@ -165,13 +166,13 @@ class Node(Resident):
     def serve_action(
         self, name: str, accept: Callable[[Any], None], kind: Any = None
     ) -> Callable[[], None]:
-        """Accept an action's goals until this node ends; `kind` is as in `serve`."""
+        """Accept an action's goals until this node ends; `kind` is as in `World.serve`."""
         return self._until_end(self.world.serve_action(name, accept, kind, node=self.name))
 
     async def call(self, service: str, request: Any) -> Any:
         """Call a service and wait for its response; see `World.call`.
 
-        A server of another process has `PATIENCE`.
+        The wait for a server of another process is limited to `PATIENCE` seconds.
         """
         return await self.world.call(service, request, patience=PATIENCE)
 
@@ -188,21 +189,21 @@ class Node(Resident):
         return self.world.broadcast(transforms, self.name, static=True)
 
     def info(self, text: str) -> None:
-        """Log information."""
+        """Log a message of this node with level INFO."""
         self.world.log.info(self.name, text)
 
     def warn(self, text: str) -> None:
-        """Log a warning."""
+        """Log a message of this node with level WARN."""
         self.world.log.warn(self.name, text)
 
     def error(self, text: str) -> None:
-        """Log an error."""
+        """Log a message of this node with level ERROR."""
         self.world.log.error(self.name, text)
 
     # Settings
 
     def declare_parameter(self, name: str, default: Value) -> Value:
-        """Declare a parameter with its default."""
+        """Declare a parameter with its default; return its value."""
         return self.parameters.declare(name, default)
 
     def get_parameter(self, name: str) -> Value:
@@ -210,11 +211,11 @@ class Node(Resident):
         return self.parameters[name]
 
     def set_parameter(self, name: str, value: Value) -> None:
-        """Change a parameter; see `Parameters.set`."""
+        """Change a declared parameter; see `Parameters.set`."""
         self.parameters.set(name, value)
 
     def close(self) -> None:
-        """Close every subscription and service; the supervisor calls it at the end."""
+        """Close the node's subscriptions, publishers and services; called at its end."""
         while self._stops:
             self._stops.pop()()
         self._publishers.clear()

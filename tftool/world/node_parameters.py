@@ -1,4 +1,4 @@
-"""A node's parameters, their conversion to rcl_interfaces, and ROS 2's six services for them."""
+"""Parameters of a node, and ROS 2's six services for them."""
 
 import array
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -25,10 +25,10 @@ FIELDS: Final = (
     "double_array_value",
     "string_array_value",
 )
-"""The field of a ParameterValue that holds the value, by the number of its type."""
+"""Field of a ParameterValue that holds the value, by the number of its type."""
 
 SCALARS: Final[dict[type[Any], int]] = {bool: 1, int: 2, float: 3, str: 4}
-"""The numbers of the types of single values."""
+"""Number of the type of each kind of single value."""
 
 
 def value_of(message: Any) -> Any:
@@ -78,7 +78,7 @@ Value = bool | int | float | str
 
 
 class Parameters:
-    """Declared names with typed values, and callbacks for changes."""
+    """Declared parameters of a node: names with typed values, and callbacks for changes."""
 
     def __init__(self, owner: str) -> None:
         self._owner = owner
@@ -86,7 +86,7 @@ class Parameters:
         self._listeners: list[Callable[[str, Value], object]] = []
 
     def declare(self, name: str, default: Value) -> Value:
-        """Declare a parameter with its default, which determines its type."""
+        """Declare a parameter; the default determines its type. Return its value."""
         return self._values.setdefault(name, default)
 
     def __getitem__(self, name: str) -> Value:
@@ -99,7 +99,7 @@ class Parameters:
 
         Raises:
             UsageError: If the parameter was not declared, or the value has another type.
-                An int is taken where a float is declared.
+                An int is accepted for a float.
         """
         self._check(name)
         kind = type(self._values[name])
@@ -115,11 +115,11 @@ class Parameters:
             listener(name, value)
 
     def on_change(self, callback: Callable[[str, Value], object]) -> None:
-        """Call `callback` with name and value after every change."""
+        """Call `callback` with a parameter's name and value after every change."""
         self._listeners.append(callback)
 
     def values(self) -> Mapping[str, Value]:
-        """Return every parameter, read-only."""
+        """Return the values of all parameters by name, read-only."""
         return MappingProxyType(self._values)
 
     def _check(self, name: str) -> None:
@@ -130,7 +130,7 @@ class Parameters:
 
 
 Answer = Callable[[Any, Any], Any]
-"""Fills in and returns the response to a request: both are given."""
+"""Handler of a service: fills in the given response to a request, and returns it."""
 
 
 def parameter_services(
@@ -140,13 +140,13 @@ def parameter_services(
     listed: Callable[[Sequence[str], int], Any],
     change: Callable[[Sequence[Any]], Any],
 ) -> Iterator[tuple[str, Any, Answer]]:
-    """Yield each parameter service's name below its node, its type, and its handler.
+    """Yield ROS 2's six parameter services: name below the node, type, handler.
 
     Args:
-        values: Returns a ParameterValue for each name.
-        descriptors: Returns a ParameterDescriptor for each known name.
-        listed: Returns the ListParametersResult of some prefixes and a depth.
-        change: Sets all of some Parameters, or none; returns a SetParametersResult.
+        values: Function that returns a ParameterValue for each name.
+        descriptors: Function that returns a ParameterDescriptor for each known name.
+        listed: Function that returns the ListParametersResult for some prefixes and a depth.
+        change: Function that sets all of some Parameters, or none; returns a SetParametersResult.
     """
     return answered(
         "rcl_interfaces",
@@ -162,12 +162,13 @@ def parameter_services(
 def answered(
     package: str, *rows: tuple[str, str, Callable[[Any], Any]]
 ) -> Iterator[tuple[str, Any, Answer]]:
-    """Yield services' names below a node, their types, and their handlers.
+    """Yield services that fill one field of their response: name below a node, type, handler.
 
     Args:
-        package: The package of the types.
-        rows: Each service's name, with its type after a colon unless "get_state" is of GetState;
-            the field of its response; and what a request fills that with.
+        package: Package of the services' types.
+        rows: For each service its name, with its type after a colon if the type's name is not
+            the same in capitals (get_state, GetState); the response's field; and a function
+            that returns the field's value for a request.
     """
 
     def handler(field: str, find: Callable[[Any], Any]) -> Answer:
@@ -184,7 +185,7 @@ def answered(
 
 
 def serve_parameters(node: "Node") -> None:
-    """Serve a node's parameters until it ends."""
+    """Serve the parameter services of a node until it ends."""
     known = node.parameters.values()
 
     def number(name: str) -> int:

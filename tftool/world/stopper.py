@@ -1,9 +1,9 @@
-"""Stopping a run, whatever its nodes do.
+"""Stopper of a run, which works even while a node blocks the event loop.
 
 A separate thread receives the signals and watches the loop, because a node that never awaits
-prevents the loop from doing so. The first signal cancels the run; code that has not returned after
-two seconds is named; the second signal ends the process. A run with an end by its own clock is
-ended in the same way if a node blocks the loop beyond it.
+prevents the loop from doing so. The first signal cancels the run; code that has not ended after
+two seconds is named; the second signal ends the process. If a run has an end on its own clock and a
+node blocks the loop beyond it, the run is ended in the same way.
 """
 
 import asyncio
@@ -22,14 +22,14 @@ from tftool.base.errors import is_users_file
 from tftool.base.listeners import Listeners
 
 PATIENCE: Final = 2.0
-"""Real seconds a node may take to return, once it was asked to."""
+"""Real seconds that a node may take to end after it was cancelled."""
 
 STANDSTILL: Final = 20.0
-"""Real seconds a node may hold up simulated time, in a run that is to end by that time."""
+"""Real seconds for which a node may block simulated time, if the run ends at a simulated time."""
 
 INTERRUPTED: Final = 130
 FAILED: Final = 1
-"""Exit statuses of a process that is ended while a node still runs."""
+"""Exit status of a process that is ended while a node still runs."""
 
 _SIGNALS: Final = (signal.SIGINT, signal.SIGTERM)
 _MOST_NAMED = 3
@@ -39,9 +39,9 @@ _LEAVE_SCREEN = (
 
 
 class Overdue(BaseException):
-    """Raised inside a node that blocks the loop beyond the end of the run.
+    """Exception raised inside a node that blocks the loop beyond the end of the run.
 
-    Not an `Exception`, so that it also ends a node that catches those and goes on.
+    It is not an `Exception`, so that it also ends a node that catches those and goes on.
     """
 
 
@@ -49,7 +49,7 @@ class Stopper:
     """Stopper of one run of an event loop.
 
     Attributes:
-        interrupted: Whether a signal has come.
+        interrupted: Whether a signal was received.
     """
 
     def __init__(
@@ -60,14 +60,14 @@ class Stopper:
         on_interrupt: Callable[[], object],
         when_killed: Listeners[()],
     ) -> None:
-        """Install the signal handlers, in the main thread only.
+        """Install the signal handlers, if this is the main thread.
 
         Args:
-            loop: The loop that runs, on the calling thread.
+            loop: Event loop that runs in the calling thread.
             task: Task that the first signal cancels.
-            now: Real seconds that pass.
-            on_interrupt: Called at the first signal, at once, on any thread.
-            when_killed: Called before the process is ended while the loop still runs.
+            now: Function that returns real time in seconds.
+            on_interrupt: Function called at the first signal, at once, in any thread.
+            when_killed: Functions called before the process is ended while the loop still runs.
         """
         self.interrupted = False
         self._loop = loop
@@ -97,7 +97,7 @@ class Stopper:
             self._begin()
 
     def limit(self, deadline: float | None, standstill: float | None = None) -> None:
-        """Set when the run must end, or that it has ended.
+        """Set when the run must end, or remove the limit when the run has ended.
 
         Args:
             deadline: Real seconds from now until the end; None for no end in real time.
@@ -111,7 +111,7 @@ class Stopper:
             self._poke()
 
     def close(self) -> None:
-        """Restore the former signal handlers."""
+        """Stop the thread, and restore the former signal handlers."""
         # Set before the poke: the thread looks at it as soon as it wakes up.
         self._over = True
         for number, before in self._handlers.items():
@@ -154,7 +154,7 @@ class Stopper:
                 self._look()
 
     def _pause(self) -> float | None:
-        """Return real seconds until something may have to be done without a signal."""
+        """Return the real seconds until the thread may have to act without a signal."""
         waits = []
         if self._interrupted_at is not None:
             waits.append(self._interrupted_at + PATIENCE - self._now())
@@ -207,7 +207,7 @@ class Stopper:
             )
 
     def _answered(self) -> None:
-        """Record, in the loop's thread, that the loop runs."""
+        """Record that the loop is not blocked; called in the loop's thread."""
         self._asked_at = self._raised_at = None
 
     def _ask(self, callback: Callable[[], object]) -> None:
@@ -215,7 +215,7 @@ class Stopper:
             self._loop.call_soon_threadsafe(callback)
 
     def _not_returned(self) -> list[str]:
-        """Return the running nodes with their lines: the one that blocks the loop, or all."""
+        """Return the running nodes with their lines of code: the one blocking the loop, or all."""
         current = asyncio.current_task(self._loop)
         if current is not None:
             frame = sys._current_frames().get(self._loop_thread)
@@ -228,7 +228,7 @@ class Stopper:
         return names[:_MOST_NAMED] or ["the run"]
 
     def _kill(self, status: int) -> None:
-        """End the process, with its terminal restored."""
+        """End the process at once, after restoring the terminal."""
         self._when_killed.call()
         if self._terminal is not None:
             import termios
@@ -240,10 +240,10 @@ class Stopper:
 
 
 def leave_screen() -> None:
-    """Restore the terminal of a full-screen app, for `Clock.when_killed`.
+    """Restore the terminal of a full-screen app; registered in `Clock.when_killed`.
 
-    This ends the alternate screen, the hidden cursor, and the reports of the mouse, of the focus
-    and of pasted text.
+    This ends the alternate screen, shows the cursor, and ends the reports of mouse, focus and
+    pasted text.
     """
     for number in (2, 1):
         if os.isatty(number):
@@ -253,12 +253,12 @@ def leave_screen() -> None:
 
 
 def node_task_name(name: str) -> str:
-    """Return the name of a node's tasks, by which they are recognised."""
+    """Return the name of a node's tasks, by which the stopper recognises them."""
     return f"node '{name}'"
 
 
 def abandon(task: "asyncio.Task[Any]") -> None:
-    """Abandon a task that ignores its cancellation: nothing waits for it any more."""
+    """Stop waiting for a task that ignores its cancellation."""
     _abandoned.add(task)
     # asyncio's own way not to complain about it when the loop is closed.
     task._log_destroy_pending = False  # type: ignore[attr-defined]
@@ -288,7 +288,7 @@ def _stack(frame: FrameType | None) -> Iterable[tuple[str, int]]:
 
 
 def line_of_task(task: "asyncio.Task[Any]") -> str:
-    """Return the line of a user's code at which a task waits, as "busy.py:10"; else ""."""
+    """Return the user's line of code at which a task waits, as "busy.py:10", or ""."""
     return _line(_awaiting(task))
 
 
@@ -305,7 +305,7 @@ def _awaiting(task: "asyncio.Task[Any]") -> list[tuple[str, int]]:
 
 
 def _line(lines: Iterable[tuple[str, int]]) -> str:
-    """Return the innermost line of a user's code; else ""."""
+    """Return the innermost line that is in a user's file, as "busy.py:10", or ""."""
     for file, line in lines:
         if is_users_file(file):
             return f"{os.path.basename(file)}:{line}"
@@ -340,4 +340,4 @@ def _pass_over(number: int, frame: FrameType | None) -> None:
 
 
 def _nothing() -> None:
-    """Do nothing but wake the loop."""
+    """Do nothing; the call only wakes the event loop."""

@@ -1,4 +1,4 @@
-"""Starting and stopping nodes, and reporting the first failure."""
+"""Starting and stopping of a world's nodes, and the report of the first failure."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -16,14 +16,14 @@ T = TypeVar("T")
 
 
 class Resident:
-    """Something named that runs in a world: a node, or a program with nodes.
+    """Base of what runs in a world under a name: a node, or a program with nodes.
 
     Nodes know their world; the world knows them only as residents.
 
     Attributes:
-        name: Name; no two residents of a world share one.
-        rank: Order among residents: within a phase the one that joined first runs first.
-        is_shown: Whether lists of nodes name it; a program that only carries nodes stays out.
+        name: Name, unique in the world.
+        rank: Number in the order of joining; within a phase, lower numbers run first.
+        is_shown: Whether lists of nodes include it; a program that only has nodes is left out.
     """
 
     name: str
@@ -31,10 +31,10 @@ class Resident:
     is_shown: ClassVar[bool] = True
 
     async def run(self) -> None:
-        """Run the resident; it ends when this returns."""
+        """Do the resident's work; the resident ends when this coroutine returns."""
 
     def close(self) -> None:
-        """Close everything that the resident offers; called at its end."""
+        """Close everything that the resident serves or subscribes to; called at its end."""
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:
@@ -46,11 +46,11 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
 
     Args:
         world: World whose nodes run, including those that join later.
-        until: The last moment to live through.
+        until: Last time of the run, nanoseconds.
 
     Raises:
-        NodeFailed: If a node raised; the first one is named, its error is the cause.
-        BrokenPipeError: If the reader of a listener's output has gone.
+        NodeFailed: If a node raised an exception; it names the first one, with the cause.
+        BrokenPipeError: If the reader of a listener's output is gone.
         ValueError: If `until` has passed: it is a stamp, not a duration.
     """
     clock = world.clock
@@ -94,21 +94,21 @@ async def beside(
     helper: Coroutine[Any, Any, object],
     on_cancel: Callable[[], object] | None = None,
 ) -> T:
-    """Do some work while a helper runs, and end the helper with it.
+    """Await some work while a helper coroutine runs, and end the helper with the work.
 
-    A helper that returns early is no reason to end the work.
+    If the helper ends first, the work goes on.
 
     Args:
-        work: The remedy.
+        work: Coroutine whose result is returned.
         helper: Coroutine to run meanwhile; it begins first.
-        on_cancel: Called when both are to be cancelled from outside, before either is.
+        on_cancel: Function called when both are cancelled from outside, before either is.
 
     Returns:
-        The result of the work.
+        Result of the work.
 
     Raises:
-        Exception: Any of the helper, which ends the work, or of the work; a
-            failure of either on its way out included.
+        Exception: Any of the helper, which ends the work, or of the work; also one that either
+            raises while it is being ended.
     """
     loop = asyncio.get_running_loop()
     helping = loop.create_task(helper)
@@ -136,12 +136,12 @@ async def beside(
 
 
 class Supervisor:
-    """Tasks of the nodes of one run.
+    """Supervisor of the tasks of the nodes in one run.
 
     Attributes:
         over: Future that is set when the run must end.
-        failure: The first node that failed.
-        error: Another error that ended the run.
+        failure: Error about the first node that failed; None without one.
+        error: Other error that ended the run; None without one.
     """
 
     def __init__(self, clock: Clock, has_end: bool) -> None:
@@ -155,21 +155,21 @@ class Supervisor:
         self._tasks: dict[asyncio.Task[Any], Resident] = {}
 
     def start(self, resident: Resident) -> None:
-        """Start one that joined."""
+        """Start a resident (a node or a program) that has joined the world."""
         self._nodes.append(resident)
         self._start(resident, self._run(resident))
 
     def start_soon(
         self, resident: Resident, work: Coroutine[Any, Any, T]
     ) -> "asyncio.Task[T | None]":
-        """Run something concurrently with a resident's `run`, as part of it."""
+        """Run a coroutine concurrently with a resident's `run`, as part of the resident."""
         task = self._start(resident, self._guarded(resident, work))
         # Cancelled before its first step, it would never have been awaited.
         task.add_done_callback(lambda _: work.close())
         return task
 
     def end(self, resident: Resident) -> None:
-        """Stop one that leaves."""
+        """Cancel the tasks of a resident that leaves the world, and close it."""
         if resident in self._nodes:
             self._nodes.remove(resident)
         for task, owner in self._tasks.items():
@@ -178,12 +178,12 @@ class Supervisor:
         resident.close()
 
     def stop(self) -> None:
-        """End the run."""
+        """End the run, by setting `over`."""
         if not self.over.done():
             self.over.set_result(None)
 
     def fail(self, resident: Resident, error: BaseException, what: str = "") -> None:
-        """End the run because a resident raised; only the first failure is named."""
+        """End the run because a resident raised an exception; the first failure is reported."""
         if self.failure is None:
             self.failure = NodeFailed(resident.name, error, what)
             self.failure.__cause__ = error
@@ -195,12 +195,12 @@ class Supervisor:
         self.fail(resident, error, what)
 
     def end_by(self, error: Exception) -> None:
-        """End the run with an error that belongs to no resident."""
+        """End the run because of an error that belongs to no resident."""
         self.error = self.error or error
         self.stop()
 
     async def cancel(self) -> None:
-        """Cancel all running tasks, and wait for them."""
+        """Cancel all running tasks, and wait until they have ended."""
         self._is_ending = True
         while self._tasks:
             tasks = list(self._tasks)
@@ -231,7 +231,7 @@ class Supervisor:
             raise
 
     async def _guarded(self, resident: Resident, work: Coroutine[Any, Any, T]) -> T | None:
-        """Await some work of a node; an exception becomes the node's failure."""
+        """Await a coroutine of a node; an exception in it is a failure of the node."""
         try:
             return await work
         except Overdue as overdue:

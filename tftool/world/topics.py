@@ -22,20 +22,20 @@ Status = Literal["succeeded", "aborted", "canceled"]
 
 
 class Topic(Generic[T]):
-    """A named stream of values of one type that keeps its last value.
+    """Named stream of values of one type, which stores its last value.
 
     Attributes:
-        name: The topic's name, without a leading slash.
-        kind: The type every value has.
-        count: Number of values were published.
-        latest: The value published last, None before the first.
-        on_demand: Called when a subscriber is added or removed; None without a link.
-        sender: The publisher of the value that is being delivered; None when not known.
+        name: Name of the topic, without a leading slash.
+        kind: Type of the values.
+        count: Number of values that were published.
+        latest: Value that was published last; None before the first.
+        on_demand: Function called when a subscriber is added or removed; None without a link.
+        sender: Publisher of the value that is being delivered; None if unknown.
         relay: Function that sends values to other processes, called last; None without a link.
-        far_subscribers: Number of listen in other processes.
-        is_far: Whether it is here only to be listed: other processes have it, and it was not
-            asked for by its name here.
-        is_removed: Whether the world has removed the topic: another one may have its name by now.
+        far_subscribers: Number of subscribers in other processes.
+        is_far: Whether the topic exists only to be listed: it is used in other processes, and
+            nothing in this process has asked for it.
+        is_removed: Whether the world has removed the topic; a new one may have its name by now.
     """
 
     __slots__ = (
@@ -53,7 +53,7 @@ class Topic(Generic[T]):
     )
 
     def __init__(self, name: str, kind: type[T], report: Report | None = None) -> None:
-        """Start without a value; `report` receives subscribers' exceptions, see `Listeners`."""
+        """Create a topic without a value; `report` receives exceptions of subscribers."""
         self.name = name
         self.kind = kind
         self.latest: T | None = None
@@ -67,7 +67,7 @@ class Topic(Generic[T]):
         self._subscribers: Listeners[T] = Listeners(report)
 
     def publish(self, value: T, sender: Endpoint | None = None) -> None:
-        """Store `value` and pass it to every subscriber at once, with its sender if known.
+        """Store a value and pass it to every subscriber, with its publisher if known.
 
         Raises:
             TypeError: If `value` is not of the topic's kind.
@@ -88,9 +88,9 @@ class Topic(Generic[T]):
             self.sender = before
 
     def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
-        """Call `callback` with every further value until the returned function is called.
+        """Call `callback` with every further value; return a function that ends this.
 
-        Its exceptions are reported under the name of its `owner`, and do not reach the publisher.
+        Exceptions of the callback are reported under the name `owner`, not raised in the publisher.
         """
         withdraw = self._subscribers.add(callback, owner)
         is_there = True
@@ -109,23 +109,23 @@ class Topic(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """Return the present number of subscribers, including other processes'."""
+        """Number of subscribers, including those in other processes."""
         return len(self._subscribers.registered) + self.far_subscribers
 
     @property
     def near_subscribers(self) -> int:
-        """Return the number of subscribers in this process."""
+        """Number of subscribers in this process."""
         return len(self._subscribers)
 
     def stream(self, depth: int = 100) -> AsyncIterator[T]:
-        """Yield each new value. A reader more than `depth` values behind loses the oldest."""
+        """Yield each new value; a reader more than `depth` values behind loses the oldest."""
         return streamed(self.subscribe, depth)
 
 
 async def streamed(
     subscribe: Callable[[Callable[[T], object]], Callable[[], None]], depth: int
 ) -> AsyncIterator[T]:
-    """Yield a subscription's messages; a reader slower than `depth` loses the oldest."""
+    """Yield a subscription's values; a reader more than `depth` values behind loses the oldest."""
     waiting: deque[T] = deque(maxlen=depth)
     arrived = asyncio.Event()
 
@@ -145,16 +145,16 @@ async def streamed(
 
 
 Handler = Callable[[Any], Any | Awaitable[Any]]
-"""Answers a service's request, now or when awaited."""
+"""Function that responds to a service's request, at once or as a coroutine."""
 
 
 @dataclass(frozen=True, slots=True)
 class GoalResult:
-    """Result of an action.
+    """Result of a goal of an action.
 
     Attributes:
-        status: "succeeded", "aborted" or "canceled".
-        value: The action's result.
+        status: Final state of the goal: "succeeded", "aborted" or "canceled".
+        value: Result message of the action.
     """
 
     status: Status
@@ -165,24 +165,24 @@ _NUMBERS = itertools.count(1)
 
 
 def new_goal_id() -> bytes:
-    """Return sixteen bytes for a goal, counted so that equal runs give equal ids."""
+    """Return a new goal id of 16 bytes, counted up so that equal runs have equal ids."""
     return next(_NUMBERS).to_bytes(16, "big")
 
 
 class GoalHandle:
-    """One goal of an action, shared by its client and its server.
+    """Goal of an action, shared by its client and its server.
 
     Attributes:
-        request: The request.
-        cancel_requested: Whether the client wants it stopped, and the server agreed.
-        feedback: The last feedback, None before the first.
-        on_cancel: Called when the client wants it stopped, for a server that decides about that
-            by `decide_cancel`; None for one that always agrees.
-        decided: Whether the server takes the goal, once it has decided; None for one that
-            takes every goal.
-        patience: Seconds to wait for the server of another process to take the goal or a
-            cancellation; None for as long as it takes.
-        goal_id: Sixteen bytes.
+        request: Goal message.
+        cancel_requested: Whether the client requested cancellation and the server agreed.
+        feedback: Last feedback; None before the first.
+        on_cancel: Function called when the client requests cancellation, for a server that decides
+            by `decide_cancel`; None for a server that always agrees.
+        decided: Future of whether the server accepts the goal; None for a server that accepts
+            every goal.
+        patience: Seconds to wait until a server in another process accepts the goal or a
+            cancellation; None for no limit.
+        goal_id: Id of 16 bytes.
         feeds: Functions called with each feedback.
     """
 
@@ -207,10 +207,10 @@ class GoalHandle:
     # The client's side.
 
     def cancel(self) -> None:
-        """Ask the server to stop.
+        """Request the server to cancel the goal.
 
-        Does nothing once the goal has ended, or while a cancellation is considered or accepted;
-        a server that refused is asked again.
+        This does nothing once the goal has ended, or while an earlier request is undecided or
+        accepted; after a rejection, the server is asked again.
         """
         considered = self._cancellation is not None and not self._cancellation.done()
         if self.done or self.cancel_requested or considered:
@@ -222,11 +222,11 @@ class GoalHandle:
             self.on_cancel()
 
     async def cancellation(self) -> bool:
-        """Wait for the server's answer to the last cancellation; return whether it agrees."""
+        """Wait for the server's decision on the last cancellation; return whether it agrees."""
         return self._cancellation is not None and await asyncio.shield(self._cancellation)
 
     async def result(self) -> GoalResult:
-        """Wait for the result."""
+        """Wait for the end of the goal, and return its result."""
         return await asyncio.shield(self._result)
 
     @property
@@ -236,44 +236,44 @@ class GoalHandle:
 
     @property
     def ended(self) -> GoalResult | None:
-        """Return the goal's result; None while it runs."""
+        """Result of the goal; None while it runs."""
         return self._result.result() if self.done else None
 
     # The server's side.
 
     def publish_feedback(self, value: Any) -> None:
-        """Send progress to the client."""
+        """Send a feedback message to the client."""
         self.feedback = value
         for feed in self.feeds:
             feed(value)
 
     def decide_cancel(self, accepted: bool) -> None:
-        """Decide whether the goal will be stopped; the first answer to a cancellation counts."""
+        """Accept or reject a request to cancel the goal; only the first decision counts."""
         if self._cancellation is not None and not self._cancellation.done():
             self.cancel_requested = accepted
             self._cancellation.set_result(accepted)
 
     def finish(self, status: Status, value: Any) -> None:
-        """End the goal; the first end counts."""
+        """End the goal with a state and a result; only the first call counts."""
         if not self.done:
             self.decide_cancel(status == "canceled")
             self._result.set_result(GoalResult(status, value))
 
 
 Acceptor = Callable[[Any], None]
-"""Takes a goal over; it ends it with `finish`."""
+"""Function that accepts a goal, and later ends it with `finish`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Offer(Generic[T]):
-    """A service or an action.
+    """Server of a service or an action.
 
     Attributes:
-        take: Function that answers requests or takes goals.
-        kind: The ROS class of the service or action. None where it is not stated; it stays inside
-            the process then, and takes anything.
-        node: The node that answers, "" where it is not stated.
-        is_remote: Whether another process answers; a server here takes its place.
+        take: Function that responds to requests or accepts goals.
+        kind: ROS class of the service or action; None for one that stays inside this process and
+            accepts any request.
+        node: Name of the server's node; "" if not given.
+        is_remote: Whether the server is in another process; a server in this process replaces it.
     """
 
     take: T
@@ -283,18 +283,18 @@ class Offer(Generic[T]):
 
 
 class NamedOffers(Generic[T]):
-    """Services or actions by name, with their servers in order of succession.
+    """Servers of services or of actions, by name; further servers of a name wait to take over.
 
     Attributes:
-        by_name: Offers by name, read-only.
+        by_name: Active server of each name, read-only.
     """
 
     def __init__(self, what: str, changed: Callable[[], object]) -> None:
-        """Start empty.
+        """Create an empty store.
 
         Args:
-            what: Kind: "service", "action".
-            changed: Called when an offer is added or removed.
+            what: Word for what is served: "service" or "action".
+            changed: Function called when a server is added or removed.
         """
         self._what = what
         self._changed = changed
@@ -303,15 +303,15 @@ class NamedOffers(Generic[T]):
         self.by_name: Mapping[str, Offer[T]] = MappingProxyType(self._first)
 
     def add(self, name: str, offer: Offer[T], *, shares: bool) -> Callable[[], None]:
-        """Add a server; call the returned function to remove it.
+        """Add a server; return a function that removes it.
 
         Args:
-            name: Name.
-            offer: The offer.
-            shares: Whether another of this process may have that name already.
+            name: Name of the service or action.
+            offer: The server.
+            shares: Whether this process may have another server of that name already.
 
         Raises:
-            TftoolError: If another has, and it may not.
+            TftoolError: If this process has another server of that name, and may not.
         """
         name = name.removeprefix("/")
         if name in self._first and not self._first[name].is_remote:
@@ -337,10 +337,10 @@ class NamedOffers(Generic[T]):
         return stop
 
     def get(self, name: str) -> Offer[T] | None:
-        """Return the active server; None if there is none."""
+        """Return the active server of a name; None if there is none."""
         return self._first.get(name.removeprefix("/"))
 
     def count(self, name: str) -> int:
-        """Return the number of servers."""
+        """Return the number of servers of a name."""
         plain = name.removeprefix("/")
         return (plain in self._first) + len(self._next.get(plain, ()))

@@ -1,7 +1,6 @@
 """Waiting for a transform, with a deadline on the clock's time.
 
-Nothing is polled: the buffer's requests wake a waiter from inside the insertion that makes its
-transform possible.
+Nothing is polled: the insertion that makes a transform possible wakes the waiter.
 """
 
 import asyncio
@@ -26,22 +25,21 @@ async def wait_for_transform(
     time: Stamp = 0,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """Return the transform as soon as it is available.
+    """Return the transform between two frames as soon as it is available.
 
     Args:
         buffer: Buffer to wait on.
         clock: Clock of the deadline.
-        target_frame: Frame the answer is expressed in.
-        source_frame: Frame whose pose is asked for.
-        time: The moment asked about; 0 for the latest common time.
-        timeout: Longest time to wait; None waits for ever.
+        target_frame: Frame in which the pose is expressed.
+        source_frame: Frame whose pose is returned.
+        time: Time of the transform, nanoseconds; 0 for the latest common time.
+        timeout: Longest wait, nanoseconds; None for no limit.
 
     Raises:
-        TimeoutException: If it could not be given in time; the cause is the refusal
-            that stood at the end.
-        InvalidArgumentException: If a name can never be asked for.
-        TransformException: If the moment has been forgotten and will not come back.
-        TypeError: If the moment or the timeout is not a whole number.
+        TimeoutException: If the transform was not available in time; the cause is the last error.
+        InvalidArgumentException: If a frame's name is invalid.
+        TransformException: If the time was pruned from the buffer and cannot come back.
+        TypeError: If the time or the timeout is not a whole number.
     """
     deadline = None if timeout is None else clock.now() + whole(timeout)
     return await _wait(buffer, clock, target_frame, source_frame, time, deadline)
@@ -57,10 +55,10 @@ async def wait_for_transform_full(
     fixed_frame: str,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """Return the transform between two times through a fixed frame, as soon as available.
+    """Return the transform between two times through a fixed frame, as soon as it is available.
 
-    Raises as `wait_for_transform` does, and LookupException at once if all three frames
-    are one that is unknown.
+    Raises the errors of `wait_for_transform`, and LookupException at once if all three frames are
+    the same unknown one.
     """
     deadline = None if timeout is None else clock.now() + whole(timeout)
     while True:

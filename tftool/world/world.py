@@ -1,4 +1,4 @@
-"""The nodes' world: one clock, one buffer, topics, services, actions, a log."""
+"""World of nodes: one clock, one transform buffer, topics, services, actions, a log."""
 
 import asyncio
 import inspect
@@ -38,7 +38,7 @@ class _Transforms(NamedTuple):
 
 
 class TransformMessage(_Transforms):
-    """Transforms and their sender, as on the topics `tf` and `tf_static`."""
+    """Transforms and their sender, the value of the topics `tf` and `tf_static`."""
 
     __slots__ = ()
 
@@ -46,11 +46,11 @@ class TransformMessage(_Transforms):
 
 
 class TopicPublisher(Generic[T]):
-    """One node's publisher on one topic.
+    """Publisher of one node on one topic.
 
     Attributes:
-        name: The topic's name, without a leading slash.
-        kind: The type of every value.
+        name: Name of the topic, without a leading slash.
+        kind: Type of the values.
     """
 
     __slots__ = ("_endpoint", "_topic", "_withdraw", "_world", "kind", "name")
@@ -69,7 +69,7 @@ class TopicPublisher(Generic[T]):
         self._topic: Topic[T] | None = None
 
     def publish(self, value: T) -> None:
-        """Publish a value; a topic removed meanwhile is created again."""
+        """Publish a value; if the topic was removed meanwhile, it is created again."""
         topic = self._topic
         if topic is None or topic.is_removed:
             topic = self._topic = self._world.topic(self.name, self.kind)
@@ -80,14 +80,14 @@ class TopicPublisher(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """Return the number of subscribers, including other processes'."""
+        """Number of subscribers of the topic, including those in other processes."""
         topic = self._topic
         if topic is None or topic.is_removed:
             topic = self._topic = self._world.topic(self.name, self.kind)
         return topic.subscribers
 
     def close(self) -> None:
-        """Close the publisher: the node no longer publishes on that topic."""
+        """Close the publisher: the node is no longer listed as a publisher of the topic."""
         self._withdraw()
 
 
@@ -96,13 +96,13 @@ class World:
 
     Attributes:
         clock: Clock of the world.
-        buffer: Buffer of frames.
-        memory: Keeps that within a number of bytes.
+        buffer: Transform buffer of the world.
+        memory: Limit on the memory that the buffer's samples use.
         log: Log of the nodes.
-        nodes: The nodes, in the order of joining.
-        endpoints: Publishers and subscriptions of all processes' nodes.
+        nodes: Nodes, in the order of joining.
+        endpoints: Publishers and subscriptions of the nodes of all processes.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
-        failure: The node whose exception ended it, as soon as that is known.
+        failure: Error about the node whose exception ended the run, as soon as it is known.
     """
 
     def __init__(
@@ -113,11 +113,11 @@ class World:
         cache_time: Duration = CACHE_TIME,
         max_bytes: int | None = None,
     ) -> None:
-        """Make an empty world.
+        """Create a world without nodes.
 
         Args:
             clock: Clock of the world.
-            buffer: Buffer of frames already; empty when None.
+            buffer: Transform buffer to use; None for a new one.
             cache_time: Cache time of a new buffer, nanoseconds.
             max_bytes: Largest number of bytes for samples; None for the usual limit.
         """
@@ -150,11 +150,11 @@ class World:
     # Topics
 
     def topic(self, name: str, kind: type[T]) -> Topic[T]:
-        """Return the topic of that name, created on first use.
+        """Return the topic with a name, creating it at the first use.
 
         Args:
-            name: Name.
-            kind: Class of the messages.
+            name: Name of the topic, with or without a leading slash.
+            kind: Type of the values.
 
         Raises:
             TftoolError: If the topic exists with another type.
@@ -164,7 +164,7 @@ class World:
         return topic
 
     def name_topic(self, name: str, kind: type[Any]) -> None:
-        """List a topic that only other processes use, until it is used here."""
+        """List a topic that only other processes use, until this process uses it too."""
         self._topic(name, kind).is_far = True
 
     def _topic(self, name: str, kind: type[Any]) -> Topic[Any]:
@@ -183,9 +183,9 @@ class World:
         """Register a node as a publisher of a topic.
 
         Args:
-            node: Name.
-            name: The topic's name.
-            kind: The published type.
+            node: Name of the node.
+            name: Name of the topic.
+            kind: Type of the values.
             quality: Offered quality of service.
         """
         return TopicPublisher(self, node, name, kind, quality)
@@ -198,15 +198,15 @@ class World:
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Register a node as a subscriber of a topic; call the returned function to stop.
+        """Register a node as a subscriber of a topic; return a function that ends the subscription.
 
         Args:
-            node: Name, under which a failure of the callback is reported.
-            name: The topic's name.
-            kind: The type published there.
-            callback: Called with every value to come.
+            node: Name of the node, under which an exception of the callback is reported.
+            name: Name of the topic.
+            kind: Type of the values.
+            callback: Function called with every further value.
             quality: Requested quality of service. A latched subscription gets earlier messages of
-                latched publishers, those of this process at once, others as they arrive.
+                latched publishers: those of this process at once, others as they arrive.
         """
         topic = self.topic(name, kind)
         taken: Callable[[Any], object] = callback
@@ -248,16 +248,16 @@ class World:
         keeps: bool = False,
         deliver: Callable[[Any, Endpoint | None], object] | None = None,
     ) -> tuple[Endpoint | None, Callable[[], None]]:
-        """Register an endpoint of a topic; topics internal to the process have none.
+        """Register a publisher or subscription in the graph, unless its topic has no ROS type.
 
         Args:
-            role: Publisher or subscription.
-            node: The node.
-            name: The topic's name.
+            role: Whether it is a publisher or a subscription.
+            node: Name of the node.
+            name: Name of the topic.
             kind: Type of the values.
             quality: Offered or requested quality of service.
-            keeps: Whether a publisher keeps its messages for late subscribers.
-            deliver: Receives earlier messages for a latched subscription.
+            keeps: Whether a publisher stores its messages for late subscribers.
+            deliver: Function that gives a latched subscription earlier messages.
 
         Returns:
             The endpoint, and a function that removes it.
@@ -274,7 +274,7 @@ class World:
         return MappingProxyType(self._topics)
 
     def remove_topic(self, name: str) -> None:
-        """Remove a topic; messages on a `Topic` still held reach no new subscriber."""
+        """Remove a topic; values published on its `Topic` object reach no new subscriber."""
         name = name.removeprefix("/")
         topic = self._topics.pop(name, None)
         if topic is not None:
@@ -293,28 +293,29 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Serve a service with `handler`; call the returned function to stop.
+        """Serve a service with `handler`; return a function that ends this.
 
         Args:
-            name: The service's name.
-            handler: Answers a request, now or when awaited; None is an answer of defaults.
-            kind: The service's ROS class. None for one that stays inside this process.
-            node: The node that answers.
-            is_remote: Whether the service answers from another process.
-            shares: Whether another may serve that name already, as in ROS: who came first
-                answers, and the next one from when that leaves.
+            name: Name of the service.
+            handler: Function that responds to a request, at once or as a coroutine; None as a
+                response stands for one of default values.
+            kind: ROS class of the service; None for one that stays inside this process.
+            node: Name of the server's node.
+            is_remote: Whether the server is in another process.
+            shares: Whether this process may have another server of that name already, as in ROS:
+                the first one responds, and the next one after the first has left.
 
         Raises:
-            TftoolError: If a node here serves that name already.
+            TftoolError: If a node of this process serves that name already, and may not share it.
         """
         return self._services.add(name, Offer(handler, kind, node, is_remote), shares=shares)
 
     def has_service(self, name: str) -> bool:
-        """Whether any node serves that service."""
+        """Return whether any node serves a service."""
         return self._services.get(name) is not None
 
     def count_services(self, name: str) -> int:
-        """Return the number of nodes here that serve a service; other processes count as 1."""
+        """Return the number of servers of a service; those in other processes count as 1."""
         return self._services.count(name)
 
     def services(self) -> Mapping[str, Offer[Handler]]:
@@ -325,13 +326,13 @@ class World:
         """Call a service and wait for its response.
 
         Args:
-            name: The service's name.
-            request: A message.
-            patience: Seconds that a server of another process has to answer; None for any.
+            name: Name of the service.
+            request: Request message.
+            patience: Seconds to wait for a server in another process; None for no limit.
 
         Raises:
             TftoolError: If no node serves that name, or the request is of another type.
-            LinkError: If another process does not answer in time.
+            LinkError: If another process does not respond in time.
         """
         offer = self._services.get(name)
         if offer is None:
@@ -362,12 +363,12 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Accept goals of an action with `accept`; call the returned function to stop.
+        """Accept goals of an action with `accept`; return a function that ends this.
 
         The arguments are those of `serve`.
 
         Raises:
-            TftoolError: If a node here serves that action already.
+            TftoolError: If a node of this process serves that action already, and may not share it.
         """
         return self._actions.add(name, Offer(accept, kind, node, is_remote), shares=shares)
 
@@ -378,9 +379,9 @@ class World:
     def watch_goals(
         self, name: str, callback: Callable[[GoalHandle], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Call `callback` with each goal of an action, before its server receives it.
+        """Call `callback` with each goal of an action, before the server receives it.
 
-        Call the returned function to stop; what it raises is reported as `watch` says.
+        Returns a function that ends this. Exceptions of the callback are reported as `watch` does.
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
@@ -393,15 +394,15 @@ class World:
         patience: float | None = None,
         goal_id: bytes | None = None,
     ) -> GoalHandle:
-        """Send a goal to an action's server.
+        """Send a goal to an action's server; return a handle for the goal.
 
         Args:
-            name: The action's name.
-            goal: A message.
-            on_feedback: Called with each feedback.
-            patience: Seconds that a server of another process has to take the goal; None for
-                any.
-            goal_id: Sixteen bytes of the goal's id, if the client has chosen them.
+            name: Name of the action.
+            goal: Goal message.
+            on_feedback: Function called with each feedback.
+            patience: Seconds to wait until a server in another process accepts the goal; None for
+                no limit.
+            goal_id: Id of 16 bytes for the goal; None for a new one.
 
         Raises:
             TftoolError: If no node serves that action, or the goal is of another type.
@@ -420,8 +421,8 @@ class World:
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Call `callback` when a topic, service, action or node is added or removed.
 
-        It is called before the first value on a new topic. Call the returned function to stop. Its
-        exceptions are reported under the name of its `owner`.
+        It is called before the first value on a new topic. Returns a function that ends this.
+        Exceptions of the callback are reported under the name `owner`.
         """
         return self._watchers.add(callback, owner)
 
@@ -435,12 +436,12 @@ class World:
     ) -> bool:
         """Insert transforms into the buffer and publish them on `tf` or `tf_static`.
 
-        Transforms that the buffer refuses (with a log message) are not sent on. A static message
-        always holds all statics of its sender, the newest of each child, as a late listener gets
-        only a sender's last message.
+        Transforms that the buffer rejects (with a log message) are not published. A static message
+        always has all static transforms of its sender, the newest of each child, because a late
+        listener gets only a sender's last message.
 
         Returns:
-            Whether the buffer took them all.
+            Whether the buffer accepted all transforms.
         """
         sent = tuple(transforms)
         if static:
@@ -459,10 +460,10 @@ class World:
     def receive_static(
         self, transforms: Iterable[TransformStamped], authority: str
     ) -> tuple[TransformStamped, ...]:
-        """Store static transforms of another process's node, for late local subscribers too.
+        """Store static transforms from another process, also for late subscribers in this process.
 
         Returns:
-            The accepted links.
+            The transforms that the buffer accepted.
         """
         return self._store_static(transforms, authority, self._far_statics)
 
@@ -479,7 +480,7 @@ class World:
         return accepted
 
     def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
-        """Return the static transforms of one or all senders here, in order of arrival."""
+        """Return the static transforms of one sender of this process, or of all senders."""
         if authority is not None:
             return tuple(self._statics.get(authority, {}).values())
         held = [self._far_statics, *self._statics.values()]
@@ -492,7 +493,7 @@ class World:
         time: Stamp = 0,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """Return the transform as soon as it is available; see `waiting.wait_for_transform`."""
+        """Return the transform as soon as it is available; see `transform_wait`."""
         return await waiting.wait_for_transform(
             self.buffer, self.clock, target_frame, source_frame, time, timeout
         )
@@ -506,7 +507,7 @@ class World:
         fixed_frame: str,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """Return the transform between two times; see `waiting.wait_for_transform_full`."""
+        """Return the transform between two times; see `transform_wait`."""
         return await waiting.wait_for_transform_full(
             self.buffer,
             self.clock,
@@ -524,7 +525,7 @@ class World:
         """Add a node; in a running world it starts at once.
 
         Raises:
-            TftoolError: If a node of that name is here.
+            TftoolError: If the world has a node of that name.
         """
         if any(other.name == node.name for other in self.nodes):
             raise TftoolError(f"a node named '{node.name}' exists already")
@@ -536,10 +537,10 @@ class World:
             self._supervisor.start(node)
 
     def start_soon(self, node: Resident, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
-        """Run something as part of a node; see `Node.start_soon`.
+        """Run a coroutine as part of a node; see `Node.start_soon`.
 
         Raises:
-            TftoolError: If the world does not run.
+            TftoolError: If the world is not running.
         """
         if self._supervisor is None:
             work.close()
@@ -547,7 +548,7 @@ class World:
         return self._supervisor.start_soon(node, work)
 
     def free_name(self, wanted: str) -> str:
-        """Return the wanted name if it is free, else with a number appended."""
+        """Return the wanted name if no node has it, else the name with a number appended."""
         taken = {node.name for node in self.nodes}
         name, number = wanted, 1
         while name in taken:
@@ -556,7 +557,7 @@ class World:
         return name
 
     def remove(self, node: Resident) -> None:
-        """Stop and remove a node."""
+        """Remove a node; in a running world it is stopped."""
         if node in self.nodes:
             self.nodes.remove(node)
             self._changed()
@@ -564,17 +565,17 @@ class World:
             self._supervisor.end(node)
 
     def know_far_nodes(self, names: Iterable[str]) -> None:
-        """Record which nodes run in other processes."""
+        """Store the names of the nodes that run in other processes."""
         found = tuple(sorted(set(names)))
         if found != self.far_nodes:
             self.far_nodes = found
             self._changed()
 
     def node(self, name: str) -> Resident:
-        """Return the node of that name.
+        """Return the node with a name.
 
         Raises:
-            TftoolError: If there is none.
+            TftoolError: If no node has that name.
         """
         for node in self.nodes:
             if node.name == name:
@@ -582,16 +583,16 @@ class World:
         raise TftoolError(f"no node is named '{name}'")
 
     def run(self, duration: Duration | None = None) -> None:
-        """Run the nodes for a duration from now on, outside any event loop.
+        """Run the nodes for a duration from now on; call this outside any event loop.
 
         `world.run(seconds(10))` is `run(clock, live(world, until=clock.now() + seconds(10)))`.
 
         Args:
-            duration: Nanoseconds of the world's clock; until `stop`, or the return of the last
-                node, if None.
+            duration: Nanoseconds of the world's clock; None to run until `stop` or the end of the
+                last node.
 
         Raises:
-            NodeFailed: If a node raised; see `live`.
+            NodeFailed: If a node raised an exception; see `live`.
             TypeError: If the duration is not a whole number.
             ValueError: If the duration is negative.
         """
@@ -608,24 +609,24 @@ class World:
             self._supervisor.stop()
 
     def fail(self, node: Resident, error: BaseException) -> None:
-        """Report that a node raised outside its `run`, for example in a callback.
+        """Report that a node raised an exception outside its `run`, for example in a callback.
 
         Raises:
-            BaseException: `error` itself, while the world does not run.
+            BaseException: `error` itself, if the world is not running.
         """
         if self._supervisor is None:
             raise error
         self._supervisor.fail(node, error)
 
     def report(self, owner: str, failure: Exception) -> None:
-        """Handle a listener's exception: a node's fails the node, others are logged.
+        """Handle the exception of a listener: a node's is its failure, others are logged.
 
         Args:
-            owner: The name of the listener's owner.
-            failure: Exception.
+            owner: Name of the listener's owner.
+            failure: The exception.
 
         Raises:
-            Exception: `failure` itself, if the owner is a node and the world does not run.
+            Exception: `failure` itself, if the owner is a node and the world is not running.
         """
         for node in self.nodes:
             if node.name == owner:
@@ -661,14 +662,14 @@ class World:
 
 
 def _nothing() -> None:
-    """Do nothing, in place of removing an entity."""
+    """Do nothing, as the function that removes an endpoint that does not exist."""
 
 
 def _require(asked: Any, part: str, kind: Any, what: str) -> None:
-    """Refuse a request not of a service's class, or a goal not of an action's.
+    """Check that a request is of a service's type, or a goal of an action's type.
 
     Raises:
-        TftoolError: If the request is of another class.
+        TftoolError: If the request or goal is of another type.
     """
     if not is_part(asked, part, kind):
         given = getattr(asked, "interface__", "") or type(asked).__name__

@@ -1,4 +1,4 @@
-"""Playback of a recording's other topics: recorded bytes, sent when due."""
+"""Playback of a recording's other topics: the recorded bytes, sent when they are due."""
 
 import heapq
 from collections.abc import Callable, Iterator
@@ -21,28 +21,28 @@ from tftool.world.link.seam import WirePublisher
 from tftool.world.link.session import Link, is_plain
 
 AHEAD: Final = seconds(1)
-"""How far out of order messages may lie in a recording and are still sent in order."""
+"""Nanoseconds by which messages may be out of order in a recording and are still sent in order."""
 
 MOST_WAITING: Final = 10_000
 MOST_WAITING_BYTES: Final = 256_000_000
 
 
 class TopicFeed:
-    """Sends the messages of every topic without transforms and with a known type.
+    """Player of a recording's topics that have no transforms and a known type.
 
     Attributes:
-        topics: Names of those that are sent.
-        left_out: Why others are not, as sentences.
+        topics: Names of the topics that are sent.
+        left_out: Sentences on why other topics are not sent.
     """
 
     def __init__(self, link: Link, source: Recorded, clock: PlayClock, node: str) -> None:
-        """Announce the topics to publish.
+        """Announce the publishers of the topics.
 
         Args:
             link: Link that sends the messages.
             source: The recording.
-            clock: Clock that gives the moment of a log time.
-            node: The node that publishes where the recording does not say who did.
+            clock: Clock that converts a log time to a time of the playback.
+            node: Name of the publishing node if the recording names none.
         """
         self._link = link
         self._source = source
@@ -71,7 +71,7 @@ class TopicFeed:
         self._read_to: Stamp | None = 0
 
     def seek(self, moment: Stamp) -> None:
-        """Continue from a time; the file is read again."""
+        """Continue from a time; the file is read again from its beginning."""
         self._messages = self._source.messages(self.topics) if self.topics else iter(())
         self._waiting.clear()
         self._bytes, self._read_to = 0, 0
@@ -81,7 +81,7 @@ class TopicFeed:
             self._read(moment)
 
     def send_until(self, moment: Stamp) -> None:
-        """Send everything due up to a time."""
+        """Send all messages that are due up to a time."""
         self._read(moment)
         while self._waiting and self._waiting[0][0] <= moment:
             message = self._take()
@@ -103,7 +103,7 @@ class TopicFeed:
         return message
 
     def _read(self, moment: Stamp) -> None:
-        """Read until no message due by a time can follow."""
+        """Read messages until no further one can be due before a time."""
         while (
             self._read_to is not None
             and (self._read_to <= moment + AHEAD or not self._waiting)
@@ -135,11 +135,11 @@ class TopicFeed:
 
 
 def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None]:
-    """Return a topic's type on the wire, and the conversion to CDR; None if already CDR.
+    """Return a topic's type for sending, and a function to convert to CDR (None if it is CDR).
 
     Raises:
-        InputError: If the message cannot be sent, with the reason.
-        MalformedMessage: If the type cannot be written.
+        InputError: If the topic cannot be sent; the text is the reason.
+        MalformedMessage: If the type cannot be converted.
     """
     if not is_plain(topic.name.strip("/")):
         raise InputError("its name is not valid in ROS 2")

@@ -1,4 +1,4 @@
-"""Graph of a session: processes, nodes, and their topics and services."""
+"""Graph of a session: the other processes, their nodes, topics, services and actions."""
 
 import re
 from collections.abc import Iterable
@@ -15,26 +15,26 @@ CLIENT: Final = "client"
 KINDS: Final = (NODE, PUBLISHER, SUBSCRIPTION, SERVER, CLIENT)
 
 MOST: Final = 20_000
-"""How many entries are kept; what other processes announce beyond that is ignored."""
+"""Most entries of the graph; further announcements are ignored."""
 
 MOST_DOMAINS: Final = 100
-"""Other domains that are remembered, to say so once of each."""
+"""Most other domains that are stored, so that each is reported once."""
 
 
 @dataclass(frozen=True, slots=True)
 class GraphEntity:
-    """Another process's node, or an entity of one.
+    """Node of another process, or one of its publishers, subscriptions, servers or clients.
 
     Attributes:
         kind: One of `KINDS`.
         domain: Number of the ROS domain.
-        session: Process of the entity, by the middleware's name.
-        node: The node's name, with its namespace, without the leading slash.
-        name: The topic's or service's name without the leading slash; of a node, "".
-        ros_type: Type, "tf2_msgs/msg/TFMessage"; of a node, "".
-        quality: Quality of service; of a node, the default one.
-        gid: Bytes that identify it; they stand beside the messages of a publisher.
-        type_hash: The hash of the type, where it is shown; else "".
+        session: Name of the entity's process in the middleware.
+        node: Name of the node with its namespace, without a leading slash.
+        name: Name of the topic or service without a leading slash; "" for a node.
+        ros_type: Type, such as "tf2_msgs/msg/TFMessage"; "" for a node.
+        quality: Quality of service; the default for a node.
+        gid: Bytes that identify the entity, sent with the messages of a publisher.
+        type_hash: Hash of the type if it is announced; else "".
     """
 
     kind: str
@@ -49,12 +49,12 @@ class GraphEntity:
 
 
 class Role(StrEnum):
-    """A tftool's role for the others in its session.
+    """Role of a tftool process in its session.
 
     Attributes:
         HOST: The process runs the world that others look at.
-        SOURCE: The process adds something of its own, a static transform or a user's node.
-        GUEST: The process only takes part, and waits for one that adds something.
+        SOURCE: The process adds data of its own: a static transform or a user's node.
+        GUEST: The process adds nothing, and waits for one that does.
     """
 
     HOST = "host"
@@ -64,15 +64,15 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A tftool in the session, as it announces itself.
+    """A tftool process in the session, as it announces itself.
 
     Attributes:
         domain: Number of its ROS domain.
-        session: The middleware's name of the process.
-        since: Time of joining, by the process's clock.
-        pid: Its process number on its machine.
-        role: Role for the others.
-        command: Command: "demo", "echo".
+        session: Name of the process in the middleware.
+        since: Time of joining on the process's clock, nanoseconds.
+        pid: Process id on its machine.
+        role: Role in the session.
+        command: Name of the command, such as "demo" or "echo".
     """
 
     domain: int
@@ -87,11 +87,11 @@ class Process:
 
 
 class Graph:
-    """Entities of all other processes.
+    """Nodes, publishers, subscriptions, servers and clients of all other processes.
 
     Attributes:
-        own: This process's session, whose entities are not entered.
-        domain: The domain we are in.
+        own: Session name of this process, whose entities are left out.
+        domain: Number of this process's domain.
     """
 
     def __init__(self, own: str, domain: int) -> None:
@@ -103,10 +103,10 @@ class Graph:
         self._foreign: set[int] = set()
 
     def add(self, key: str, found: GraphEntity | Process) -> GraphEntity | Process | None:
-        """Add an entity under a key for its removal.
+        """Add an entity or process under a key, by which it can be removed.
 
         Returns:
-            The new entity; None when nothing is new.
+            The entity or process; None if nothing was added.
         """
         if key in self._entities or key in self._processes or found.session == self.own:
             return None
@@ -124,10 +124,10 @@ class Graph:
         return found
 
     def remove(self, key: str) -> GraphEntity | Process | None:
-        """Remove an entity.
+        """Remove the entity or process of a key.
 
         Returns:
-            The entity that is gone; None when it was not known.
+            The removed entity or process; None if the key is unknown.
         """
         gone = self._entities.pop(key, None)
         if gone is None:
@@ -139,24 +139,24 @@ class Graph:
         return gone
 
     def get(self, key: str) -> GraphEntity | Process | None:
-        """Return the entity of a key; None if there is none."""
+        """Return the entity or process of a key; None if there is none."""
         return self._entities.get(key) or self._processes.get(key)
 
     @property
     def foreign_domains(self) -> frozenset[int]:
-        """Return other domains that were noticed."""
+        """Numbers of other domains in which entities were noticed."""
         return frozenset(self._foreign)
 
     def processes(self) -> list[Process]:
-        """Return every tftool, the oldest in the session first."""
+        """Return every tftool process, in the order of joining the session."""
         return sorted(self._processes.values(), key=lambda one: (one.since, one.session))
 
     def process(self, session: str) -> Process | None:
-        """Return the tftool of a session."""
+        """Return the tftool process with a session name; None if there is none."""
         return next((one for one in self._processes.values() if one.session == session), None)
 
     def entities(self, *kinds: str, name: str | None = None) -> list[GraphEntity]:
-        """Return all entities of some kinds, or those of one name."""
+        """Return the entities of some kinds (none given: all kinds); with `name`, only of it."""
         found = self._entities if name is None else self._by_name.get(name, {})
         return [one for one in found.values() if not kinds or one.kind in kinds]
 
@@ -167,13 +167,13 @@ class Graph:
 
     @property
     def sessions(self) -> frozenset[str]:
-        """Return the sessions with entities."""
+        """Session names of all other processes."""
         found = {one.session for one in self._processes.values()}
         return frozenset(found | {one.session for one in self._entities.values()})
 
     @property
     def has_sources(self) -> bool:
-        """Whether a process provides data; guests only wait for it."""
+        """Whether another process provides data; guests only wait for data."""
         guests = set()
         for one in self._processes.values():
             if one.role is not Role.GUEST:
@@ -182,7 +182,7 @@ class Graph:
         return any(one.session not in guests for one in self._entities.values())
 
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
-        """Return a message's publisher: by gid, else the only candidate; None if ambiguous."""
+        """Return the publisher with a gid, else the topic's only candidate; None if ambiguous."""
         unknown = []
         for one in self.entities(PUBLISHER, name=topic):
             if one.gid == gid:
@@ -193,12 +193,12 @@ class Graph:
 
 
 def hosts(processes: Iterable[Process]) -> list[Process]:
-    """Return the processes that run a world."""
+    """Return the processes that run a world which others look at."""
     return [one for one in processes if one.role is Role.HOST]
 
 
 def node_name(name: str) -> str:
-    """Return a valid ROS node name: letters, digits and underscores."""
+    """Return a name as a valid ROS node name: other characters become underscores."""
     name = re.sub(r"[^A-Za-z0-9_/]", "_", name.strip("/"))[:200]
     name = re.sub(r"/+", "/", name)
     return name if name and not name[0].isdigit() else f"_{name}"

@@ -1,6 +1,7 @@
-"""A link's shared state for its topics, services and actions.
+"""State of a link that its topics, services and actions share.
 
-The link makes its parts, and they use this small part of it, so that imports go in one direction.
+The link creates its parts, and the parts use this small part of the link, so that imports go in one
+direction.
 """
 
 from typing import Final
@@ -14,22 +15,22 @@ from tftool.world.link.seam import Middleware
 from tftool.world.world import World
 
 NAME: Final = "link"
-"""The name under which a link logs."""
+"""Name of the link in its log messages."""
 
 UNKNOWN: Final = Quality(is_latched=True)
-"""The quality of a publisher that the graph does not show: no subscription asks for more."""
+"""Quality of service of a publisher not in the graph: the highest, which any subscription fits."""
 
 
 class LinkContext:
-    """State shared by the parts of a link: the middleware, the world, and its errors.
+    """State that the parts of a link share: the middleware, the world, and counts of errors.
 
     Attributes:
-        options: Options of the process's participation.
-        middleware: Middleware that carries everything.
+        options: Options of this process in the session.
+        middleware: Middleware that sends and receives messages.
         graph: Graph of the other processes.
-        endpoints: Endpoints of others, as entered in the world.
-        refused: Received messages that were malformed.
-        received: Messages that were taken in.
+        endpoints: Endpoints of other processes, as stored in the world.
+        refused: Number of received messages that were malformed.
+        received: Number of received messages that were valid.
         heard_statics: Gids of publishers that have sent static transforms.
     """
 
@@ -47,18 +48,18 @@ class LinkContext:
 
     @property
     def world(self) -> World:
-        """The attached world."""
+        """World that is attached to the link."""
         if self._world is None:
             raise LinkError("no world is attached to this link yet")
         return self._world
 
     def now(self) -> Stamp:
-        """Time of the world's clock."""
+        """Return the time of the world's clock in nanoseconds."""
         return self.world.clock.now()
 
     @property
     def unanswering(self) -> str:
-        """Return a sentence about local processes that do not answer, with a remedy; or ""."""
+        """Sentence about local processes that do not respond, with a remedy; or ""."""
         found = [str(pid) for pid in self.middleware.unanswering]
         if not found:
             return ""
@@ -72,7 +73,7 @@ class LinkContext:
 
     @property
     def main_node(self) -> str:
-        """The world's first node, used for entities without a node of their own."""
+        """Name of the world's first node, for entities without a node of their own."""
         shown = (node.name for node in self.world.nodes if node.is_shown)
         return next(shown, f"tftool_{self.options.command}")
 
@@ -87,12 +88,12 @@ class LinkContext:
         )
 
     def authority(self, gid: bytes, topic: str) -> str:
-        """Return the node that sent a message, by the attached gid; b"" means none."""
+        """Return the name of the node that sent a message, by the message's gid (b"" if none)."""
         entity = self._sender(gid, topic)
         return _unnamed(gid) if entity is None else entity.node
 
     def endpoint(self, gid: bytes, topic: str, ros_type: str) -> Endpoint:
-        """Return the publisher of a message.
+        """Return the publisher of a message as an endpoint of the world.
 
         A message can arrive before the announcement of its publisher. Until then, the publisher is
         named by its gid, and matches any subscription.
@@ -125,17 +126,17 @@ class LinkContext:
         return self._senders[key]
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
-        """Count an invalid message, and report the first of each topic."""
+        """Count a malformed message, and log the first of each topic."""
         self.refused += 1
         self.say_once(f"refused {name}", f"On '{name}': {refusal}. Others like it are counted.")
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning once."""
+        """Log a warning, once for each `what`."""
         if what not in self._said and len(self._said) < 1000:
             self._said.add(what)
             self.world.log.warn(NAME, sentence)
 
 
 def _unnamed(gid: bytes) -> str:
-    """Return a name for a publisher whose node is unknown."""
+    """Return a name for a publisher whose node is unknown, from its gid."""
     return f"publisher_{gid[:4].hex() or 'unknown'}"

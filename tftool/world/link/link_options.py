@@ -1,4 +1,4 @@
-"""Options of a process in a session, whatever the middleware."""
+"""Options of a process in a session, for any middleware."""
 
 import os
 from collections.abc import Mapping
@@ -10,14 +10,14 @@ from tftool.base.errors import UsageError
 from tftool.world.link.reach import Reach
 
 LARGEST_DOMAIN = 232
-"""ROS 2's own limit."""
+"""Largest domain number of ROS 2."""
 
 MIDDLEWARES: Final = (
     "tftool.world.link.zenoh.reach:ZenohReach",
     "tftool.world.link.dds.reach:DdsReach",
     "tftool.world.link.foxglove.reach:FoxgloveReach",
 )
-"""What each middleware declares; the first one carries what no option says otherwise."""
+"""Declaration (`Reach`) of each middleware; the first one is the default."""
 
 
 def _declared(place: str) -> type[Reach]:
@@ -32,15 +32,15 @@ _OWNERS: Final = {name: one for one in REACHES for name in one.OPTIONS}
 
 
 def read_reach(given: Mapping[str, Any]) -> Reach:
-    """Return a link's reach from options.
+    """Return the reach of a link that the given options describe.
 
     Args:
-        given: The values of the middlewares' options, by the names of their parameters.
+        given: Values of the middlewares' options, by the names of their parameters.
 
     Raises:
         UsageError: If options contradict each other.
         InputError: If a file is missing, or not of the stated kind.
-        TypeError: If an option is none of theirs.
+        TypeError: If no middleware has such an option.
     """
     asked: set[type[Reach]] = set()
     for name, value in given.items():
@@ -54,7 +54,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
 
 
 def reach_at(word: str) -> Reach | None:
-    """Return the reach to a session by its address; None for other words.
+    """Return the reach of the session at an address; None for words that are no address.
 
     Raises:
         UsageError: If the address is malformed.
@@ -70,10 +70,10 @@ class Options:
     """Options of a process in a session.
 
     Attributes:
-        command: Command: "demo", "echo".
+        command: Name of the command, such as "demo" or "echo".
         domain: Number of the ROS domain.
-        reach: Middleware, and reach beyond this machine's own processes.
-        read_only: Only look: declare no publisher, no service and no token.
+        reach: Middleware, and its reach beyond this machine's own processes.
+        read_only: Whether to announce no node, publisher or service.
     """
 
     command: str = "tftool"
@@ -83,10 +83,10 @@ class Options:
 
 
 def domain_here() -> int:
-    """Return the domain in ROS_DOMAIN_ID, else 0.
+    """Return the domain in the variable ROS_DOMAIN_ID; 0 if it is not set.
 
     Raises:
-        UsageError: If the number is not a domain.
+        UsageError: If the variable's value is not the number of a domain.
     """
     text = os.environ.get("ROS_DOMAIN_ID", "")
     if not text:

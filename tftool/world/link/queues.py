@@ -11,19 +11,19 @@ from typing import Any, Final
 from tftool.base.errors import LinkError
 
 MOST_WAITING: Final = 50_000
-"""Messages that may wait for the event loop; further ones are lost, and counted."""
+"""Most messages in the queue; further ones are dropped, and counted."""
 
 MOST_BYTES: Final = 256 * 1024 * 1024
-"""Bytes of payload that may wait."""
+"""Most bytes of messages in the queue."""
 
 _SLICE: Final = 200
 
 
 class Inbox:
-    """Calls from any thread, made one after the other on the event loop.
+    """Queue of calls from any thread, which the event loop makes one after the other.
 
     Attributes:
-        lost: Messages that were dropped because too many waited.
+        lost: Number of messages that were dropped because the queue was full.
     """
 
     def __init__(self) -> None:
@@ -36,7 +36,7 @@ class Inbox:
         self._closed = False
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Make the calls on `loop` from now on; earlier ones are queued."""
+        """Make the calls in an event loop from now on; the queued ones first."""
         with self._lock:
             self._loop = loop
             self._scheduled = bool(self._waiting)
@@ -45,7 +45,7 @@ class Inbox:
             loop.call_soon(self._drain)
 
     def call_now(self) -> None:
-        """Make the queued calls now, before there is a loop."""
+        """Make the queued calls now, in this thread, before there is an event loop."""
         while self._loop is None:
             with self._lock:
                 if not self._waiting:
@@ -55,18 +55,18 @@ class Inbox:
             callback(argument)
 
     def close(self) -> None:
-        """Make no further call."""
+        """Drop the queued calls, and make no further one."""
         with self._lock:
             self._closed = True
             self._waiting.clear()
 
     def put(self, callback: Callable[..., object], argument: Any, size: int | None = None) -> None:
-        """Queue `callback(argument)` for the loop (from any thread).
+        """Queue `callback(argument)` for the event loop, from any thread.
 
         Args:
             callback: Function to call.
-            argument: With what.
-            size: Bytes a message carries; None for events, which are never dropped.
+            argument: Argument of the call.
+            size: Bytes of a message; None for events, which are never dropped.
         """
         with self._lock:
             if self._closed:
@@ -88,9 +88,10 @@ class Inbox:
             loop.call_soon_threadsafe(self._drain)
 
     def _drain(self) -> None:
-        """Make all queued calls, some at a time, so that a flood does not block the world.
+        """Make all queued calls, some at a time, so that a flood does not block the event loop.
 
-        A callback that raises is reported to the loop; those behind it are called all the same.
+        An exception of a callback is reported to the loop; the calls after it are made all the
+        same.
         """
         # The lock is held for one message at a time: transport threads never wait for a callback.
         for _ in range(_SLICE):
@@ -115,16 +116,16 @@ class Inbox:
 
 
 MOST_AHEAD: Final = 32
-"""How far the loop may run ahead before it lets the sender catch up."""
+"""Number of queued messages above which the event loop waits for the sender."""
 
 MOST_UNSENT: Final = 20_000
-"""Messages that may wait while a reader takes nothing; then the loop waits a while as well."""
+"""Most messages in the queue while a reader takes nothing; then the event loop waits a while."""
 
 MOST_UNSENT_BYTES: Final = 256 * 1024 * 1024
-"""Bytes of payload that may wait in the same way: a few images weigh more than many poses."""
+"""Most bytes in the queue in the same case, as images are large."""
 
 LONGEST_WAIT: Final = 2.0
-"""Seconds the loop waits for room in all; later messages are dropped while there is none."""
+"""Longest wait in seconds of the event loop for room; then messages are dropped."""
 
 _PAUSE = 0.0002
 _STUCK = 50  # pauses without progress, after which the sender counts as stuck
@@ -132,10 +133,10 @@ _FAREWELL = 2.0
 
 
 class Outbox:
-    """Calls that send, made in order in one thread.
+    """Queue of calls that send messages, made in order in one thread.
 
     Attributes:
-        dropped: Number of were dropped because too much waited for a sender that is stuck.
+        dropped: Number of calls that were dropped because the queue was full and the sender stuck.
     """
 
     def __init__(self) -> None:
@@ -152,17 +153,17 @@ class Outbox:
         self._thread: threading.Thread | None = None
 
     def put(self, send: Callable[[], object], size: int = 0) -> None:
-        """Queue a call after all earlier ones; exceptions in it are ignored.
+        """Queue a call after all earlier ones; exceptions of the call are ignored.
 
-        If too much waits, and nothing was sent for `LONGEST_WAIT`, the call is dropped: a call that
-        never returns must not block the loop for ever.
+        If the queue is full and nothing was sent for `LONGEST_WAIT` seconds, the call is dropped: a
+        send that never returns must not block the event loop for ever.
 
         Args:
-            send: Sends it.
-            size: Bytes it holds until it is sent.
+            send: Function that sends a message.
+            size: Bytes of the message.
 
         Raises:
-            LinkError: If this is closed.
+            LinkError: If the outbox is closed.
         """
         if self._closed:
             raise LinkError("a message could not be sent: the link is closed")
@@ -181,7 +182,7 @@ class Outbox:
             self._let_catch_up()
 
     def close(self) -> None:
-        """Send everything queued, within limits, and nothing more."""
+        """Send everything queued, within a time limit, and accept no further calls."""
         if not self._closed:
             self._closed = True
             self._queue.put(None)
@@ -190,14 +191,14 @@ class Outbox:
 
     @property
     def _is_full(self) -> bool:
-        """Whether the queue exceeds its limit."""
+        """Whether the queue exceeds its limit of messages or bytes."""
         waiting, held = self._put - self._sent, self._put_bytes - self._sent_bytes
         return waiting > MOST_UNSENT or held > MOST_UNSENT_BYTES
 
     def _let_catch_up(self) -> None:
         """Wait while the sender makes progress.
 
-        Without it, a busy loop would block the interpreter's other threads.
+        Without this wait, a busy loop would block the interpreter's other threads.
         """
         pause = threading.Event()
         sent, idle = self._sent, 0

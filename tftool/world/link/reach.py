@@ -1,6 +1,6 @@
-"""Declarations of each middleware: options, contradictions, and names for sentences.
+"""Declaration of a middleware: its options, contradictions between them, and names for sentences.
 
-A middleware derives from `Reach` in its folder, as in `zenoh/reach.py`; one line in
+A middleware derives a class from `Reach` in its folder, as in `zenoh/reach.py`; one line in
 `link_options.MIDDLEWARES` adds it. Commands do not name middlewares.
 """
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class LinkOption:
-    """One option of the command line.
+    """Option of the command line for a middleware.
 
     Attributes:
-        kind: The type of its value: bool, `list[str] | None` or `Path | None`.
-        flag: The flag as typed, "--listen".
-        text: Help.
-        metavar: Name of its value in the help; None for a flag.
+        kind: Type of the value: bool, `list[str] | None` or `Path | None`.
+        flag: The flag as typed, such as "--listen".
+        text: Help text.
+        metavar: Name of the value in the help; None for a flag without a value.
     """
 
     kind: Any
@@ -31,44 +31,44 @@ class LinkOption:
 
 
 class Reach:
-    """A middleware's reach beyond this machine's own processes.
+    """Networks and processes that a link may reach, beyond this machine's own processes.
 
-    Derived as frozen data; made without arguments it opens nothing that was not asked for.
+    Subclasses are frozen dataclasses; made without arguments, they open nothing to the outside.
     """
 
     __slots__ = ()
 
     OPTIONS: ClassVar[Mapping[str, LinkOption]] = {}
-    """Its options by the names of their parameters."""
+    """Options of the middleware, by the names of their parameters."""
 
     FLAGS: ClassVar[tuple[str, ...]] = ()
-    """The options that open something, as sentences name them."""
+    """Options that open a connection to the outside, as sentences name them."""
 
     ALONE: ClassVar[str] = ""
-    """Why its options do not go together with another middleware's."""
+    """Sentence on why its options cannot be combined with another middleware's."""
 
     is_robots: ClassVar[bool] = False
-    """Whether it is among a robot's nodes: there, commands that only look write nothing, and
-    static transforms that were lost come again."""
+    """Whether the other processes are a robot's nodes: there, commands that only read send nothing,
+    and wait longer for static transforms."""
 
     only_reads: ClassVar[bool] = False
-    """Whether nothing can be published by it."""
+    """Whether the middleware can only read, not publish."""
 
     SCHEMES: ClassVar[tuple[str, ...]] = ()
     """Beginnings of the addresses of its sessions, in lower case: "ws://"."""
 
     @classmethod
     def at(cls, address: str) -> "Reach":
-        """Return the reach to a session by its address, which begins with one of `SCHEMES`.
+        """Return the reach of the session at an address; None for words that are no address.
 
         Raises:
-            UsageError: If the address is malformed.
+            UsageError: If the word begins like an address, but is malformed.
         """
         raise NotImplementedError
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "Reach":
-        """Combine the values of its options.
+        """Return the reach that the middleware's options describe.
 
         Raises:
             UsageError: If options contradict each other.
@@ -78,35 +78,35 @@ class Reach:
 
     @property
     def is_asked(self) -> bool:
-        """Whether a link is needed: always for a robot, which is in another process."""
+        """Whether the options require a link, as a robot in another process always does."""
         return True
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Whether the session is elsewhere, so that hosting a world makes no sense.
+        """Return whether the session is always in another process, so that this one never hosts it.
 
         Args:
-            hosts: Whether the command hosts turtles where it finds none.
+            hosts: Whether the command hosts turtles if it finds none.
         """
         return not hosts
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Whether a local process can be joined, checked without opening a link."""
+        """Return whether there is a local process to join, checked without opening a link."""
         return False
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the frames listed by local processes, sorted, without opening a link."""
+        """Return the frames that local processes list, sorted, without opening a link."""
         return []
 
     def place(self, domain: int) -> str:
-        """Describe where the others are; "" for this machine."""
+        """Describe where the other processes are; "" for this machine."""
         raise NotImplementedError
 
     def join(self, options: "Options") -> "Middleware":
         """Join a session; the middleware's library is imported here.
 
         Raises:
-            LinkError: If there is no way in.
+            LinkError: If the session cannot be joined.
         """
         raise NotImplementedError

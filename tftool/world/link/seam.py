@@ -1,9 +1,9 @@
-"""Interface between a middleware and a link: a ROS graph, with messages as CDR.
+"""Interface between a middleware and a link: a ROS graph, with messages in CDR.
 
 A middleware is a folder beside `zenoh/` with a class derived from `Middleware`, a `Reach` that
 declares its options and joins a session, and one line in `link_options.MIDDLEWARES`. The rest of
-the link does not depend on it: the bridges (`topic_bridges`, `service_bridges`) pass values, which
-are serialised to CDR there. A middleware makes all its callbacks on the event loop.
+the link does not depend on it: the bridges (`topic_bridges`, `service_bridges`) convert values to
+CDR and back. A middleware makes all its callbacks in the event loop.
 """
 
 import asyncio
@@ -17,10 +17,10 @@ from tftool.world.link.graph import Graph, GraphEntity, Process
 
 
 class Arrived(NamedTuple):
-    """A received message.
+    """Received message.
 
     Attributes:
-        payload: CDR.
+        payload: Message in CDR (ROS 2's serialised form).
         sender: Gid of the publisher; b"" if unknown.
     """
 
@@ -33,85 +33,85 @@ class WirePublisher(Protocol):
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a subscription, or be kept for later ones."""
+        """Whether a message would reach a subscription, or be stored for late ones."""
 
     def put(self, payload: bytes, stamp: Stamp) -> None:
-        """Send one message with the time `stamp` on our clock.
+        """Send one message, with its time `stamp` on our clock.
 
         Raises:
             LinkError: If the link is closed.
         """
 
     def close(self) -> None:
-        """Close after sending everything queued."""
+        """Close the publisher when everything queued is sent."""
 
 
 class WireRequest(Protocol):
-    """A received request that waits for its response."""
+    """Received request that waits for its response."""
 
     @property
     def payload(self) -> bytes:
-        """CDR bytes of the request."""
+        """Request in CDR (ROS 2's serialised form)."""
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response, once."""
+        """Send the response; called once."""
 
     def refuse(self, reason: str) -> None:
-        """Report that there will be no response, and why."""
+        """Tell the client that there will be no response, and why."""
 
 
 class WireClient(Protocol):
     """Client of one service, announced in the graph with its first request."""
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Send a request and wait at most `timeout` seconds for the response.
+        """Send a request, and wait at most `timeout` seconds for the response.
 
-        A wait that is cancelled takes the request back.
+        Cancelling the wait withdraws the request.
 
         Raises:
-            LinkError: If there is no answer, or it is a refusal.
+            LinkError: If there is no response, or the server refuses.
         """
 
     def close(self) -> None:
-        """Close the client."""
+        """Close the client, and withdraw its announcement."""
 
 
 class Watcher(Protocol):
     """Callbacks of a middleware to its link."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Report an added or removed entity; None if only another domain was noticed."""
+        """Handle an added or removed entity; None if only another domain was noticed."""
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
-        """Report an invalid message of a topic or service."""
+        """Handle a malformed message of a topic or service."""
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning about others, once for each `what`."""
+        """Log a warning about other processes, once for each `what`."""
 
 
 def nothing() -> None:
-    """Do nothing, in place of withdrawing an announcement."""
+    """Do nothing: the function to end an announcement that was not made."""
 
 
 class Middleware:
     """A process's part in a ROS graph. Names have no leading slash.
 
-    `Reach.join` makes it. No other process of this machine can join until `settle` or `close` is
+    `Reach.join` creates it. No other process of this machine can join until `settle` or `close` is
     called. A method that a middleware does not override announces nothing, or refuses to write.
 
     Attributes:
         graph: Graph of the other processes; filled before the constructor returns.
-        session: This process's name in the graph.
-        unanswering: Process numbers of this machine's processes that do not answer.
+        session: Name of this process in the graph.
+        unanswering: Process ids of this machine's processes that do not respond.
         notices: Notices for the user about joining, as sentences.
-        watcher: Receives changes of the graph; None before `start`.
+        watcher: Receiver of changes of the graph; None before `start`.
     """
 
     NO_WRITING: ClassVar[str] = "nothing can be published here"
-    """Why a middleware without these methods has no publisher, server or client."""
+    """Error text of a middleware without publishers, servers or clients."""
 
     def __init__(self, graph: Graph) -> None:
-        """Take part in a graph."""
+        """Store the graph that this process takes part in."""
         self.graph = graph
         self.session = graph.own
         self.unanswering: tuple[int, ...] = ()
@@ -119,40 +119,40 @@ class Middleware:
         self.watcher: Watcher | None = None
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Call back on `loop` from now on, and report changes of the graph."""
+        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
         raise NotImplementedError
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List this process's frames where other local commands find them, if there is a place."""
+        """List this process's frames for other local commands; by default do nothing."""
 
     def settle(self) -> None:
-        """Let other local processes join from now on, if joining kept them waiting."""
+        """Let other local processes join from now on, if they had to wait."""
 
     def close(self) -> None:
-        """Send queued messages, and leave; no callback follows."""
+        """Send queued messages, and leave the graph; no callback follows."""
         raise NotImplementedError
 
     @property
     def lost(self) -> int:
-        """Messages dropped because the inbox was full."""
+        """Number of messages dropped because the inbox was full."""
         return 0
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Announce this process until the returned function is called."""
+        """Announce this process; return a function that ends this."""
         return nothing
 
     def node(self, name: str) -> Callable[[], None]:
-        """Announce a node until the returned function is called."""
+        """Announce a node; return a function that ends this."""
         return nothing
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
-        """Publish a topic as a node of this process."""
+        """Create a publisher of a topic for a node of this process."""
         raise LinkError(self.NO_WRITING)
 
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Announce a node's subscription until the returned function is called.
+        """Announce a node's subscription; return a function that ends this.
 
         Several subscriptions of a process share the messages of one `listen`.
         """
@@ -166,39 +166,39 @@ class Middleware:
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with others' messages until the returned function is called.
+        """Call `on_message` with others' messages on a topic; return a function that ends this.
 
         Args:
-            name: The topic.
-            ros_type: Type; publishers of another one are not heard.
-            on_message: Called with every message.
-            is_latched: Whether to ask for earlier messages.
+            name: Name of the topic.
+            ros_type: Type; messages of other types are not received.
+            on_message: Function called with every message.
+            is_latched: Whether to request earlier messages.
         """
         raise NotImplementedError
 
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Serve a service as a node of this process until the returned function is called."""
+        """Serve a service as a node of this process; return a function that ends this."""
         raise LinkError(self.NO_WRITING)
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Call a service as a node of this process."""
+        """Create a client of a service for a node of this process."""
         raise LinkError(self.NO_WRITING)
 
     # For middlewares: reports to the watcher, if there is one yet
 
     def report(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Report an added or removed entity; None if only another domain was noticed."""
+        """Report an added or removed entity to the watcher; None if only a domain was noticed."""
         if self.watcher is not None:
             self.watcher.graph_changed(found, there)
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
-        """Report an invalid message of a topic or service."""
+        """Report a malformed message of a topic or service to the watcher."""
         if self.watcher is not None:
             self.watcher.refuse(name, refusal)
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning about others, once for each `what`."""
+        """Have the watcher log a warning about other processes, once for each `what`."""
         if self.watcher is not None:
             self.watcher.say_once(what, sentence)

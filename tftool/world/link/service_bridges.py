@@ -1,4 +1,4 @@
-"""Services and actions between our world and other processes."""
+"""Services and actions that a world and other processes offer to each other."""
 
 import asyncio
 import secrets
@@ -25,11 +25,11 @@ from tftool.world.link.seam import Arrived, WireRequest
 from tftool.world.topics import GoalHandle, Status
 
 LONGEST: Final = 3600.0
-"""Seconds to wait for an answer: a user's node may have work for hours done by a service."""
+"""Longest wait in seconds for a response, as a service may work for an hour."""
 
 
 class Answering:
-    """Server side of one service, for any type."""
+    """Server of one service of our world for other processes, with requests as bytes."""
 
     def __init__(
         self,
@@ -46,7 +46,7 @@ class Answering:
         self._stop = link.middleware.server(node, name, ros_type, self._asked)
 
     def close(self) -> None:
-        """Stop serving."""
+        """Stop serving, and cancel unfinished requests."""
         self._stop()
         self._tasks.cancel()
 
@@ -69,7 +69,7 @@ class Answering:
 
 
 class Asking:
-    """Client side of one service, for any type."""
+    """Client of one service of other processes, with requests as bytes."""
 
     def __init__(self, link: LinkContext, name: str, ros_type: str) -> None:
         self._link = link
@@ -77,10 +77,10 @@ class Asking:
         self._client = link.middleware.client(link.main_node, name, ros_type)
 
     async def ask(self, payload: bytes, timeout: float) -> bytes:
-        """Send a request and wait for the response.
+        """Send a request, and wait at most `timeout` seconds for the response.
 
         Raises:
-            LinkError: If there is none.
+            LinkError: If there is no response, or the server refuses.
         """
         try:
             return await self._client.ask(payload, self._link.now(), timeout)
@@ -88,18 +88,18 @@ class Asking:
             raise LinkError(f"service '{self._name}': {error}") from error
 
     def close(self) -> None:
-        """Close the client."""
+        """Close the client of the service."""
         self._client.close()
 
 
 def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answering:
-    """Offer a service of our world to other processes.
+    """Serve a service of our world for other processes.
 
     Args:
-        link: The link.
-        node: Node that serves it; "" if unknown.
-        name: The service's name.
-        kind: The service's class.
+        link: State of the link.
+        node: Name of the node that serves it; "" if unknown.
+        name: Name of the service.
+        kind: ROS class of the service.
     """
 
     async def serve(payload: bytes) -> bytes:
@@ -110,7 +110,7 @@ def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answeri
 
 
 class ServiceClient:
-    """A service of another process, made available in our world."""
+    """Service of another process that is added to our world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._kind = INTERFACES.find(*server.ros_type.split("/"))
@@ -144,10 +144,10 @@ def _read(ros_type: str, payload: bytes) -> Any:
 
 
 class ActionServer:
-    """An action of our world, offered to other processes."""
+    """Action of our world that is served for other processes."""
 
     def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
-        """Offer an action; the arguments are those of `serve_service`."""
+        """Serve an action; the arguments are those of `serve_service`."""
         interface: str = kind.interface__
         node, base = node or link.main_node, f"{name}/_action"
         publish = link.middleware.publisher
@@ -173,7 +173,7 @@ class ActionServer:
         ]
 
     def close(self) -> None:
-        """Accept no more goals; running ones are cancelled."""
+        """Stop serving the action; running goals are cancelled."""
         for service in self._services:
             service.close()
         self._feedback.close()
@@ -192,7 +192,7 @@ def _in_bytes(
 
 
 class ActionClient:
-    """An action of another process, made available in our world."""
+    """Action of another process that is added to our world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._link = link
@@ -238,7 +238,7 @@ class ActionClient:
     async def _follow(
         self, goal_id: bytes, goal: GoalHandle, decided: "asyncio.Future[bool]"
     ) -> None:
-        """Send a goal, and follow it to its end."""
+        """Send a goal to the other process, and track it until its end."""
         status: Status = "aborted"
         result: Any = INTERFACES.part(f"{self._type}_Result")()
         try:

@@ -1,7 +1,7 @@
-"""A session: one world connected to the processes that share it.
+"""Link between one world and the other processes of its session, which share topics and services.
 
-Messages of nodes here are sent out, messages of others are received, and a received message is
-never sent out again. For the world there is no difference; a service of another process is a
+Messages of this process's nodes are sent, messages of others are received, and a received message
+is never sent again. For the world there is no difference: a service of another process is a
 service of the world.
 """
 
@@ -35,27 +35,28 @@ _NAMED: Final = (
     "geometry_msgs/msg/Twist",
     "geometry_msgs/msg/PointStamped",
 )
-"""Types of topics that are listed among the world's topics while only other processes have them."""
+"""Types of others' topics that are listed as topics of the world without being used in it."""
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
 
 class Link(LinkContext):
-    """A process's connection to a session, which carries its world's traffic.
+    """Connection of a process to a session, which shares its world's topics, services and actions.
 
     Attributes:
-        departures: Number of processes that sent transforms have left.
+        departures: Number of processes with transforms that have left.
     """
 
     def __init__(self, options: Options) -> None:
         """Join the processes of this machine, and those in the reach of `options`.
 
-        Returns at once if there is no other process. No other process of this machine can join
+        This returns at once if there is no other process. No other process of this machine can join
         until `attach`, `settle` or `close` is called, so that no two of them decide at once whether
         to host.
 
         Raises:
-            LinkError: If there is no place to meet, or the middleware is missing or refuses.
+            LinkError: If the session's folder cannot be used, or the middleware is missing
+                or refuses.
         """
         super().__init__(options, options.reach.join(options))
         self._nodes: dict[str, Callable[[], None]] = {}
@@ -80,11 +81,11 @@ class Link(LinkContext):
     # Taking part
 
     def attach(self, world: World, *, role: Role) -> None:
-        """Share a world's topics, services and actions from now on; call inside its loop.
+        """Share a world's topics, services and actions from now on; to call inside its event loop.
 
         Args:
-            world: The node.
-            role: Role of this process for the others.
+            world: The world.
+            role: Role of this process in the session.
         """
         self._world = world
         self._since = WallClock().epoch
@@ -98,7 +99,7 @@ class Link(LinkContext):
         self._tell_frames()
 
     def _tell_frames(self) -> None:
-        """Update the list of frames for completion, with up to a second of delay."""
+        """Update the list of frames for completion, with a delay of up to a second."""
         if self._closed or self._loop is None:
             return
         frames = self.world.buffer.frames()
@@ -108,12 +109,12 @@ class Link(LinkContext):
         self._loop.call_later(1.0, self._tell_frames)
 
     def _process(self, role: Role) -> Process:
-        """Return this process as it is announced."""
+        """Return the announcement of this process."""
         domain, session = self.options.domain, self.middleware.session
         return Process(domain, session, self._since, os.getpid(), role, self.options.command)
 
     def close(self) -> None:
-        """Leave the session; the world itself is unchanged."""
+        """Leave the session; the world itself does not change."""
         if self._closed:
             return
         self._closed = True
@@ -138,9 +139,9 @@ class Link(LinkContext):
     # Keeping up with the world
 
     def _world_changed(self) -> None:
-        """Share new topics at once, before their first message; other changes wait a moment.
+        """Share new topics at once, before their first message; other changes after a short delay.
 
-        A crowd of turtles changes the world thousands of times, and one look serves all.
+        A crowd of turtles changes the world thousands of times, and one update serves all changes.
         """
         if self._closed:
             return
@@ -150,7 +151,7 @@ class Link(LinkContext):
         self._reconcile_soon()
 
     def _reconcile(self) -> None:
-        """Update announcements and bridges to the entities of the world and of the others."""
+        """Update announcements and bridges after changes of the world or of other processes."""
         self._reconciling = False
         self._match(
             self._match_nodes,
@@ -184,7 +185,7 @@ class Link(LinkContext):
             self._nodes[name] = self.middleware.node(name)
 
     def _match_endpoints(self) -> None:
-        """Enter others' nodes, publishers and subscriptions in the world."""
+        """Store others' nodes, publishers and subscriptions in the world."""
         self.world.know_far_nodes(one.node for one in self.graph.entities(NODE))
         there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION))
         for entity in self.endpoints.keys() - there:
@@ -195,9 +196,9 @@ class Link(LinkContext):
             self._removals[entity] = self.world.endpoints.add(self.far_endpoint(entity))
 
     def _name_topics(self) -> None:
-        """Register others' topics as topics of the world.
+        """List others' topics as topics of the world.
 
-        Topics that no process has any more are forgotten.
+        Topics that no process has any more are removed.
         """
         for entity in self.graph.entities(PUBLISHER):
             known = entity.ros_type not in _NAMED or entity.name in self.world.topics()
@@ -254,7 +255,7 @@ class Link(LinkContext):
                 self._warn_of_rival(name, name)
 
     def _is_part_of_our_action(self, name: str) -> bool:
-        """Whether a name belongs to an action, which is shared as a whole."""
+        """Return whether a name belongs to an action of our world, which is shared as a whole."""
         action, found, _ = name.partition("/_action/")
         offer = self.world.actions().get(action) if found else None
         return offer is not None and not offer.is_remote
@@ -281,7 +282,7 @@ class Link(LinkContext):
             self._clients[name] = made(self, name, entity)
 
     def _is_offered(self, name: str, *, remote: bool) -> bool:
-        """Whether a service or action of that name is served here, or elsewhere."""
+        """Return whether a service or action is served in this process, or in another."""
         offers = (self.world.services().get(name), self.world.actions().get(name))
         return any(offer is not None and offer.is_remote is remote for offer in offers)
 
@@ -312,7 +313,7 @@ class Link(LinkContext):
             self._match_soon()
 
     def _match_soon(self) -> None:
-        """Update soon: changes come in groups, and one update handles them all."""
+        """Schedule one update for a group of changes."""
         self._senders.clear()
         self._reconcile_soon()
 
@@ -341,9 +342,9 @@ class Link(LinkContext):
         self.world.log.warn(NAME, f"{process}{hosted} has left; its last transforms stay.")
 
     def _count_departure(self, session: str) -> None:
-        """Count a departed process after the removal of its last entity, in any order.
+        """Count a process as left when its last entity is removed, in any order.
 
-        A node may leave a process that stays, and other programs show no process.
+        A node may leave a process that stays, and programs other than tftool announce no process.
         """
         senders = self.graph.entities(PUBLISHER, name="tf")
         stays = self.graph.process(session) or any(one.session == session for one in senders)
@@ -359,5 +360,5 @@ class Link(LinkContext):
 
 
 def is_plain(name: str) -> bool:
-    """Whether a name is a valid ROS topic; others are not shared."""
+    """Return whether a name is a valid ROS topic; topics with other names are not shared."""
     return len(name) < 250 and _PLAIN.fullmatch(name) is not None

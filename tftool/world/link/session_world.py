@@ -1,4 +1,4 @@
-"""A world in a session: what runs and shares it, and the frames heard in it."""
+"""World in which a command works, with the means to run it and to share it."""
 
 import asyncio
 from collections import Counter
@@ -30,29 +30,29 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 TOLD = seconds(2)
-"""How long a joined world waits for the first that `/clock` says, where it is published."""
+"""Longest wait in nanoseconds of a joined world for the first message on `/clock`."""
 
 STATICS = seconds(8)
-"""How much longer for static transforms of publishers that are there: lost ones come again."""
+"""Nanoseconds to wait longer for static transforms of known publishers."""
 
 
 def _keep_silent(record: "LogRecord") -> None:
-    """Drop a line of the log."""
+    """Drop a log message."""
 
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """A world to work in, and what keeps it running.
+    """World in which a command works, with the means to run it.
 
     Attributes:
-        world: Frames and topics.
+        world: The world, with its frames and topics.
         is_hosted: Whether this process hosts the session.
-        name: Name in sentences: "scenario 'turtles'".
-        live: Lives the world through, for ever or until a moment.
-        head_start: Part that is simulated before work begins.
-        duration: Duration of the scenario; None if unlimited.
-        link: Link to other processes; None for a world of its own.
-        tell: Takes every line of the world's log while it lives.
+        name: Name in sentences, such as "scenario 'turtles'".
+        live: Coroutine function that runs the world until a time, or for ever.
+        head_start: Nanoseconds that are simulated before the work begins.
+        duration: Duration of the scenario in nanoseconds; None if unlimited.
+        link: Link to other processes; None for a world without one.
+        tell: Function called with every log message while the world runs.
     """
 
     world: World
@@ -65,28 +65,28 @@ class Session:
     tell: "Callable[[LogRecord], object]" = _keep_silent
 
     def departures(self) -> int:
-        """Count the processes with transforms that have left so far."""
+        """Return the number of processes with transforms that have left so far."""
         return 0 if self.link is None else self.link.departures
 
     def abandon(self) -> None:
-        """Leave a session that was opened and is not used."""
+        """Leave a session that was joined but is not used."""
         if self.link is not None:
             self.link.close()
 
     def run(
         self, work: Coroutine[Any, Any, T], *, on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """Do some work while the world runs, on the world's clock.
+        """Await some work while the world runs, on the world's clock.
 
         Args:
-            work: The remedy.
-            on_interrupt: Called when a signal ends it, before anything of the world ends.
+            work: Coroutine whose result is returned.
+            on_interrupt: Function called when a signal ends the work, before the world ends.
 
         Returns:
-            The result of the work; the world ends with it.
+            Result of the work; the world ends with it.
 
         Raises:
-            NodeFailed: If a node of the world raised first.
+            NodeFailed: If a node of the world failed first.
             KeyboardInterrupt: If a signal ended the session.
         """
         return run(self.world.clock, self.along(work, on_interrupt))
@@ -94,7 +94,7 @@ class Session:
     async def along(
         self, work: Coroutine[Any, Any, T], on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """Do as `run`, inside a running loop."""
+        """Do the same as `run`, inside a running event loop."""
         stop_telling = self.world.log.listen(self.tell, "console")
         try:
             return await beside(self._after_head_start(work), self._living(), on_interrupt)
@@ -105,11 +105,11 @@ class Session:
         await self.live(None)
 
     async def lasting(self, duration: Duration | None) -> None:
-        """Wait `duration` nanoseconds; for ever if None."""
+        """Wait for a duration in nanoseconds; for ever if None."""
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
-        """Listen for `duration` nanoseconds; to a robot until its static transforms arrive."""
+        """Wait for a duration; longer for a robot's static transforms that have not arrived."""
         await self.lasting(duration)
         if self.link is None or not self.link.options.reach.is_robots:
             return
@@ -131,7 +131,7 @@ class Session:
 
 
 async def lasting(clock: Clock, duration: Duration | None) -> None:
-    """Wait `duration` nanoseconds at a clock's pace; for ever if None."""
+    """Wait for a duration in nanoseconds at the pace of a clock; for ever if None."""
     if duration is None:
         await asyncio.get_running_loop().create_future()
         return
@@ -152,14 +152,14 @@ def joined_session(
     cache_time: Duration | None = None,
     tell: "Callable[[LogRecord], object]" = _keep_silent,
 ) -> Session:
-    """Return a world that follows the session of a link.
+    """Return a world that receives the frames of the session that a link has joined.
 
     Args:
-        link: Leads there.
-        clock: Time.
-        place: Description of the others, for sessions whose processes have no name.
-        cache_time: Cache time of the session's buffer, nanoseconds.
-        tell: Takes every line of its log.
+        link: Link to the session.
+        clock: Clock of the world.
+        place: Description of the other processes, if they have no name.
+        cache_time: Cache time of the world's buffer, nanoseconds; None for the default.
+        tell: Function called with every log message.
     """
     world = World(clock, cache_time=cache_time or CACHE_TIME)
     alive = lived(world, link, "guest")
@@ -167,7 +167,7 @@ def joined_session(
 
 
 def session_name(link: "Link", place: str) -> str:
-    """Return a session's name: the host process, or a ROS node."""
+    """Return a session's name for sentences: by its host process, or a ROS node."""
     if link.options.reach.only_reads:
         return visible(place)
     processes = link.graph.processes()
@@ -185,7 +185,7 @@ def session_name(link: "Link", place: str) -> str:
 
 
 def twins(world: World) -> list[str]:
-    """Return a sentence for each node name shared by several publishers of transforms."""
+    """Return a warning for each node name under which several nodes publish transforms."""
     names = Counter(end.node for end in world.endpoints.of("tf", PUBLISHER))
     return [
         f"{count} nodes called '{visible(name)}' send transforms: has it been started twice?"
@@ -196,12 +196,12 @@ def twins(world: World) -> list[str]:
 
 @contextmanager
 def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[None]:
-    """Share a world while this block runs; call inside its loop.
+    """Share a world with other processes while this block runs; call this inside its event loop.
 
     Args:
-        link: Link to the others; None for none.
-        world: The shared world.
-        role: Role of this process, of `link.graph.Role`.
+        link: Link to the other processes; None to share nothing.
+        world: World to share.
+        role: Role of this process, a value of `link.graph.Role`.
     """
     if link is None:
         yield
@@ -223,7 +223,7 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
 def lived(
     world: World, link: "Link | None", role: str
 ) -> Callable[[Stamp | None], Awaitable[None]]:
-    """Return a function that runs a shared world for ever or until a time."""
+    """Return a coroutine function that runs a shared world until a time, or for ever."""
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, world, role):
@@ -233,16 +233,16 @@ def lived(
 
 
 _GLANCES = seconds(0.1)
-"""Time from the end of one look at what was heard so far to the next."""
+"""Nanoseconds between two calls of `glance`."""
 
 NOTHING_RUNS = "No session is running here: start one with 'tftool demo'."
 
 
 def join_to_listen(domain: int | None, reach: Reach) -> Session:
-    """Join the running session as a listener.
+    """Join the running session (processes that share frames) in order to listen only.
 
     Raises:
-        LinkError: If none runs.
+        LinkError: If no session is running.
     """
     domain = domain_here() if domain is None else domain
     reaches_out = reach.awaits_others(hosts=False)
@@ -262,7 +262,7 @@ def listened(
     watch: Callable[[World], object] | None,
     glance: Callable[[Frames, Duration], object] | None = None,
 ) -> Frames:
-    """Listen to a joined session; see `open_frames`."""
+    """Record the frames of a joined session for a while; see `open_frames`."""
     world = session.world
     if watch is not None:
         watch(world)
@@ -283,7 +283,7 @@ async def _glances(
     log: TransformLog,
     glance: Callable[[Frames, Duration], object],
 ) -> None:
-    """Call `glance` again and again with what was heard so far, and for how long."""
+    """Call `glance` repeatedly with the frames recorded so far, and the duration."""
     pace = pace_of(session.world.clock)
     began = pace.now()
     while True:

@@ -1,4 +1,4 @@
-"""Bridges between a world's topics and other processes; tf and /clock have their own."""
+"""Bridges of a world's topics to other processes, with special ones for tf and /clock."""
 
 from collections.abc import Callable
 from typing import Any, Final
@@ -21,15 +21,15 @@ from tftool.world.world import TransformMessage, World
 
 
 class TopicBridge:
-    """Bridge of an ordinary topic.
+    """Bridge of an ordinary topic between the world and other processes.
 
-    Nodes that declare their publishers and subscriptions, with their quality of service, are shown
-    one by one; all others together as the first node of the world. Incoming messages are received
-    once for all, except for latched subscriptions, each of which gets earlier messages.
+    Nodes that declare their publishers and subscriptions, with their quality of service, are
+    announced one by one; all others together as the first node of the world. Messages are received
+    once for all subscriptions, except for latched ones, each of which gets earlier messages.
     """
 
     def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
-        """Carry a topic of messages.
+        """Create the bridge of a topic of messages.
 
         Raises:
             MalformedMessage: If the bytes of such messages differ between ROS 2 releases.
@@ -48,7 +48,7 @@ class TopicBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Update the publishers, and subscribe if a local subscriber needs it."""
+        """Update the publishers, and subscribe if the world has a subscriber."""
         topic, endpoints = self._topic, self._link.world.endpoints
         # The simulator computes colours only while a subscriber is counted.
         topic.far_subscribers = sum(
@@ -82,7 +82,7 @@ class TopicBridge:
             self._subscriptions[new] = self._subscribe(new)
 
     def close(self) -> None:
-        """Stop sending and listening."""
+        """Stop sending and receiving the topic."""
         self._topic.on_demand = self._topic.relay = None
         self._topic.far_subscribers = 0
         for stop in (self._stop_in, *self._subscriptions.values()):
@@ -136,7 +136,7 @@ class TopicBridge:
             self._inbound = None
 
     def _read(self, message: Arrived) -> tuple[Any, Endpoint] | None:
-        """Decode a message and its sender; return None if it is refused."""
+        """Decode a message and find its sender; return None if the message is malformed."""
         try:
             value = self._codec.decode(message.payload)
         except MalformedMessage as refusal:
@@ -175,17 +175,17 @@ def _here(endpoints: list[Endpoint]) -> list[Endpoint]:
 
 
 LARGE: Final = 256 * 1024
-"""Bytes from which a message of transforms may be taken in as arrays: whole paths at once."""
+"""Smallest message of transforms in bytes that may be inserted as arrays."""
 
 LONG: Final = 64
-"""How many samples a link has in it on the average, at least, for that to pay."""
+"""Smallest average number of samples per link at which inserting arrays is faster."""
 
 TRANSFORMS: Final = TransformMessage.interface__
 
 YEAR: Final = seconds(365.25 * 24 * 3600)
 
 AHEAD: Final = seconds(2)
-"""So far in the future no clock that agrees with ours can stamp anything."""
+"""Nanoseconds ahead of our clock from which a stamp shows that two clocks disagree."""
 
 
 class TransformBridge:
@@ -209,13 +209,13 @@ class TransformBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Count other processes' subscribers; the buffer always listens."""
+        """Count the subscribers in other processes; the world's buffer always receives."""
         others = self._link.graph.entities(SUBSCRIPTION, name=self._topic.name)
         self._topic.far_subscribers = len(others)
         self._dismiss()
 
     def _dismiss(self) -> None:
-        """Close the publishers of departed nodes; some authorities never were nodes."""
+        """Close the publishers of nodes that have left; some authorities never were nodes."""
         for gone in self._nodes - self._node_names():
             self._nodes.remove(gone)
             self._senders.pop(gone).close()
@@ -224,7 +224,7 @@ class TransformBridge:
         return {node.name for node in self._link.world.nodes}
 
     def close(self) -> None:
-        """Stop sending and listening."""
+        """Stop sending and receiving transforms."""
         self._topic.relay = None
         self._topic.far_subscribers = 0
         for stop in self._stops:
@@ -270,7 +270,7 @@ class TransformBridge:
                 self._inbound = None
 
     def _takes_paths(self, payload: bytes, authority: str) -> bool:
-        """Insert long histories of few links in bulk; return False if that would not be faster.
+        """Insert a large message with long histories at once; return False if it is not one.
 
         Raises:
             MalformedMessage: If the bytes are not transforms.
@@ -332,12 +332,12 @@ class TransformBridge:
 
 
 class StaticBridge(TransformBridge):
-    """Bridge of `tf_static`: a late subscriber gets all statics of every process."""
+    """Bridge of `tf_static`: a late subscriber gets all static transforms of every process."""
 
     quality = TF_STATIC
 
     def _dismiss(self) -> None:
-        """Close none: a departed node's static transforms are still sent to late subscribers."""
+        """Close no publisher: late subscribers also get static transforms of nodes that left."""
 
     def _arrived(self, message: Arrived) -> None:
         super()._arrived(message)
@@ -354,19 +354,19 @@ CLOCK_TYPE: Final = "rosgraph_msgs/msg/Clock"
 
 
 def is_clock_shown(graph: Graph) -> bool:
-    """Whether another process publishes `/clock`."""
+    """Return whether another process publishes `/clock`."""
     return any(one.ros_type == CLOCK_TYPE for one in graph.entities(PUBLISHER, name=CLOCK_TOPIC))
 
 
 class ClockFollower:
-    """Sets a world's clock from others' `/clock` as long as there is one."""
+    """Subscriber that sets a world's clock from `/clock` of another process."""
 
     def __init__(self, world: World, clock: FollowedClock) -> None:
-        """Start following as soon as there is a clock.
+        """Watch for a publisher of `/clock`, and follow it as soon as there is one.
 
         Args:
             world: World of the topics.
-            clock: Clock.
+            clock: Clock to set.
         """
         self._world = world
         self._clock = clock
@@ -380,7 +380,7 @@ class ClockFollower:
         self._look()
 
     def close(self) -> None:
-        """Stop following."""
+        """Stop following `/clock`."""
         for stop in self._stops:
             stop()
         if self._stop_listening is not None:

@@ -1,4 +1,4 @@
-"""Nodes that broadcast frames: turtles, static links, carrots, a noisy sensor."""
+"""Nodes that broadcast frames: turtles, static links, moving points ("carrots"), noise."""
 
 import math
 from collections.abc import Sequence
@@ -16,13 +16,13 @@ from tftool.world.node import Node
 from tftool.world.world import World
 
 CARROT_PERIOD: Duration = seconds(0.1)
-"""How often the carrots are broadcast."""
+"""Nanoseconds between two broadcasts of a carrot."""
 
 
 class Broadcaster(Node):
-    """Broadcasts a turtle's frame at every pose the turtle publishes.
+    """Node that broadcasts a turtle's frame at every pose the turtle publishes.
 
-    The pose has no stamp; it gets the moment of its reception, which is that of the tick.
+    A pose has no stamp; the frame gets the time of the pose's reception, which is that of the tick.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -40,9 +40,9 @@ class Broadcaster(Node):
 
         Args:
             world: World to join.
-            name: The node's name, shown as the authority of the frame.
-            turtle: Turtle whose pose to broadcast; its name is the child frame's too.
-            frame_id: The frame the pose is given in.
+            name: Name of the node, also the authority of the frame.
+            turtle: Name of the turtle whose pose is broadcast, also of the child frame.
+            frame_id: Frame in which the pose is given.
             topic: Topic of the poses; by default `<turtle>/pose`.
         """
         super().__init__(world, name)
@@ -53,7 +53,7 @@ class Broadcaster(Node):
         self._transform = Transform.identity()
 
     async def run(self) -> None:
-        """Broadcast until the end."""
+        """Subscribe to the turtle's poses, and broadcast each as a frame."""
         self.subscribe(self.topic, Pose, self._on_pose)
 
     def _on_pose(self, pose: Any) -> None:
@@ -67,23 +67,23 @@ class Broadcaster(Node):
 
 
 class StaticBroadcaster(Node):
-    """Broadcasts static links once."""
+    """Node that broadcasts some static transforms once."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
     def __init__(self, world: World, name: str, *, transforms: Sequence[TransformStamped]) -> None:
-        """Add the node to a world; the links' stamps are set at the start."""
+        """Add the node to a world; the transforms get their stamps when they are broadcast."""
         super().__init__(world, name)
         self.transforms = tuple(transforms)
 
     async def run(self) -> None:
-        """Broadcast, and end."""
+        """Broadcast the static transforms, and end."""
         now = self.clock.now()
         self.broadcast_static(*(one._replace(stamp=now) for one in self.transforms))
 
 
 class FixedCarrot(Node):
-    """Broadcasts a carrot at a fixed offset from a frame, at 10 Hz like a moving one."""
+    """Node that broadcasts a frame ("carrot") at a fixed offset from another, at 10 Hz."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -104,13 +104,13 @@ class FixedCarrot(Node):
         self._transform = Transform(offset)
 
     async def run(self) -> None:
-        """Broadcast until the end."""
+        """Broadcast the frame every period until the end of the run."""
         async for now in self.every(self.period):
             self.broadcast(TransformStamped(now, self.parent, self.child, self._transform))
 
 
 class DynamicCarrot(Node):
-    """Broadcasts a carrot on a circle around a frame: clockwise, once in two seconds."""
+    """Node that broadcasts a frame ("carrot") circling another clockwise, once in two seconds."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -129,11 +129,11 @@ class DynamicCarrot(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
-            parent: The frame in the middle of the circle.
-            child: The carrot's frame.
-            radius: In metres.
-            whole_seconds: Whether the carrot jumps once a second, as in the tutorial's
+            name: Name of the node.
+            parent: Frame in the middle of the circle.
+            child: Frame that is broadcast.
+            radius: Radius of the circle in metres.
+            whole_seconds: Whether the frame jumps once a second, as in the tutorial's
                 Python listing, instead of moving.
             period: Nanoseconds between two broadcasts.
         """
@@ -143,7 +143,7 @@ class DynamicCarrot(Node):
         self.period = require_period(period)
 
     async def run(self) -> None:
-        """Broadcast until the end."""
+        """Broadcast the frame every period until the end of the run."""
         async for now in self.every(self.period):
             x, y = carrot_offset(now, self.radius, whole_seconds=self.whole_seconds)
             self.broadcast(TransformStamped(now, self.parent, self.child, Transform((x, y, 0.0))))
@@ -152,7 +152,7 @@ class DynamicCarrot(Node):
 def carrot_offset(
     stamp: Stamp, radius: float = 10.0, *, whole_seconds: bool = False
 ) -> tuple[float, float]:
-    """Return the moving carrot's x and y at a time, in its parent's frame, metres."""
+    """Return the moving carrot's x and y in its parent's frame at a time, metres."""
     # Reduced as whole numbers: the seconds of a real clock are too large for an exact sine.
     turn = stamp % (2 * NANOSECONDS)
     if whole_seconds:
@@ -162,7 +162,7 @@ def carrot_offset(
 
 
 def require_period(period: Duration) -> Duration:
-    """Return the period, or refuse it.
+    """Return a period if it is positive; else raise.
 
     Raises:
         UsageError: If the period is not positive.
@@ -176,19 +176,19 @@ USAGE = "static_turtle_tf2_broadcaster child_frame_name x y z roll pitch yaw"
 
 
 def static_turtle(arguments: Sequence[str]) -> TransformStamped:
-    """Parse the seven arguments of the tutorial's program.
+    """Parse the seven arguments of the tutorial's static broadcaster.
 
-    Note the order: roll, pitch, yaw, unlike static_transform_publisher's.
+    The order of the angles is roll, pitch, yaw, unlike static_transform_publisher's.
 
     Args:
         arguments: child_frame_name x y z roll pitch yaw.
 
     Returns:
-        The link from `world`, stamped 0: to be stamped when it is broadcast.
+        Transform from `world`, with stamp 0; the broadcaster sets the stamp.
 
     Raises:
-        NodeArgumentsError: If there are not seven (status 1), the child is `world`, or a
-            number is none (status 2).
+        NodeArgumentsError: If there are not seven arguments (status 1), the child is `world`, or an
+            argument is not a number (status 2).
     """
     if len(arguments) != 7:
         raise NodeArgumentsError(f"Invalid number of parameters. Usage: \n$ {USAGE}", status=1)
@@ -212,7 +212,7 @@ def _number(text: str) -> float:
 
 
 class Noise(Node):
-    """Broadcasts a frame beside another one, with noise and accumulating drift.
+    """Node that broadcasts a frame near another one, with noise and accumulating drift.
 
     Each broadcast has its own error, normally distributed in each coordinate and about each axis.
     The drift is a random walk in the plane: after t seconds it is normally distributed, with the
@@ -241,14 +241,14 @@ class Noise(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
+            name: Name of the node.
             parent: Parent frame.
-            child: The frame that is broadcast.
+            child: Frame that is broadcast.
             offset: True position in the parent, in metres.
             position: Standard deviation of each coordinate, in metres.
             angle: Standard deviation about each axis, in radians.
             drift: Standard deviation of x and y after one second of drift, in metres.
-            turn_drift: The same about z, in radians.
+            turn_drift: Standard deviation about z after one second of drift, in radians.
             seed: Seed of the errors.
             period: Nanoseconds between two broadcasts.
 
@@ -270,7 +270,7 @@ class Noise(Node):
         self._random = Random(seed)
 
     async def run(self) -> None:
-        """Broadcast until the end."""
+        """Broadcast the frame with new errors every period until the end of the run."""
         off = self._random.gauss
         walked = (0.0, 0.0, 0.0)
         async for now in self.every(self.period, immediately=True):

@@ -1,4 +1,4 @@
-"""The tutorial's follower: looks the leader up and steers towards it, once a period."""
+"""Node of the turtle tutorial that looks up a leader's frame and steers a turtle towards it."""
 
 from typing import Any
 
@@ -15,14 +15,14 @@ from tftool.world.nodes.turtle import require_turtle_name
 from tftool.world.world import World
 
 TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
-"""Where the tutorial's follower starts: x, y, heading."""
+"""x, y and heading at which the tutorial's follower starts."""
 
 
 class Follower(Node):
-    """Spawns a turtle and steers it towards a frame by lookups.
+    """Node that spawns a turtle and steers it towards a frame by transform lookups.
 
-    With a delay it goes to the leader's earlier place: the follower now, the leader then, relative
-    to a fixed frame.
+    With a delay, the turtle goes to the place where the leader was before: the lookup is from the
+    turtle now to the leader then, through a fixed frame.
     """
 
     def __init__(
@@ -46,23 +46,23 @@ class Follower(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
-            leader: The frame to follow.
-            follower: The turtle to steer; its frame has its name.
+            name: Name of the node.
+            leader: Frame to follow.
+            follower: Name of the turtle to steer, also of its frame.
             period: Nanoseconds between two commands.
-            delay: Age of the leader's pose that is followed, nanoseconds.
-            fixed_frame: The frame that carries the question over the delay; None asks
-                where both were back then, which steers by the follower's own past.
-            distance_gains: From metres to m/s.
-            bearing_gains: From radians to rad/s.
-            dead_band: Metres within which the leader counts as reached.
-            speed_limit: In m/s; None for none.
-            stale_after: Stop when the newest common data is older than this many
-                nanoseconds; None follows old data, as tf2's tutorial does.
-            spawn: x, y and heading to spawn the follower at; None if it is there.
+            delay: Age of the leader's pose to follow, nanoseconds.
+            fixed_frame: Frame that does not move during the delay, through which the lookup goes;
+                None looks both frames up in the past, which steers by the follower's own past.
+            distance_gains: Gains from a distance in metres to a speed in m/s.
+            bearing_gains: Gains from an angle in radians to a turn rate in rad/s.
+            dead_band: Distance in metres at which the leader counts as reached.
+            speed_limit: Largest speed in m/s; None for no limit.
+            stale_after: Age in nanoseconds of the newest common data at which the turtle stops;
+                None follows old data, as tf2's tutorial does.
+            spawn: x, y and heading at which to spawn the follower; None if it exists already.
 
         Raises:
-            UsageError: If a name, a time or a gain cannot be.
+            UsageError: If a name, a time or a gain is invalid.
         """
         require_turtle_name(follower)
         if leader == follower:
@@ -84,7 +84,7 @@ class Follower(Node):
         self._stale = False
 
     async def run(self) -> None:
-        """Follow until the end."""
+        """Send the turtle a command every period until the end of the run."""
         self.publisher(f"{self.follower}/cmd_vel", Twist)
         async for now in self.every(self.period):
             if self._spawning is None or self._spawning.step():
@@ -116,10 +116,10 @@ class Follower(Node):
         )
 
     def _too_old(self, stamp: Stamp, now: Stamp) -> bool:
-        """Whether the data is too old to follow; logs when that changes.
+        """Return whether the data is too old to follow; log when that changes.
 
-        A lookup at a given moment is refused if data is missing; only the latest transform can be
-        old without an error. Statics, stamped 0, are never old.
+        A lookup at a given time fails if data is missing; only the latest transform can be old
+        without an error. Static transforms, with stamp 0, are never old.
         """
         if self.stale_after is None or self.delay != 0 or stamp == LATEST:
             return False
@@ -140,10 +140,10 @@ class Follower(Node):
 
 
 class Spawning:
-    """The tutorial's state machine for spawning, stepped by a node's timer.
+    """State machine of the tutorial that spawns a turtle, stepped by a node's timer.
 
-    One step requests the turtle, a later one sees the answer, and the next one begins: with a
-    period of one second, three seconds after the start.
+    One step requests the turtle, a later one sees the response, and the next one begins to drive:
+    with a period of one second, three seconds after the start.
     """
 
     def __init__(self, node: Node, x: float, y: float, theta: float, name: str) -> None:
@@ -154,7 +154,7 @@ class Spawning:
         self._confirmed = False
 
     def step(self) -> bool:
-        """Do the next step; return True once the turtle existed before this step."""
+        """Do the next step; return True if the turtle existed before this step."""
         if self._confirmed:
             return True
         if not self._is_asked:

@@ -1,4 +1,4 @@
-"""Nodes for a robot's joints: robot_state_publisher, joint_state_publisher, and a moving one."""
+"""Nodes for a robot's joints: robot_state_publisher, joint_state_publisher, a moving robot."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -22,17 +22,17 @@ JOINT_STATES: Final = "joint_states"
 DESCRIPTION: Final = "robot_description"
 
 LATCHED: Final = Quality(depth=1, is_latched=True)
-"""How a description is offered and asked for: late subscribers get it."""
+"""Quality of service of a robot description, which late subscribers get too."""
 
 FASTEST: Final = 1000.0
-"""The highest publish frequency robot_state_publisher takes, hertz."""
+"""Largest publish frequency that robot_state_publisher accepts, hertz."""
 
 Motion = Literal["still", "sine", "steps", "recorded"]
 MOTIONS: Final[tuple[Motion, ...]] = get_args(Motion)
 
 
 def _described(text: str) -> "Robot":
-    """Return the robot of a description."""
+    """Return the robot that the text of a description describes."""
     # Here, since numpy and expat come with it: every scenario imports this module.
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import parse_description
@@ -41,17 +41,17 @@ def _described(text: str) -> "Robot":
 
 
 def joint_state_type() -> type[Any]:
-    """Return the message type of joint states."""
+    """Return the message class of joint states."""
     return INTERFACES.message("sensor_msgs/msg/JointState")
 
 
 def description_type() -> type[Any]:
-    """Return the message type of a description."""
+    """Return the message class of a robot description."""
     return INTERFACES.message("std_msgs/msg/String")
 
 
 def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
-    """Return a message of joint positions."""
+    """Return a JointState message with a stamp and the positions of joints."""
     message = joint_state_type()()
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, NANOSECONDS)
     message.name = list(positions)
@@ -60,11 +60,11 @@ def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
 
 
 class RobotStatePublisher(Node):
-    """Broadcasts a robot's frames: fixed joints at once, others from joint states.
+    """Node that broadcasts a robot's frames: fixed joints at once, others from joint states.
 
     As in ROS 2's node of that name, a message with different numbers of names and positions is
     ignored, only the named joints move, a mimic joint follows unless the message names it too, and
-    samples have the stamp of the message.
+    transforms have the stamp of the message.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -84,12 +84,12 @@ class RobotStatePublisher(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
-            robot: The robot; its text is published for others.
-            frame_prefix: Prefix of every link's name: `left/`.
-            publish_frequency: How often a joint's frame is broadcast at most, hertz; 0 for
+            name: Name of the node.
+            robot: The robot, whose description is also published.
+            frame_prefix: Prefix of every frame's name, such as `left/`.
+            publish_frequency: Largest rate in hertz at which a joint's frame is broadcast; 0 for
                 every message.
-            ignore_timestamp: Whether to broadcast whatever stamps messages have.
+            ignore_timestamp: Whether to broadcast every message's frames, whatever its stamp.
             topics: Topics of joint states and of the description.
 
         Raises:
@@ -113,7 +113,7 @@ class RobotStatePublisher(Node):
         self._is_running = False
 
     async def run(self) -> None:
-        """Publish the static transforms, and subscribe to joint states."""
+        """Broadcast the fixed joints, and subscribe to joint states for the others."""
         self._is_running = True
         self._begin()
         self.subscribe(self.topics[0], joint_state_type(), self._on_joint_state)
@@ -194,10 +194,10 @@ class RobotStatePublisher(Node):
 
 
 class JointStatePublisher(Node):
-    """Publishes a robot's joint positions repeatedly; `move` changes them.
+    """Node that publishes a robot's joint positions repeatedly; `move` changes a position.
 
-    As in ROS 2's node of that name, a joint begins at zero if its limits allow it, else in their
-    middle, and a mimic joint follows its joint.
+    As in ROS 2's node of that name, a joint begins at zero if its limits include zero, else in
+    their middle, and a mimic joint follows its joint.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE
@@ -217,15 +217,15 @@ class JointStatePublisher(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
-            robot: The robot; if None, wait for its description.
-            positions: First positions of joints, radians or metres.
+            name: Name of the node.
+            robot: The robot; None to wait for its description on a topic.
+            positions: Initial positions of joints, radians or metres.
             rate: Rate of publishing, hertz.
-            sources: Topics with joint states of others, which move the same joints.
-            topics: Topics of joint states and of a description.
+            sources: Topics of joint states from other nodes, which set the same joints.
+            topics: Topics of joint states and of the description.
 
         Raises:
-            UsageError: If a joint is unknown, or the rate is none.
+            UsageError: If a joint is unknown, or the rate is out of range.
         """
         if not 0.0 < rate <= FASTEST:
             raise UsageError(f"rate must be above 0 and at most {FASTEST:g} Hz, not {rate:g}")
@@ -240,11 +240,11 @@ class JointStatePublisher(Node):
 
     @property
     def positions(self) -> dict[str, float]:
-        """Return the positions of all movable joints, mimics included; empty without a robot."""
+        """Positions of all movable joints, with mimic joints; empty without a robot."""
         return {} if self.robot is None else self.robot.positions(self._given)
 
     def move(self, joint: str, position: float) -> None:
-        """Move a joint, and the joints that mimic it.
+        """Set the position of a joint, and of the joints that mimic it.
 
         Raises:
             UsageError: If there is no such joint, or it does not move.
@@ -254,7 +254,7 @@ class JointStatePublisher(Node):
         self._given[joint] = position
 
     async def run(self) -> None:
-        """Publish until the end."""
+        """Publish the joint positions every period until the end of the run."""
         # A publisher before there is a value, so that others see who will publish.
         self.publisher(self.topics[0], joint_state_type())
         if self.robot is None:
@@ -285,7 +285,7 @@ class JointStatePublisher(Node):
 
 
 class MovingRobot(RobotStatePublisher):
-    """A moving robot for scenarios: description, joint states and frames."""
+    """Node for scenarios that moves a robot: publishes its description, joint states and frames."""
 
     def __init__(
         self,
@@ -304,20 +304,20 @@ class MovingRobot(RobotStatePublisher):
 
         Args:
             world: World to join.
-            name: The node's name.
-            file: The robot, from the file the scenario names.
-            joints: Positions of joints that sine and steps do not move.
-            motion: How the others move: not at all; there and back between their limits
-                (a turn without limits: a radian); from limit to limit by way of the middle,
-                a third of a cycle at each; or as recorded.
-            recording: The recording of recorded motion.
-            cycle: How long there and back takes; for each joint a little longer than for
-                the one before it, so that no two move alike.
-            period: Period of the joint states.
-            frame_prefix: Prefix of every link's name.
+            name: Name of the node.
+            file: The robot, loaded from the file that the scenario names.
+            joints: Fixed positions of joints, which sine and steps do not move.
+            motion: How the other joints move: "still"; "sine", between their limits and back
+                (without limits, a radian); "steps", from limit to middle to limit, with a third
+                of a cycle at each; or "recorded".
+            recording: Joint states for the motion "recorded".
+            cycle: Nanoseconds of one motion between the limits and back; a little longer for
+                each further joint, so that no two move alike.
+            period: Nanoseconds between two joint states.
+            frame_prefix: Prefix of every frame's name.
 
         Raises:
-            UsageError: If a joint is unknown, or nothing was recorded.
+            UsageError: If a joint is unknown, or a recording is missing or not needed.
         """
         if motion == "recorded" and not any(len(states) for states in recording):
             raise UsageError("motion: recorded needs a recording with joint states")
@@ -330,7 +330,7 @@ class MovingRobot(RobotStatePublisher):
         self._start: Stamp = 0
 
     async def run(self) -> None:
-        """Move until the end."""
+        """Move the joints until the end of the run."""
         await super().run()
         self._start = self.clock.now()
         if self.motion == "recorded":
@@ -359,7 +359,7 @@ class MovingRobot(RobotStatePublisher):
         return (middle, upper, middle, lower)[math.floor(4.0 * share) % 4]
 
     async def _replay(self) -> None:
-        """Publish recorded states, each at its time after the first."""
+        """Publish recorded joint states, each at its recorded time after the first."""
         rows = sorted(
             (int(stamp), place, row)
             for place, states in enumerate(self.recording)

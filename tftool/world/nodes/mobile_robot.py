@@ -1,8 +1,8 @@
-"""A mobile robot's usual frames: map, odom, base_link, laser_link.
+"""Nodes that simulate a mobile robot's usual frames: map, odom, base_link, laser_link.
 
-Only these nodes know its true pose. Odometry adds up small errors and drifts; localisation corrects
-it now and then, so that odom jumps in the map; a laser sees one point of a wall, which therefore is
-fixed in the map and moves in odom.
+Only these nodes know the robot's true pose. Odometry adds up small errors and drifts. Localisation
+corrects the drift now and then, so that odom jumps in the map. A laser sees one point of a wall,
+which is fixed in the map and so moves in odom.
 """
 
 import math
@@ -23,13 +23,13 @@ from tftool.world.nodes.broadcasters import require_period
 from tftool.world.world import World
 
 TRUTH = "ground_truth"
-"""The topic on which the robot's true pose in the map travels."""
+"""Topic of the robot's true pose in the map."""
 
 
 class RobotOdometry(Node):
-    """Drives a robot, and broadcasts its wheel odometry: odom to base_link.
+    """Node that drives a robot, and broadcasts its wheel odometry: odom to base_link.
 
-    Publishes the true pose on `ground_truth`, and listens to `<base>/cmd_vel`.
+    It publishes the true pose on `ground_truth`, and subscribes to `<base>/cmd_vel`.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE
@@ -52,14 +52,14 @@ class RobotOdometry(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
+            name: Name of the node.
             odom: Frame of odometry; at the start it coincides with the map.
-            base: The robot's frame.
+            base: Frame of the robot.
             start: x, y and heading in the map at the start.
-            speed: In m/s, until a command says otherwise.
-            turn_rate: In rad/s, until a command says otherwise.
+            speed: Speed in m/s until the first command.
+            turn_rate: Turn rate in rad/s until the first command.
             scale_error: Share by which the wheels overestimate a distance.
-            turn_error: Turn rate in rad/s that the wheels see on top of the true one
+            turn_error: Turn rate in rad/s that the wheels measure in addition to the true one
                 while the robot moves.
             period: Nanoseconds between two broadcasts.
         """
@@ -72,7 +72,7 @@ class RobotOdometry(Node):
         self._twist = Twist2D(speed, turn_rate)
 
     async def run(self) -> None:
-        """Drive until the end."""
+        """Move the robot and broadcast its odometry every period until the end of the run."""
         self.subscribe(f"{self.base}/cmd_vel", Twist, self._on_command)
         step = as_seconds(self.period)
         first = True
@@ -104,7 +104,7 @@ class RobotOdometry(Node):
 
 
 class _Observer(Node):
-    """Node that broadcasts what follows from the robot's true pose."""
+    """Base of nodes that broadcast frames computed from the robot's true pose."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
     _truth: Any = None
@@ -117,7 +117,7 @@ class _Observer(Node):
 
 
 class MapCorrection(_Observer):
-    """Broadcasts map to odom, with corrections now and then that make it jump."""
+    """Node that broadcasts map to odom, with corrections now and then that make odom jump."""
 
     def __init__(
         self,
@@ -137,7 +137,7 @@ class MapCorrection(_Observer):
         self.period = require_period(period)
 
     async def run(self) -> None:
-        """Correct until the end."""
+        """Broadcast map to odom every period, and correct it every `correct_every`."""
         self._follow_truth()
         map_from_odom = Transform.identity()
         due = self.clock.now() + self.correct_every
@@ -159,7 +159,7 @@ class MapCorrection(_Observer):
 
 
 class LaserPoint(_Observer):
-    """Broadcasts one point of a wall as the laser sees it: laser_link to laser_point.
+    """Node that broadcasts one point of a wall as the laser sees it: laser_link to laser_point.
 
     Nothing is broadcast before the laser's mount on the robot is known.
     """
@@ -182,7 +182,7 @@ class LaserPoint(_Observer):
         self.period = require_period(period)
 
     async def run(self) -> None:
-        """Measure until the end."""
+        """Broadcast the point every period until the end of the run."""
         self._follow_truth()
         async for now in self.every(self.period, immediately=True):
             if self._truth is None or not self.buffer.can_transform(self.base, self.laser):
@@ -194,7 +194,7 @@ class LaserPoint(_Observer):
 
 
 class ScanMatcher(_Observer):
-    """Broadcasts the laser's motion from its scans, in a separate tree.
+    """Node that broadcasts the laser's motion as estimated from its scans, in a separate tree.
 
     It does not use the published mount: the laser has its true pose on the robot.
     """
@@ -216,10 +216,10 @@ class ScanMatcher(_Observer):
 
         Args:
             world: World to join.
-            name: The node's name.
-            origin: The frame of the first scan.
+            name: Name of the node.
+            origin: Frame of the first scan.
             child: Frame of the laser as estimated from the scans.
-            mount: x, y and heading of the laser on the robot, in truth.
+            mount: True x, y and heading of the laser on the robot.
             position: Standard deviation of x and of y, metres.
             angle: Standard deviation of the heading, radians.
             seed: Seed of the noise.
@@ -233,7 +233,7 @@ class ScanMatcher(_Observer):
         self._dice = random.Random(seed)
 
     async def run(self) -> None:
-        """Match scans until the end."""
+        """Broadcast the laser's estimated pose every period until the end of the run."""
         self._follow_truth()
         start_from_map: Transform | None = None
         async for now in self.every(self.period, immediately=True):
@@ -252,7 +252,7 @@ def _pose_of(truth: Any) -> Transform:
 
 
 def _moved(start: Placement, distance: float, turned: float) -> Placement:
-    """Move exactly along an arc: the error should come from the wheels, not from the step."""
+    """Return a pose moved along an exact arc: errors should come from the wheels, not the step."""
     middle = start.theta + turned / 2
     chord = distance * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
     return Placement(

@@ -1,4 +1,4 @@
-"""A node that plays a recording's transforms at its own or another rate."""
+"""Node that plays a recording's transforms at any rate."""
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -18,25 +18,25 @@ if TYPE_CHECKING:
 CLOCK_QUALITY: Final = Quality(depth=10)
 
 TICK: Final = seconds(0.025)
-"""How often `/clock` is published, in real time; rosbag2's own figure."""
+"""Real nanoseconds between two messages on `/clock`, as in rosbag2."""
 
 AT_ONCE: Final = 500
-"""Messages that are sent before anything else gets a turn."""
+"""Most messages sent at once, before other tasks get a turn."""
 
 RECENT: Final = seconds(1)
-"""Time before a moment that is sent together with its frames, at most `AT_ONCE`."""
+"""Nanoseconds before a time whose transforms are sent with its frames, at most `AT_ONCE`."""
 
 SLOWEST, FASTEST = 0.01, 100.0
-"""Rates that a player takes."""
+"""Smallest and largest rate of a player."""
 
 
 class Player(Node):
-    """Broadcasts a recording's transforms when due, and publishes `/clock`.
+    """Node that broadcasts a recording's transforms when they are due, and publishes `/clock`.
 
-    Its moments are on the clock of the recording's stamps.
+    All its times are on the clock of the recording's stamps.
 
     Attributes:
-        rate: Seconds of the recording for each real second.
+        rate: Seconds of the recording per real second.
         is_paused: Whether the player is paused.
         laps: Number of restarts.
     """
@@ -63,19 +63,19 @@ class Player(Node):
 
         Args:
             world: World to play in; its clock is set if it is a `FollowedClock`.
-            name: The node's name.
-            timeline: Timeline to send.
+            name: Name of the node.
+            timeline: Transforms of the recording, with their times.
             pace: Clock of real time, or a test's substitute.
-            span: From where to where to play; all of it if None.
-            rate: Seconds of the recording for each second of `pace`.
-            is_paused: Whether to begin standing still.
-            is_looping: Whether to start over at the end.
-            is_restamped: Whether to move stamps to the moment at which they are sent, and publish
-                no `/clock`.
-            is_silent: Whether to publish no `/clock` though stamps are the recording's.
-            names_topics: Whether to name the topic as sender where no node is recorded,
-                as in the description of a recording; else this node is named.
-            feed: Sends other topics along.
+            span: First and last time to play; None for the whole recording.
+            rate: Seconds of the recording per second of `pace`.
+            is_paused: Whether to begin paused.
+            is_looping: Whether to start again at the end.
+            is_restamped: Whether to replace each stamp by the time of sending, and publish no
+                `/clock`.
+            is_silent: Whether to publish no `/clock` although stamps are the recording's.
+            names_topics: Whether a transform whose node was not recorded has its topic as sender,
+                as in descriptions of recordings; else its sender is this node.
+            feed: Player of the recording's other topics.
         """
         super().__init__(world, name)
         self._timeline = timeline
@@ -100,7 +100,7 @@ class Player(Node):
 
     @property
     def position(self) -> Stamp:
-        """The playback's time, on the clock of the stamps."""
+        """Current time of the playback."""
         if self.is_paused:
             return self._anchor
         passed = self._pace.now() - self._since
@@ -108,27 +108,27 @@ class Player(Node):
 
     @property
     def is_over(self) -> bool:
-        """Whether everything has been played."""
+        """Whether the whole recording has been played."""
         return not self._is_looping and not self.is_paused and self.position >= self.end
 
     def pause(self) -> None:
-        """Pause."""
+        """Pause the playback at its current time."""
         self._anchor, self.is_paused = self.position, True
 
     def resume(self) -> None:
-        """Resume; from the start again after the end."""
+        """Resume the playback, from the start again if it is at the end."""
         if self.is_paused:
             if self._anchor >= self.end:
                 self.seek(self.start)
             self._since, self.is_paused = self._pace.now(), False
 
     def set_rate(self, rate: float) -> None:
-        """Change the rate, between `SLOWEST` and `FASTEST`."""
+        """Change the rate, limited to `SLOWEST` and `FASTEST`."""
         self._anchor, self._since = self.position, self._pace.now()
         self.rate = min(max(rate, SLOWEST), FASTEST)
 
     def step(self) -> None:
-        """Send the next message, and pause."""
+        """Pause, and send the next transform."""
         self.pause()
         if self._place < len(self._timeline):
             moment = int(self._timeline.moments[self._place])
@@ -140,7 +140,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Jump to a time: send the frames known at that time, and the second before."""
+        """Jump to a time: send the frames known at that time, and those of the second before it."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()
@@ -156,7 +156,7 @@ class Player(Node):
     # Playing
 
     async def run(self) -> None:
-        """Play to the end; repeatedly, on request."""
+        """Play the recording to its end, or repeatedly if `is_looping`."""
         self._since = self._pace.now()
         self._tell()
         self._send_known(self.start - 1)
@@ -172,7 +172,7 @@ class Player(Node):
             await self._pace.sleep_until(self._next_turn(is_behind), self.phase, self.rank)
 
     def _welcome(self) -> None:
-        """Send the present frames to processes that join during a pause."""
+        """While paused, send the present frames again if there are new subscribers."""
         listeners = self.world.tf.subscribers
         if self.is_paused and listeners > self._listeners:
             self._send_known(self._anchor)
@@ -185,7 +185,7 @@ class Player(Node):
         self._place = self._timeline.place(self.start)
 
     def _send_due(self) -> bool:
-        """Send everything due; return whether some is left for the next call."""
+        """Send everything that is due, up to a limit; return whether some of it is left."""
         position = self.position
         last = min(self._timeline.place(position, after=True), self._place + AT_ONCE)
         while self._place < last:
@@ -223,10 +223,10 @@ class Player(Node):
             self._broadcast(due)
 
     def _send_known(self, moment: Stamp) -> None:
-        """Send what a lookup at a time needs.
+        """Send the transforms that a lookup at a time needs.
 
-        The last transform of each link would not suffice: their stamps differ, and a lookup of two
-        links needs a moment between two samples of the one that is ahead.
+        The last transform of each link would not be enough: their stamps differ, and a lookup over
+        two links needs a time between two samples of the link that is ahead.
         """
         last = self._timeline.place(moment, after=True)
         first = last
@@ -247,13 +247,13 @@ class Player(Node):
         self.world.broadcast(transforms, sender, static=due.static)
 
     def _shift(self, moment: Stamp) -> Duration:
-        """Return by how much a time is played later than it was recorded."""
+        """Return the nanoseconds by which a time is played later than it was recorded."""
         wait = 0 if self.is_paused else round((moment - self._anchor) / self.rate)
         since = self._pace.now() if self.is_paused else self._since
         return since + wait - moment
 
     def _tell(self, moment: Stamp | None = None) -> None:
-        """Publish the time: to this world, and on `/clock`."""
+        """Set the world's clock to the playback's time, and publish it on `/clock`."""
         if self._is_silent:
             return
         now = max(self._anchor if moment is None else moment, 1)

@@ -1,4 +1,4 @@
-"""The message filter's demonstration: points that wait for their transform."""
+"""Nodes of the message filter's demonstration: points that wait for their transform."""
 
 import asyncio
 from typing import Any
@@ -15,11 +15,11 @@ from tftool.world.world import World
 POINT_TOPIC = "turtle_point_stamped"
 
 QUEUE_LENGTH = 100
-"""How many points wait at most; one more drops the oldest."""
+"""Most points that wait for their transform; a further one drops the oldest."""
 
 
 class MessageBroadcaster(Node):
-    """Spawns a turtle, drives it in a circle, and publishes its position as stamped points."""
+    """Node that spawns a turtle, drives it in a circle, and publishes its position as points."""
 
     def __init__(
         self,
@@ -31,7 +31,7 @@ class MessageBroadcaster(Node):
         spawn: tuple[float, float, float] = (4.0, 2.0, 0.0),
         period: Duration = seconds(1),
     ) -> None:
-        """Add the node to a world; `period` is that of the state machine."""
+        """Add the node to a world; `period` is that of the state machine that spawns the turtle."""
         require_turtle_name(turtle)
         super().__init__(world, name)
         self.turtle, self.frame_id = turtle, frame_id
@@ -39,7 +39,7 @@ class MessageBroadcaster(Node):
         self._spawning = Spawning(self, *spawn, turtle)
 
     async def run(self) -> None:
-        """Spawn the turtle, then react to every pose."""
+        """Spawn the turtle, then publish a point for each of its poses."""
         async for _ in self.every(self.period):
             if self._spawning.step():
                 break
@@ -54,7 +54,7 @@ class MessageBroadcaster(Node):
 
 
 class PointDrawer(Node):
-    """Reports each point's position in a frame as soon as the transform at its stamp is known."""
+    """Node that logs each point's position in a frame, once the transform at its stamp is known."""
 
     def __init__(
         self,
@@ -65,7 +65,7 @@ class PointDrawer(Node):
         turtle: str = "turtle3",
         patience: Duration = seconds(1),
     ) -> None:
-        """Add the node to a world; `patience` is the longest wait of a point."""
+        """Add the node to a world; `patience` is the longest wait for a point's transform."""
         super().__init__(world, name)
         self.target_frame, self.turtle = target_frame, turtle
         self.patience = require_period(patience)
@@ -73,7 +73,7 @@ class PointDrawer(Node):
         self._waiting: dict[asyncio.Task[Any], None] = {}
 
     async def run(self) -> None:
-        """Listen until the end."""
+        """Subscribe to the points, and log their positions until the end of the run."""
         self.subscribe(f"{self.turtle}/{POINT_TOPIC}", PointStamped, self._on_point)
         await asyncio.Event().wait()
 

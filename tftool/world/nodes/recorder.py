@@ -1,4 +1,4 @@
-"""A recorder of a world's topics."""
+"""Recorder of the messages on a world's topics."""
 
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
@@ -24,22 +24,22 @@ if TYPE_CHECKING:
     from tftool.recordings.rolling_writer import RollingRecording
 
 FRAMES: Final = ("tf", "tf_static")
-"""Topics that are always recorded."""
+"""Names of the topics that are always recorded."""
 
 
 class Taker(Protocol):
-    """Receiver of every message."""
+    """Protocol of an object that receives every recorded message, such as a file writer."""
 
     def take(self, channel: Channel, log_time: int, payload: bytes, transforms: int = 0) -> None:
-        """Receive one message, and its number of transforms."""
+        """Receive one message, and the number of transforms in it."""
 
 
 class Recorder:
-    """Records topics of a world; of a joined session the original bytes.
+    """Recorder of a world's topics; in a session that was joined, of the original bytes.
 
     Attributes:
         topics: Names of the topics that are recorded so far.
-        left_out: Topics that cannot be, and why.
+        left_out: Reason for each topic that cannot be recorded, by name.
     """
 
     def __init__(
@@ -57,11 +57,11 @@ class Recorder:
         Args:
             world: World of the topics.
             taker: Receiver of every message.
-            link: The link that joined the world to the session it is a guest of; None for a world
-                of this process.
-            names: Other topics, without a leading slash.
-            everything: Whether to record all there are.
-            clock: Clock of reception; the world's own pace if None.
+            link: Link over which the world has joined a session; None for a world of this
+                process.
+            names: Further topics to record, without a leading slash.
+            everything: Whether to record all topics.
+            clock: Clock for the time of reception; None for the world's own pace.
         """
         self._world = world
         self._taker = taker
@@ -84,10 +84,10 @@ class Recorder:
         self.refresh()
 
     def refresh(self) -> None:
-        """Subscribe to new topics; to be called regularly.
+        """Subscribe to topics that are new; call this regularly.
 
         Raises:
-            InputError: If a message could not be taken.
+            InputError: If a message could not be written.
         """
         if self._failure is not None:
             raise self._failure
@@ -106,11 +106,11 @@ class Recorder:
 
     @property
     def missing(self) -> list[str]:
-        """Return the requested topics that do not exist yet."""
+        """Names of the requested topics that do not exist yet."""
         return sorted(self._names - self.topics - set(self.left_out))
 
     def close(self) -> None:
-        """Unsubscribe."""
+        """End all subscriptions."""
         for stop in self._stops:
             stop()
         self._stops.clear()
@@ -198,7 +198,7 @@ class Recorder:
         self._guarded(put)
 
     def _guarded(self, put: Callable[[], None]) -> None:
-        """Keep an exception for the next call, since one in a listener is only reported."""
+        """Call a function and store its InputError for `refresh`: a listener's is only logged."""
         if self._failure is not None:
             return
         try:
@@ -207,7 +207,7 @@ class Recorder:
             self._failure = error
 
     def _channel(self, name: str, ros_type: str, node: str) -> Channel:
-        """Return a channel for each publisher, so that senders stay distinguishable."""
+        """Return the channel of a topic and publisher: one for each, to keep senders distinct."""
         key = name, ros_type, node
         found = self._channels.get(key)
         if found is None:
@@ -228,10 +228,10 @@ class Recorder:
 
 @contextmanager
 def recorded(world: World, path: Path, *, force: bool = False) -> "Iterator[RollingRecording]":
-    """Record all topics of this process's world while the block runs.
+    """Record all topics of this process's world into a file while the block runs.
 
     Raises:
-        UsageError: If something has that name and `force` is not given.
+        UsageError: If the file exists and `force` is false.
         InputError: If the file cannot be written.
     """
     # Writers bring numpy along, which a demonstration that is not recorded starts without.

@@ -1,4 +1,4 @@
-"""Turtles of a simulator in another process, as far as they are announced."""
+"""Turtles of a simulator in another process, as far as its topics and services show them."""
 
 import asyncio
 from collections.abc import Callable, Mapping
@@ -20,19 +20,19 @@ from tftool.world.nodes.turtlesim import BACKGROUND_PARAMETERS
 from tftool.world.world import World
 
 SILENT: Final = seconds(1)
-"""A turtle that sends no pose for so long is gone, or its simulator is."""
+"""Nanoseconds without a pose after which a turtle or its simulator counts as gone."""
 
 MOST: Final = 50
-"""How many turtles are subscribed to at most: each sends 62 poses a second."""
+"""Most turtles to subscribe to: each sends 62 poses a second."""
 
 PERIOD: Final = seconds(0.05)
-"""How often the simulator is asked for new strokes while a turtle moves."""
+"""Nanoseconds between two requests for new strokes while a turtle moves."""
 
 RESTING: Final = seconds(0.5)
-"""How often it is asked for its background, and while no turtle moves for strokes."""
+"""Nanoseconds between two requests for the background, or for strokes while no turtle moves."""
 
 PATIENCE: Final = 2.0
-"""Seconds an answer may take."""
+"""Longest wait in seconds for a response of the simulator."""
 
 _POSE: Final = "/pose"
 
@@ -42,10 +42,10 @@ class FarTurtle:
     """Known facts about a turtle of another process.
 
     Attributes:
-        name: Name.
+        name: Name of the turtle.
         pose: Last Pose message.
-        heard: Time of its arrival.
-        wall_hits: Number of wall hits, which no topic carries.
+        heard: Time at which that message arrived, nanoseconds.
+        wall_hits: Always 0: no topic reports hits of the wall.
     """
 
     name: str
@@ -55,22 +55,23 @@ class FarTurtle:
 
 
 class FarTurtles(Node):
-    """A remote simulator, which is drawn like a local one.
+    """Node that collects a remote simulator's turtles, to be drawn like local ones.
 
-    The background is read from the parameters of the node that sends the poses; the strokes of the
-    pens too, if it is tftool's simulator. ROS 2's own turtlesim does not publish its pens: there
-    the trail is the path of the turtles since the first look if all pens have their first settings.
+    The background is read from the parameters of the node that sends the poses; so are the strokes
+    of the pens, by a service, if that is tftool's simulator. ROS 2's own turtlesim does not publish
+    its pens: there the trail is the path of the turtles from now on, if all pens have their first
+    settings.
 
     Attributes:
         trail: Lines of the pens.
-        background: The field's colour.
-        revision: A number that changes whenever the picture does.
+        background: Colour of the field.
+        revision: Number that changes whenever the picture does.
     """
 
     is_shown: ClassVar[bool] = False
 
     def __init__(self, world: World, name: str = "far_turtles") -> None:
-        """Follow the present and future turtles, at most fifty."""
+        """Subscribe to the present and future turtles, at most fifty."""
         super().__init__(world, name)
         self.trail = Trail()
         self.background: Color = BACKGROUND
@@ -85,13 +86,13 @@ class FarTurtles(Node):
 
     @property
     def turtles(self) -> Mapping[str, FarTurtle]:
-        """Return every known turtle by name, sorted."""
+        """All known turtles by name, sorted."""
         since = self.world.clock.now() - SILENT
         there = {name: one for name, one in sorted(self._known.items()) if one.heard >= since}
         return MappingProxyType(there)
 
     async def run(self) -> None:
-        """Request from the simulator what no topic contains."""
+        """Request the background and the strokes from the simulator, now and then."""
         asked, drawn = -RESTING, -1
         async for now in self.every(PERIOD, immediately=True):
             simulator = self._simulator()
@@ -104,11 +105,11 @@ class FarTurtles(Node):
                 await self._ask_strokes(simulator)
 
     def _simulator(self) -> str:
-        """Return the node that publishes the first turtle's pose; "" if unknown."""
+        """Return the name of the node that publishes the first turtle's pose; "" if unknown."""
         return next(filter(None, map(self._sender, self.turtles)), "")
 
     def _sender(self, turtle: str) -> str:
-        """Return the node that publishes a turtle's pose; "" if unknown."""
+        """Return the name of the node that publishes a turtle's pose; "" if unknown."""
         return next((one.node for one in self.world.endpoints.of(turtle + _POSE, PUBLISHER)), "")
 
     async def _ask_background(self, simulator: str) -> None:
@@ -132,7 +133,7 @@ class FarTurtles(Node):
             self._drawing.take(told)
 
     async def _ask(self, service: str, request: Any) -> Any:
-        """Return a service's response; None without one, as from another release."""
+        """Return a service's response; None if there is none, as from another release."""
         if not self.world.has_service(service):
             return None
         try:

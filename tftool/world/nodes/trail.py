@@ -1,5 +1,4 @@
-"""Trails of the turtles' pens: strokes to draw, the colour under a point, and their transfer to
-other processes.
+"""Trails of the turtles' pens: strokes to draw, the colour at a point, a service for strokes.
 
 turtlesim's topics contain neither pens nor earlier strokes. tftool's simulator therefore has a
 hidden service, `<node>/_drawing`: as in ROS 2, lists of services omit names that begin with an
@@ -18,14 +17,14 @@ from tftool.messages.classes import INTERFACES
 from tftool.world.node import Node
 
 BLANK = Color(255, 255, 255)
-"""What the colour sensor reads where nothing was drawn: the layer is transparent white."""
+"""Colour that the sensor reads where nothing was drawn: the layer is transparent white."""
 
 KEPT_SEGMENTS = 20_000
-"""How many segments are kept for drawings; the colour sensor forgets none."""
+"""Number of strokes stored for drawing; the colour sensor sees all."""
 
 
 class Segment(NamedTuple):
-    """One straight stroke of a pen: ends in metres, width in pixels."""
+    """One straight stroke of a pen: ends in metres, colour, width in pixels."""
 
     x0: float
     y0: float
@@ -36,14 +35,14 @@ class Segment(NamedTuple):
 
 
 class Trail:
-    """The drawing layer under all turtles.
+    """Strokes of all turtles' pens, on the layer below the turtles.
 
-    Pixels are painted only when a colour is asked for: most worlds never do that.
+    Pixels are painted only when a colour is read, which most worlds never do.
 
     Attributes:
-        segments: The newest segments, oldest first.
-        drawn: Number of segments were drawn since the last wipe.
-        wipes: Number of times the layer was wiped.
+        segments: The newest strokes, oldest first.
+        drawn: Number of strokes since all were last erased.
+        wipes: Number of times that all strokes were erased.
     """
 
     def __init__(self) -> None:
@@ -54,7 +53,7 @@ class Trail:
         self._pixels = _Pixels()
 
     def draw(self, segment: Segment) -> None:
-        """Add a stroke."""
+        """Add a stroke to the trail."""
         self.segments.append(segment)
         self.drawn += 1
         self._unpainted.append(segment)
@@ -78,7 +77,7 @@ class Trail:
 
 
 class _Pixels:
-    """500 rows of palette indices; a row is created when first painted."""
+    """Image of 500 rows of palette indices; a row is created when first painted."""
 
     def __init__(self) -> None:
         self._rows: list[array[int] | None] = [None] * WINDOW
@@ -93,9 +92,9 @@ class _Pixels:
         return BLANK if pixels is None else self._palette[pixels[column]]
 
     def paint(self, segment: Segment) -> None:
-        """Set every pixel whose centre is on the stroke, which has square ends.
+        """Set every pixel whose centre is on a stroke, which has square ends.
 
-        A stroke is a rectangle of this `width` that exceeds both ends by half a width. The pixels
+        A stroke is a rectangle of its width that exceeds both ends by half a width. The pixels
         nearest to the ends belong to it, however thin it is.
         """
         number = self._number(segment.color)
@@ -141,7 +140,7 @@ class _Pixels:
 
 
 def _nearest(coordinate: float) -> int:
-    """Return the pixel nearest to a coordinate; halves are rounded up on every side."""
+    """Return the index of the pixel nearest to a coordinate; halves are rounded up."""
     return math.floor(coordinate + 0.5)
 
 
@@ -156,7 +155,7 @@ def _between(slope: float, offset: float, low: float, high: float) -> tuple[floa
 SERVICE: Final = "_drawing"
 
 MOST_STROKES: Final = 2000
-"""Strokes in one answer; the next answer continues there."""
+"""Most strokes in one response; the next response continues there."""
 
 INTERFACES.add(
     "tftool_interfaces",
@@ -167,16 +166,18 @@ INTERFACES.add(
 )
 
 KIND: Final[Any] = INTERFACES.find("tftool_interfaces", "srv", "Drawing")
-"""Asked: which sheet the asker has (when its simulator began, and how often it was wiped), and
-how many strokes of it. Told: which sheet there is, the strokes that follow from the `first` on
-(four numbers for the ends of each, then red, green, blue and width), and how many there are."""
+"""Type of the service for strokes.
+
+Request: the sheet that the client has (when its simulator started, and how often it was cleared),
+and the number of its strokes. Response: the present sheet, its strokes from `first` on (for each,
+four numbers for its ends, then red, green, blue and width), and their total number."""
 
 
 class DrawingService:
-    """Service that returns the strokes of a trail that the client lacks."""
+    """Service that returns those strokes of a trail that the client lacks."""
 
     def __init__(self, node: Node, trail: Trail) -> None:
-        """Serve until the node ends."""
+        """Serve the strokes of a trail until the node ends."""
         self._trail = trail
         self._began = node.clock.now()
         node.serve(f"{node.name}/{SERVICE}", self._answer, KIND)
@@ -197,25 +198,25 @@ class DrawingService:
 
 
 class FarDrawing:
-    """Copy of a trail in another process, as far as it was received.
+    """Copy of the trail of a simulator in another process, as far as it was received.
 
     Attributes:
-        is_whole: Whether the copy was complete at the last answer.
+        is_whole: Whether the copy was complete after the last response.
     """
 
     def __init__(self, trail: Trail) -> None:
-        """Add a received point to `trail`."""
+        """Copy the received strokes into `trail`."""
         self.is_whole = False
         self._trail = trail
         self._began = -1
         self._wipes = self._drawn = 0
 
     def request(self) -> Any:
-        """Return the request for missing strokes."""
+        """Return the request for the strokes that are still missing."""
         return KIND.Request(began=self._began, wipes=self._wipes, drawn=self._drawn)
 
     def take(self, told: Any) -> bool:
-        """Draw a response's strokes; return whether anything changed."""
+        """Draw the strokes in a response; return whether the trail has changed."""
         is_new = (told.began, told.wipes) != (self._began, self._wipes) or told.first < self._drawn
         if is_new:
             self._trail.wipe()

@@ -49,11 +49,11 @@ PEN_WIDTH = 3
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 Say = Callable[[Level, str], object]
-"""Takes a line for the log."""
+"""Function called with a log message's level and text."""
 
 
 def require_turtle_name(name: str) -> str:
-    """Return the name, or refuse it: it becomes part of topic names and a frame.
+    """Return a turtle's name if it can be part of topic names and a frame; else raise.
 
     Raises:
         UsageError: If the name is not a letter or '_' followed by letters, digits and '_'.
@@ -67,16 +67,16 @@ def require_turtle_name(name: str) -> str:
 
 
 def shown(name: str) -> str:
-    """Return another process's name shortened and with control characters escaped."""
+    """Return a name from another process shortened and with control characters escaped."""
     return repr(name if len(name) <= 60 else name[:59] + "…")[1:-1]
 
 
 class Turtle:
-    """A turtle's state; only the simulator changes it, everybody may read it.
+    """State of a turtle, which the simulator updates at every tick.
 
     Attributes:
         name: Name of the turtle and of its frame.
-        pose: The Pose message published last, rounded to 32-bit floats.
+        pose: Pose message published last, rounded to 32-bit floats.
         place: Exact pose.
         forward: Speed along its heading in m/s; negative when reversing.
         sideways: Speed to its left in m/s.
@@ -84,7 +84,7 @@ class Turtle:
         pen_on: Whether the turtle draws.
         color: Colour of its pen.
         width: Width of its pen in pixels.
-        wall_hits: In how many updates it met the wall.
+        wall_hits: Number of updates in which it met the wall.
     """
 
     __slots__ = (
@@ -131,10 +131,10 @@ class Turtle:
     # What the simulator hands on, at the start of a tick
 
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
-        """Set the velocity command, replacing all of the previous one.
+        """Set the velocities of a command, which replace all previous ones, with one exception.
 
-        One exception: a simulator that is not holonomic, like turtlesim, keeps the previous
-        sideways speed until the timeout or the rotate action clears it.
+        A simulator that is not holonomic, like turtlesim, keeps the previous sideways speed until
+        the timeout or the rotate action clears it.
         """
         self._settled = False
         self._commanded = now
@@ -151,13 +151,13 @@ class Turtle:
         self._teleports.append(where)
 
     def set_pen(self, color: Color, width: int, off: bool) -> None:
-        """Lift the pen, or lower it with other settings; width 0 means one pixel."""
+        """Lift the pen, or lower it with a new colour and width; width 0 means one pixel."""
         self.pen_on = not off
         if not off:
             self.color, self.width = color, max(width, 1)
 
     def rotate(self, goal: GoalHandle, theta: float, say: Say) -> None:
-        """Accept a goal of the rotate action, a heading; an active one is aborted."""
+        """Accept a goal of the rotate action, a heading; a goal that is active is aborted."""
         if self._goal is not None:
             say(
                 "WARN",
@@ -169,23 +169,23 @@ class Turtle:
         self._goal_start, self._goal_delta = self.place.theta, 0.0
 
     def leave(self) -> None:
-        """End the current action, because the turtle is removed."""
+        """Abort the active goal, because the turtle is removed."""
         if self._goal is not None:
             self._end_goal("aborted")
 
     # One update
 
     def update(self, now: Stamp, say: Say, draw: Callable[[Segment], object]) -> Segment | None:
-        """Teleport, turn, move and stop at the wall; `pose` is the result.
+        """Teleport, turn, move and stop at the wall; store the result in `pose`.
 
         Args:
-            now: The moment of the tick.
-            say: Takes log lines.
-            draw: Takes the strokes of teleports.
+            now: Time of the tick, nanoseconds.
+            say: Function called with log messages.
+            draw: Function called with the strokes of teleports.
 
         Returns:
-            The stroke of the motion, to be drawn after the colour sensor looked; None
-            where nothing is drawn.
+            Stroke of the motion, to be drawn after the colour sensor was read; None if nothing is
+            drawn.
         """
         if self._settled:
             return None
@@ -266,18 +266,18 @@ class Turtle:
 
 
 Work = Callable[[Stamp], T]
-"""Something to do at a tick, given the tick's stamp."""
+"""Function to call at a tick, with the tick's stamp."""
 
 
 MOST_WAITING = 10_000
-"""How much work may wait for a tick; a publisher that never pauses lets none come."""
+"""Most pieces of work that wait for a tick, which a publisher that never pauses may delay."""
 
 
 class TickQueue:
-    """Queue of work between two ticks, run in order at the next one.
+    """Queue of work between two ticks of the simulator, run in order at the next tick.
 
-    Arrivals in the instant of a tick wait for the next one, so that the order within an instant
-    does not matter.
+    Work that arrives in the instant of a tick waits for the next one, so that the order within an
+    instant does not matter.
     """
 
     def __init__(self, clock: Clock) -> None:
@@ -293,9 +293,9 @@ class TickQueue:
         return True
 
     def ask(self, work: Work[T]) -> "asyncio.Future[T]":
-        """Queue work for the next tick, and wait for its result.
+        """Queue work for the next tick; return a future of its result.
 
-        The future's exception is a TftoolError if too many requests wait already.
+        The future's exception is a TftoolError if the queue is full.
         """
         answer: asyncio.Future[T] = asyncio.get_running_loop().create_future()
 
@@ -312,14 +312,14 @@ class TickQueue:
         return answer
 
     def deliver(self, tick: Stamp) -> None:
-        """Run the work queued before this tick."""
+        """Run the work that was queued before this tick."""
         # Asked of the clock: on the wall clock a late tick takes all that came meanwhile.
         moment = self._clock.now()
         while self._waiting and self._waiting[0][0] < moment:
             self._waiting.popleft()[1](tick)
 
     def close(self, reason: str) -> None:
-        """Drop the queued work; whoever waits for a result is refused with `reason`."""
+        """Drop the queued work; the futures get an error with `reason`."""
         self._waiting.clear()
         for answer in list(self._unanswered):
             if not answer.done():
@@ -327,11 +327,11 @@ class TickQueue:
 
 
 class TurtlePorts:
-    """A turtle's topics, services and action; requests wait for the next tick.
+    """Topics, services and action of a turtle; requests wait for the next tick.
 
     Attributes:
-        pose: Publisher of its poses.
-        color: Publisher of its colour sensor.
+        pose: Publisher of the turtle's poses.
+        color: Publisher of the turtle's colour sensor.
     """
 
     def __init__(
@@ -344,16 +344,16 @@ class TurtlePorts:
         say: Say,
         is_holonomic: Callable[[], bool],
     ) -> None:
-        """Open all of them.
+        """Open the turtle's topics, services and action.
 
         Args:
-            world: The world.
-            node: The simulator's name.
-            prefix: Put before the turtle's name; empty, or ends with a slash.
-            turtle: The node.
+            world: World of the simulator.
+            node: Name of the simulator's node.
+            prefix: Text before the turtle's name in names of topics; empty, or ends with a slash.
+            turtle: The turtle.
             queue: Queue of work for the next tick.
-            say: Takes log lines.
-            is_holonomic: Tells whether linear.y of a command counts now.
+            say: Function called with log messages.
+            is_holonomic: Function that returns whether a command's linear.y is used now.
         """
         self._world, self._prefix, self._turtle = world, f"{prefix}{turtle.name}/", turtle
         self._queue, self._say, self._is_holonomic = queue, say, is_holonomic
@@ -385,7 +385,7 @@ class TurtlePorts:
         ]
 
     def close(self) -> None:
-        """Close all of them, and abort an active goal."""
+        """Close the topics, services and action, and abort an active goal."""
         for stop in self._stops:
             stop()
         self._stops.clear()
@@ -393,7 +393,7 @@ class TurtlePorts:
         self._turtle.leave()
 
     def remove_topics(self) -> None:
-        """Remove the topics without a subscriber; the next turtle of that name reuses others."""
+        """Remove the topics without a subscriber; the next turtle of that name uses the others."""
         for what in ("pose", "color_sensor", "cmd_vel"):
             topic = self._world.topics().get(self._prefix + what)
             if topic is not None and not topic.subscribers:
@@ -455,7 +455,7 @@ class TurtlePorts:
 
 
 def requested_placement(request: Any) -> Placement:
-    """Round x, y and theta of a request for Spawn or TeleportAbsolute to 32 bits.
+    """Return x, y and theta of a Spawn or TeleportAbsolute request, rounded to 32 bits.
 
     Raises:
         UsageError: If a number is NaN, infinite or too large for a 32-bit float.
@@ -468,7 +468,7 @@ def requested_placement(request: Any) -> Placement:
 
 
 def require_byte(value: int, what: str) -> int:
-    """Return a colour channel's value, or refuse it by name.
+    """Return a colour channel's value if it is from 0 to 255; else raise an error with its name.
 
     Raises:
         UsageError: If the number is not a whole number from 0 to 255.

@@ -1,4 +1,4 @@
-"""Nodes that drive a turtle: along squares, like another turtle, along a rose, by arrow keys."""
+"""Nodes that drive a turtle: along squares, like another turtle, along a rose curve."""
 
 import asyncio
 import math
@@ -19,13 +19,13 @@ from tftool.world.topics import GoalHandle
 from tftool.world.world import World
 
 _PI = 3.141592
-"""The program's own π: its goals are a hair short of a right angle."""
+"""π as written in ROS's draw_square, whose turns are slightly less than a right angle."""
 
 _SIDE = 2.0
 
 
 class State(Enum):
-    """State of the square's driver."""
+    """State of `DrawSquare`, the node that drives along squares."""
 
     FORWARD = "forward"
     STOP_FORWARD = "stop forward"
@@ -34,11 +34,11 @@ class State(Enum):
 
 
 class DrawSquare(Node):
-    """Drives a turtle along squares: forward, stop, turn, stop, one check per tick.
+    """Node that drives a turtle along squares: forward, stop, turn, stop, with one check per tick.
 
     Attributes:
-        state: Present phase.
-        goal: Goal; None before the first pose.
+        state: Present state.
+        goal: Pose to reach next; None before the first pose.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class DrawSquare(Node):
         self._wants_reset = reset
 
     async def run(self) -> None:
-        """Drive until the end."""
+        """Drive the turtle along squares until the end of the run."""
         self.publisher(f"{self.turtle}/cmd_vel", Twist)
         self.subscribe(f"{self.turtle}/pose", Pose, self._on_pose)
         async for _ in self.every(TICK, immediately=True):
@@ -139,9 +139,9 @@ class DrawSquare(Node):
 
 
 class Mimic(Node):
-    """Makes one turtle copy another's motion.
+    """Node that makes one turtle copy another's motion.
 
-    A pose's speed is a magnitude: if the leader reverses, the copy drives forward.
+    The speed in a pose has no sign: if the leader reverses, the copy drives forward.
     """
 
     def __init__(
@@ -152,12 +152,12 @@ class Mimic(Node):
         leader: str = "turtle1",
         copy: str = "turtle2",
     ) -> None:
-        """Add the node to a world; both names may have a simulator's namespace in front."""
+        """Add the node to a world; both turtles' names may begin with a simulator's namespace."""
         super().__init__(world, name)
         self.leader, self.copy = leader, copy
 
     async def run(self) -> None:
-        """Copy until the end."""
+        """Subscribe to the leader's poses, and send the copy a command for each."""
         self.publisher(f"{self.copy}/cmd_vel", Twist)
         self.subscribe(f"{self.leader}/pose", Pose, self._on_pose)
 
@@ -166,27 +166,27 @@ class Mimic(Node):
 
 
 IDLE_BEFORE: Final = seconds(5)
-"""How long nothing must have driven the turtle."""
+"""Nanoseconds without a command after which a turtle counts as idle."""
 
 _PERIOD: Final = seconds(0.1)
 _RADIUS: Final = 4.1
-"""Of the rose that is drawn, metres: no wall is met."""
+"""Radius of the rose in metres, small enough to stay away from the walls."""
 
 _AHEAD: Final = 0.6
-"""How far ahead on the rose the turtle looks, metres."""
+"""Distance in metres along the rose to the point that the turtle steers to."""
 
 _SPEED: Final = 1.3
 _STEPS: Final = 360
 
 
 class IdleDrawing(Node):
-    """Makes an idle turtle draw a rose of four petals repeatedly.
+    """Node that makes an idle turtle draw a rose curve of four petals repeatedly.
 
-    It begins after `IDLE_BEFORE` without a command, and ends with the next foreign command, with
-    `touch`, and while `is_alone` reports that others are there.
+    It begins after `PATIENCE` without a command. It ends with the next command of another node,
+    with `touch`, and while `is_alone` returns False.
 
     Attributes:
-        is_drawing: Whether it is drawing now.
+        is_drawing: Whether the turtle is drawing now.
     """
 
     def __init__(
@@ -202,10 +202,10 @@ class IdleDrawing(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
-            turtle: Turtle that draws.
-            patience: Time without commands before it draws, nanoseconds.
-            is_alone: Whether no other process could drive it, or looks on.
+            name: Name of the node.
+            turtle: Name of the turtle that draws.
+            patience: Nanoseconds without commands before it draws.
+            is_alone: Function that returns whether no other process has joined.
         """
         super().__init__(world, name)
         self.turtle = require_turtle_name(turtle)
@@ -219,7 +219,7 @@ class IdleDrawing(Node):
         self._told = False
 
     async def run(self) -> None:
-        """Wait, draw, and wait again."""
+        """Draw whenever the turtle was idle for long enough, until the end of the run."""
         self._since = self.clock.now()
         self.publisher(f"{self.turtle}/cmd_vel", Twist)
         self.subscribe(f"{self.turtle}/cmd_vel", Twist, self._on_command)
@@ -235,7 +235,7 @@ class IdleDrawing(Node):
             self._send(self._steer(pose))
 
     def touch(self) -> None:
-        """Stop because a person or process drives, and restart the wait."""
+        """Stop drawing because a person or process drives, and restart the wait."""
         self._since = self.clock.now()
         if self.is_drawing:
             self.is_drawing = False
@@ -265,7 +265,7 @@ class IdleDrawing(Node):
             self.info(f"{self.turtle} draws by itself until a key is pressed.")
 
     def _steer(self, pose: Any) -> Any:
-        """Steer to a point of the rose slightly ahead."""
+        """Return the command that steers to a point of the rose slightly ahead."""
         for _ in range(_STEPS):
             if _away(pose, self._phase) >= _AHEAD:
                 break
@@ -294,7 +294,7 @@ BANNER = (
     "Use g|b|v|c|d|e|r|t keys to rotate to absolute orientations. 'f' to cancel a rotation.",
     "'q' to quit.",
 )
-"""What teleop prints at its start, line by line."""
+"""Lines that turtle_teleop_key prints at its start."""
 
 SCALE_LINEAR = 2.0
 """Speed of the arrow keys in m/s, unless a parameter says otherwise."""
@@ -303,14 +303,14 @@ SCALE_ANGULAR = 2.0
 """Turn rate of the arrow keys in rad/s, unless a parameter says otherwise."""
 
 MOST_SENDING = 100
-"""How many goals may be on their way to the simulator; further keys are ignored meanwhile."""
+"""Most goals sent to the simulator without a decision; further keys are ignored meanwhile."""
 
 Action = Literal["cmd_vel", "rotate", "cancel", "quit"]
 
 
 @dataclass(frozen=True, slots=True)
 class KeyPress:
-    """A key pressed by a person or script: "up", "left", "g", "q" and so on."""
+    """Key pressed by a person or script: "up", "left", "g", "q" and so on."""
 
     key: str
 
@@ -320,10 +320,10 @@ class KeyMeaning:
     """Meaning of a key.
 
     Attributes:
-        action: Drive, turn to a heading, give the turning up, or quit.
-        linear: For `cmd_vel`: the share of scale_linear, from -1 to 1.
-        angular: For `cmd_vel`: the share of scale_angular, from -1 to 1.
-        theta: For `rotate`: the heading in radians.
+        action: Kind of action: drive, turn to a heading, cancel the turn, or quit.
+        linear: For `cmd_vel`: share of scale_linear, from -1 to 1.
+        angular: For `cmd_vel`: share of scale_angular, from -1 to 1.
+        theta: For `rotate`: heading in radians.
         meaning: A word or two for a help line.
     """
 
@@ -352,14 +352,14 @@ KEYS: Mapping[str, KeyMeaning] = MappingProxyType(
         "q": KeyMeaning("quit", "quit"),
     }
 )
-"""Every key that does something. The letters form a ring round F on a keyboard."""
+"""Meaning of each key. The letters form a ring around F on a keyboard."""
 
 
 class Teleop(Node):
-    """Converts keys to commands for a turtle; one press is one message.
+    """Node that converts keys to commands for a turtle; one press is one message.
 
-    Keys come from `press` and from the topic `keys`. Stopping is the simulator's
-    timeout. Parameters, read at every press: scale_linear, scale_angular.
+    Keys come from `press` and from the topic `keys`. The turtle stops by the simulator's timeout.
+    The parameters scale_linear and scale_angular are read at every press.
     """
 
     def __init__(
@@ -375,13 +375,13 @@ class Teleop(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
-            turtle: The turtle to drive; a simulator's namespace may stand in front.
+            name: Name of the node.
+            turtle: Name of the turtle to drive, which may begin with a simulator's namespace.
             scale_linear: Speed of the arrow keys in m/s.
             scale_angular: Turn rate of the arrow keys in rad/s.
 
         Raises:
-            UsageError: If `turtle` cannot be a turtle's name.
+            UsageError: If `turtle` is not a valid name.
         """
         for part in turtle.split("/"):
             require_turtle_name(part)
@@ -394,7 +394,7 @@ class Teleop(Node):
         self._quit = asyncio.Event()
 
     async def run(self) -> None:
-        """Handle keys from the topic `keys` until the quit key."""
+        """Handle keys from the topic `keys` until the quit key is pressed."""
         self.publisher(f"{self.turtle}/cmd_vel", Twist)
         stop = self.subscribe("keys", KeyPress, lambda pressed: self.press(pressed.key))
         try:
@@ -403,13 +403,13 @@ class Teleop(Node):
             stop()
 
     def press(self, key: str) -> Action | None:
-        """Handle a key.
+        """Handle a pressed key.
 
         Args:
             key: "up", "down", "left", "right" or a letter of either case.
 
         Returns:
-            The kind of action; None for a key that does nothing.
+            Kind of action of the key; None for a key without a meaning.
         """
         meaning = KEYS.get(key.lower())
         if meaning is None:

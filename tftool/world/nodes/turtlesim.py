@@ -1,4 +1,4 @@
-"""turtlesim: the field and its turtles with all their services, topics and actions."""
+"""Node turtlesim: the field and its turtles with all their services, topics and actions."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -27,16 +27,16 @@ from tftool.world.nodes.turtle import (
 from tftool.world.world import World
 
 MOST_TURTLES = 1000
-"""How many turtles there may be at once: every one is updated at every tick."""
+"""Most turtles at once, because each is updated at every tick."""
 
 BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
 
 
 class Turtlesim(Node):
-    """The turtle simulator, with ticks every 16 ms.
+    """Turtle simulator with a tick every 16 ms.
 
-    Arrivals (commands, services, goals) wait for the next tick; then every turtle is updated once,
-    in the order of the names. Topics of a turtle: `pose` is sent at every tick, `cmd_vel` is
+    Commands, requests and goals that arrive wait for the next tick; then every turtle is updated
+    once, in the order of the names. Topics of a turtle: `pose` is sent at every tick, `cmd_vel` is
     received, `color_sensor` is sent at every tick while it has subscribers. Services: spawn, kill,
     clear, reset, and for each turtle teleport_absolute, teleport_relative, set_pen. Action of each
     turtle: rotate_absolute.
@@ -45,7 +45,7 @@ class Turtlesim(Node):
 
     Attributes:
         trail: Lines of the pens.
-        revision: A number that changes whenever the picture does.
+        revision: Number that changes whenever the picture does.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE
@@ -64,11 +64,11 @@ class Turtlesim(Node):
 
         Args:
             world: World to join.
-            name: The node's name.
-            holonomic: Whether linear.y of a command counts.
+            name: Name of the node.
+            holonomic: Whether the linear.y of a command is used.
             background: Colour of the field.
-            turtles: Requests of Spawn for further turtles; turtle1 is always there.
-            namespace: Put before the name of every topic, service and action.
+            turtles: Spawn requests for further turtles; turtle1 always exists.
+            namespace: Text before the name of every topic, service and action.
 
         Raises:
             UsageError: If a channel of `background` is not from 0 to 255.
@@ -93,19 +93,19 @@ class Turtlesim(Node):
 
     @property
     def turtles(self) -> Mapping[str, Turtle]:
-        """Return every turtle by name, sorted; read-only."""
+        """All turtles by name, sorted; read-only."""
         return MappingProxyType(self._turtles)
 
     @property
     def background(self) -> Color:
-        """The field's colour from the parameters, clamped to 0 to 255."""
+        """Colour of the field from the parameters, limited to 0 to 255."""
         r, g, b = (
             min(max(int(self.get_parameter(name)), 0), 255) for name in BACKGROUND_PARAMETERS
         )
         return Color(r, g, b)
 
     def color_under(self, name: str) -> Color:
-        """Return the present reading of a turtle's colour sensor.
+        """Return the colour that a turtle's sensor reads now.
 
         Raises:
             KeyError: If there is no such turtle.
@@ -114,10 +114,10 @@ class Turtlesim(Node):
         return self.trail.color_at(place.x, place.y)
 
     def set_parameter(self, name: str, value: Value) -> None:
-        """Change a parameter.
+        """Change a declared parameter.
 
         Raises:
-            UsageError: If there is no such parameter, or it takes other values.
+            UsageError: If there is no such parameter, or the value is invalid.
         """
         if name in BACKGROUND_PARAMETERS and type(value) is int:
             require_byte(value, name)
@@ -126,7 +126,7 @@ class Turtlesim(Node):
     # Living
 
     async def run(self) -> None:
-        """Simulate until the end."""
+        """Simulate the turtles until the end of the run."""
         # Two simulators in one world carry their namespace in their names as well.
         name = self.name.removeprefix(self._prefix)
         self.info(f"Starting turtlesim with node name /{self._prefix}{name}")
@@ -164,9 +164,9 @@ class Turtlesim(Node):
                 self._update(now)
 
     def close(self) -> None:
-        """Close everything, and refuse waiting requests.
+        """Close the simulator's topics and services, and refuse requests that wait.
 
-        The turtles stay at their places, so that the end can be seen.
+        The turtles stay at their places, so that a screen can show the end.
         """
         for ports in self._ports.values():
             ports.close()
@@ -192,7 +192,7 @@ class Turtlesim(Node):
     # Turtles come and go
 
     def _spawn(self, place: Placement, name: str, now: Stamp) -> str:
-        """Create a turtle; an empty result means that the name was refused."""
+        """Create a turtle and return its name; "" if the name was refused."""
         if not name:
             name = self._next_name()
         elif name in self._turtles:
@@ -215,7 +215,7 @@ class Turtlesim(Node):
         return name
 
     def _refusal(self, name: str) -> str:
-        """Return why another turtle of that name is impossible; empty if it is possible."""
+        """Return the reason why a turtle with a name cannot be created; "" if it can."""
         if len(self._turtles) >= MOST_TURTLES:
             return f"there are {MOST_TURTLES} already, kill one first"
         try:

@@ -1,7 +1,7 @@
-"""Services over DDS as in ROS 2 with Cyclone: two topics, each message preceded by its number.
+"""Services over DDS as in ROS 2 with Cyclone: two topics, with a number before each message.
 
-Fast DDS sends that number beside the message, where the library cannot read it; its services are
-refused by name.
+Fast DDS sends that number beside the message, where the library cannot read it. So services of
+nodes that use Fast DDS are refused by name.
 """
 
 import asyncio
@@ -23,10 +23,10 @@ from tftool.world.link.graph import SERVER, Graph
 from tftool.world.link.seam import WireRequest
 
 QUALITY: Final = Quality(depth=10)
-"""ROS 2's quality of services."""
+"""Quality of service that ROS 2 uses for services."""
 
 NUMBERED: Final = (("client_guid", "uint64"), ("sequence_number", "int64"))
-"""Header of each request and each reply: its client, and its number."""
+"""Fields before each request and reply: the client's GUID, and the request's number."""
 
 _HEAD: Final = 4
 _NUMBER: Final = 16
@@ -40,13 +40,13 @@ REFUSED: Final = (
 
 @dataclass(frozen=True, slots=True)
 class ServicePart:
-    """Common parts of both sides of a service.
+    """State that servers and clients of services share.
 
     Attributes:
-        participant: Ours.
-        types: Classes for the library by type name.
+        participant: This process's participant.
+        types: Message classes for the library, by type name.
         graph: Graph of the other processes.
-        sender: Gives the GUID of the writer of a message.
+        sender: Function that returns the GUID of a message's writer.
     """
 
     participant: Participant
@@ -55,7 +55,7 @@ class ServicePart:
     sender: Callable[[DdsSample], bytes]
 
     def kinds(self, ros_type: str) -> tuple[type[Raw], type[Raw]]:
-        """Return the classes of a service's requests and replies."""
+        """Return the message classes of a service's requests and replies."""
         raw = self.types.raw
         return (
             raw(f"{ros_type}_Request", beside=NUMBERED),
@@ -64,7 +64,7 @@ class ServicePart:
 
 
 class CycloneServer:
-    """Server of a service."""
+    """Server of one service, which reads requests and writes replies."""
 
     def __init__(
         self,
@@ -74,14 +74,14 @@ class CycloneServer:
         on_request: Callable[[WireRequest], object],
         on_stranger: Callable[[str], object],
     ) -> None:
-        """Start serving.
+        """Start to serve a service.
 
         Args:
-            part: State that both sides share.
-            name: The service's name.
-            ros_type: Type.
-            on_request: Called with every request.
-            on_stranger: Called with the name of a library whose requests cannot be read.
+            part: State that servers and clients share.
+            name: Name of the service.
+            ros_type: Type of the service.
+            on_request: Function called with every request.
+            on_stranger: Function called with the name of a library whose requests cannot be read.
         """
         self._part = part
         self._on_request = on_request
@@ -95,7 +95,7 @@ class CycloneServer:
         self.gids = self._reader.gid, self._writer.gid
 
     def close(self) -> None:
-        """Stop serving."""
+        """Stop serving the service."""
         self._reader.close()
         self._writer.close()
 
@@ -109,7 +109,7 @@ class CycloneServer:
 
 
 class CycloneRequest:
-    """A received request; its number goes back with the response."""
+    """Received request, whose number is sent back with the response."""
 
     def __init__(self, payload: bytes, reply: Callable[[bytes], object]) -> None:
         self._number = payload[_HEAD : _HEAD + _NUMBER]
@@ -118,15 +118,15 @@ class CycloneRequest:
         self._reply = reply
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response, once."""
+        """Send the response; called once."""
         self._reply(payload[:_HEAD] + self._number + payload[_HEAD:])
 
     def refuse(self, reason: str) -> None:
-        """Do nothing: ROS 2 has no refusal over DDS, and the client waits until its timeout."""
+        """Do nothing: ROS 2 has no refusal over DDS, so the client waits until its timeout."""
 
 
 class CycloneClient:
-    """Client of a service; opened with its first request."""
+    """Client of one service, which joins the graph with its first request."""
 
     def __init__(self, part: ServicePart, name: str, ros_type: str) -> None:
         self._part = part
@@ -139,7 +139,7 @@ class CycloneClient:
         self._is_matched: Callable[[], bool] = bool
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Send a request and wait for the response."""
+        """Send a request, and wait for the response at most `timeout` seconds."""
         vendors = {
             # The first bytes of a GUID name the library.
             one.gid[:2]
@@ -193,7 +193,7 @@ class CycloneClient:
             answer.set_result(payload[:_HEAD] + payload[_HEAD + _NUMBER :])
 
     def close(self) -> None:
-        """Close the client."""
+        """Close the client's reader and writer."""
         for close in self._close:
             close()
         self._close = []

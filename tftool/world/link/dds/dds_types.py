@@ -1,4 +1,4 @@
-"""ROS 2's messages and names in DDS."""
+"""Message classes for the DDS library, and the names of ROS 2's topics and types in DDS."""
 
 import re
 from typing import Any, Final, NamedTuple
@@ -22,7 +22,7 @@ _NAMES: Final = {
 
 
 class Raw:
-    """A message of any type as bytes, in the class form that the library needs."""
+    """Message of any type as bytes, in the form of a class that the library needs."""
 
     __slots__ = ("payload", "sample_info")
 
@@ -31,36 +31,36 @@ class Raw:
         self.sample_info: Any = None
 
     def serialize(self, **_: object) -> bytes:
-        """Return the bytes, always as XCDR1."""
+        """Return the message's bytes, always in the encoding XCDR1."""
         return self.payload
 
     @classmethod
     def deserialize(cls, payload: bytes) -> "Raw":
-        """Return a received message."""
+        """Return a message with the received bytes."""
         return cls(payload)
 
     @classmethod
     def deserialize_key(cls, _: bytes) -> None:
-        """Return nothing: ROS 2's messages have no key."""
+        """Return None: ROS 2's messages have no key."""
         return
 
 
 _MADE: Final[dict[tuple[str, str, tuple[tuple[str, str], ...]], type[Raw]]] = {}
-"""Classes by the hash of their types: participants of one process have to share them."""
+"""Classes by the hash of their types, shared by all participants of this process."""
 
 
 class Types:
-    """Classes for the library by type name."""
+    """Message classes for the library, made from definitions and stored by type name."""
 
     def __init__(self, schema: Schema) -> None:
         self._schema = schema
 
     def raw(self, full: str, *, beside: tuple[tuple[str, str], ...] = ()) -> type[Raw]:
-        """Return the class for sending and receiving messages of a type.
+        """Return the class with which the library sends and receives messages of a type.
 
         Args:
-            full: The type's full name.
-            beside: Fields that lie in front of its own, by name and type.
+            full: Full name of the type.
+            beside: Fields before the type's own fields, by name and type.
 
         Raises:
             InputError: If a definition is missing.
@@ -108,19 +108,19 @@ class Types:
 TOPIC: Final = "rt/"
 REQUEST: Final = "rq/"
 REPLY: Final = "rr/"
-"""How the names of ROS's topics, requests and replies begin; other names are not ROS's."""
+"""Prefixes of the DDS names of ROS's topics, requests and replies; other names are not ROS's."""
 
 DISCOVERY: Final = "ros_discovery_info"
-"""The topic on which every participant says which node has which endpoints."""
+"""Topic on which every participant publishes which node has which endpoints."""
 
 CYCLONE: Final = b"\x01\x10"
 FAST_DDS: Final = b"\x01\x0f"
-"""The vendors' ids, with which the GUIDs of their participants begin."""
+"""Ids of the libraries' vendors, with which the GUIDs of their participants begin."""
 
 VENDORS: Final = {CYCLONE: "Cyclone DDS", FAST_DDS: "Fast DDS"}
 
 ENCLAVE: Final = "enclave=/;"
-"""What ROS 2 writes beside every participant."""
+"""User data that ROS 2 writes for every participant."""
 
 _TYPE = re.compile(r"(\w+)::(msg|srv|action)::dds_::(\w+)_", re.ASCII)
 _HASH = re.compile(rb"typehash=(RIHS01_[0-9a-f]{64});")
@@ -131,12 +131,12 @@ _OURS = re.compile(
 
 
 class Part(NamedTuple):
-    """Role of a DDS topic in ROS.
+    """Meaning of a DDS topic in ROS.
 
     Attributes:
         prefix: One of `TOPIC`, `REQUEST`, `REPLY`.
-        name: The topic's or service's name, without a leading slash.
-        ros_type: The type of the topic or service, "std_msgs/msg/String".
+        name: Name of the topic or service, without a leading slash.
+        ros_type: Type of the topic or service, such as "std_msgs/msg/String".
     """
 
     prefix: str
@@ -145,13 +145,13 @@ class Part(NamedTuple):
 
 
 def dds_type(ros_type: str) -> str:
-    """Return a type's name in DDS: "tf2_msgs::msg::dds_::TFMessage_"."""
+    """Return a ROS type's name in DDS, such as "tf2_msgs::msg::dds_::TFMessage_"."""
     package, kind, name = ros_type.split("/")
     return f"{package}::{kind}::dds_::{name}_"
 
 
 def ros_part(topic: str, type_name: str) -> Part | None:
-    """Return the role of a DDS topic in ROS; None if its name is not ROS's."""
+    """Return the meaning of a DDS topic in ROS; None if its name is not one of ROS's."""
     found = _TYPE.fullmatch(type_name)
     prefix, name = topic[:3], topic[3:]
     if found is None or prefix not in (TOPIC, REQUEST, REPLY) or not name:
@@ -166,7 +166,7 @@ def ros_part(topic: str, type_name: str) -> Part | None:
 
 
 def hash_shown(user_data: bytes) -> str:
-    """Return the hash of an endpoint's type, if it is announced; else ""."""
+    """Return the type hash in an endpoint's user data; "" if there is none."""
     found = _HASH.search(user_data)
     return found[1].decode() if found else ""
 
@@ -177,13 +177,13 @@ def vendor(gid: bytes) -> str:
 
 
 def process_data(process: Process) -> bytes:
-    """Return the user data of a tftool's participant."""
+    """Return the user data with which a tftool process announces itself."""
     ours = f"tftool={process.role},{process.pid},{process.since},{process.command};"
     return f"{ENCLAVE}{ours}".encode()
 
 
 def process_shown(user_data: bytes, domain: int, session: str) -> Process | None:
-    """Return the tftool process of a participant; None for any other program."""
+    """Return the tftool process that a participant's user data announces; else None."""
     found = _OURS.search(user_data.decode(errors="replace"))
     if found is None or found["role"] not in tuple(Role):
         return None

@@ -1,7 +1,7 @@
-"""Discovery in DDS: built-in topics, and what ROS 2's nodes publish about themselves.
+"""Discovery in DDS: the built-in topics, and the nodes that ROS 2's participants announce.
 
-DDS knows participants and their endpoints; the node of an endpoint is published on
-`ros_discovery_info`, by every participant of ROS 2.
+DDS knows participants and their endpoints. The node of an endpoint is published on
+`ros_discovery_info` by every participant of ROS 2.
 """
 
 import threading
@@ -38,13 +38,13 @@ uint8[{size}] data
 """
 
 GID_SIZES: Final = (16, 24)
-"""Bytes of a GUID in that message: from ROS 2 Iron on, and before."""
+"""Bytes of a GUID in `ros_discovery_info`: since ROS 2 Iron, and before."""
 
 LATEST_OF_ALL: Final = Quality(depth=1, is_latched=True)
-"""The quality of `ros_discovery_info`."""
+"""Quality of service of `ros_discovery_info`."""
 
 MOST: Final = 20_000
-"""Endpoints that are remembered."""
+"""Largest number of endpoints that are stored."""
 
 _KINDS: Final = {
     (names.TOPIC, PUBLISHER): PUBLISHER,
@@ -57,7 +57,7 @@ _KINDS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """An endpoint from the built-in topics."""
+    """Endpoint that the built-in topics have announced."""
 
     handle: int
     participant: bytes
@@ -65,7 +65,7 @@ class _Found:
 
 
 class Information:
-    """One version of `ros_discovery_info`: which node has which endpoints."""
+    """One format of the messages on `ros_discovery_info`: which node has which endpoints."""
 
     def __init__(self, size: int) -> None:
         self.size = size
@@ -75,15 +75,15 @@ class Information:
         self._codec: Codec = codec(self.kind)
 
     def raw(self) -> type[Any]:
-        """Return the library's class for it."""
+        """Return the class with which the library sends and receives these messages."""
         return Types(self._interfaces).raw(INFO)
 
     def encode(self, participant: bytes, nodes: dict[str, tuple[set[bytes], set[bytes]]]) -> bytes:
-        """Encode a participant's announcement.
+        """Return the message that announces a participant's nodes.
 
         Args:
-            participant: GUID.
-            nodes: GUIDs of the readers and the writers of each of its nodes.
+            participant: GUID of the participant.
+            nodes: GUIDs of the readers and of the writers of each of its nodes.
         """
         said: Any = self.kind()
         said.gid = self._gid(participant)
@@ -93,10 +93,13 @@ class Information:
         return self._codec.encode(said)
 
     def decode(self, payload: bytes) -> tuple[bytes, dict[bytes, str], list[str]]:
-        """Decode a participant's announcement: GUID, nodes by the GUIDs of endpoints, all nodes.
+        """Read a message that announces a participant's nodes.
+
+        Returns:
+            GUID of the participant, node by the GUID of its endpoints, all nodes.
 
         Raises:
-            MalformedMessage: If the bytes have another form.
+            MalformedMessage: If the bytes have another format.
         """
         said: Any = self._codec.decode(payload)
         nodes, found = [], {}
@@ -123,7 +126,7 @@ class Information:
 
 
 class Discovery:
-    """Keeps the graph up to date with others' announcements, and announces our own nodes.
+    """Discovery of a DDS domain: updates the graph, and announces this process's nodes.
 
     Attributes:
         graph: Graph of the other processes.
@@ -131,10 +134,10 @@ class Discovery:
     """
 
     def __init__(self, participant: Participant, domain: int) -> None:
-        """Start discovery; `look` reads its results.
+        """Start discovery; `look` processes its results.
 
         Args:
-            participant: Ours.
+            participant: This process's participant.
             domain: Number of the domain.
         """
         self._participant = participant
@@ -176,30 +179,30 @@ class Discovery:
             self._writer.close()
 
     def start(self, report: Callable[[GraphEntity | Process | None, bool], None]) -> None:
-        """Call back from now on for every arrival and departure."""
+        """Call `report` from now on for every added or removed node, endpoint or process."""
         self._report = report
         self._changed = self._look_soon
         self._look_soon()
 
     @property
     def participants(self) -> int:
-        """Return the number of participants."""
+        """Number of known participants."""
         return len(self._names)
 
     @property
     def is_complete(self) -> bool:
-        """Whether every participant has announced its endpoints, and its nodes if any."""
+        """Whether every participant has announced its endpoints, and its nodes if it has any."""
         has_spoken = self._names.keys() <= self._speaking
         return has_spoken and self._informing.keys() <= self._nodes.keys()
 
     def wait(self, seconds: float) -> bool:
-        """Wait until something has changed, without callbacks."""
+        """Wait until something has changed; return False at the timeout. No callback is called."""
         changed = self._is_due.wait(seconds)
         self._is_due.clear()
         return changed
 
     def gid(self, writer: int) -> bytes:
-        """Return a writer's GUID by the library's number for it; b"" if unknown."""
+        """Return the GUID of a writer, given by its number in the library; b"" if unknown."""
         if writer not in self._gids:
             self.look()
         return self._gids.get(writer, b"")
@@ -223,7 +226,7 @@ class Discovery:
     # On the loop
 
     def look(self) -> None:
-        """Process what the built-in topics have received."""
+        """Process the messages that the built-in topics have received."""
         if self._participants is None:
             return
         # Participants first: an endpoint of an unknown participant has no process to belong to.
@@ -293,14 +296,14 @@ class Discovery:
         self._show(key)
 
     def _show(self, key: tuple[str, bytes]) -> None:
-        """Add an endpoint to the graph, under its node if known."""
+        """Add an endpoint to the graph, under its node if that is known."""
         found = self._found[key]
         nodes = self._nodes.get(found.participant, ({}, []))[0]
         node = nodes.get(key[1]) or self._node_of(found.participant)
         self._exchange(_key(key), replace(found.entity, node=node))
 
     def _node_of(self, participant: bytes) -> str:
-        """Return a node name for a participant that announces no nodes."""
+        """Return a name that stands for the node of a participant that announces no nodes."""
         # One node in the process: every endpoint is its own, also before the list names them.
         only = self._nodes.get(participant, ({}, []))[1]
         if len(only) == 1:
@@ -322,7 +325,7 @@ class Discovery:
         self._exchange(f"process {participant.hex()}", None)
 
     def _exchange(self, key: str, new: GraphEntity | Process | None) -> None:
-        """Replace the entry of a key, and report both."""
+        """Replace the entry of a key in the graph, and report the change."""
         old = self.graph.get(key)
         if old == new:
             return
@@ -371,7 +374,7 @@ class Discovery:
     # What we say
 
     def show_node(self, name: str) -> Callable[[], None]:
-        """Announce one of our nodes until the returned function is called."""
+        """Announce one of this process's nodes; return a function that ends this."""
         self._own.setdefault(name, (set(), set()))
         self._say()
 
@@ -382,7 +385,7 @@ class Discovery:
         return hide
 
     def show_endpoint(self, node: str, role: str, gid: bytes) -> Callable[[], None]:
-        """Announce an endpoint of one of our nodes until the returned function is called."""
+        """Announce an endpoint of one of this process's nodes; return a function that ends this."""
         which = 1 if role == PUBLISHER else 0
         self._own.setdefault(node, (set(), set()))[which].add(gid)
         self._say()
@@ -417,7 +420,7 @@ def _key(key: tuple[str, bytes]) -> str:
 
 
 def _all(reader: Any) -> list[Any]:
-    """Return everything a reader has received."""
+    """Return all messages that a reader of a built-in topic has received."""
     found: list[Any] = []
     while taken := reader.take(256):
         found += taken
@@ -430,7 +433,7 @@ def _is_alive(one: Any) -> bool:
 
 
 def _described(qos: Any) -> tuple[Quality, str]:
-    """Return an endpoint's QoS, and the hash of its type if it is announced."""
+    """Return an endpoint's quality of service, and its type hash ("" if not announced)."""
     policies = {policy.__scope__: policy for policy in qos}
     history = policies.get("History")
     quality = Quality(

@@ -37,20 +37,20 @@ from tftool.world.link.seam import (
 )
 
 ALONE: Final = seconds(2)
-"""How long to look for others where none is heard of."""
+"""Nanoseconds to search for other processes if there is no sign of any."""
 
 INTRODUCED: Final = seconds(6)
-"""How long to wait for those of this machine that are known to be there."""
+"""Nanoseconds to wait for processes of this machine whose ports are open."""
 
 SETTLED: Final = 0.3
-"""Seconds without news after which all that is there is taken to be known."""
+"""Seconds without a change after which all existing processes count as known."""
 
 _RELIABILITY: Final = 11
-"""The library's number of that policy."""
+"""Number of the policy RELIABILITY in the library."""
 
 
 class DdsMiddleware(Middleware):
-    """This process in a ROS 2 graph over DDS; its session is the GUID of its participant.
+    """This process's part in a ROS 2 graph over DDS; its session name is its participant's GUID.
 
     A stopped process cannot be distinguished from a missing one, so none is `unanswering`. Frames
     are not listed: command lines are completed from zenoh sessions only.
@@ -121,11 +121,11 @@ class DdsMiddleware(Middleware):
 
     @property
     def lost(self) -> int:
-        """Messages dropped because the inbox was full."""
+        """Number of messages dropped because the inbox was full or they were too large."""
         return self._participant.inbox.lost + self._participant.oversized
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Call back on `loop` from now on, and report changes of the graph."""
+        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
         self.watcher = watcher
         # The watcher is there first: waiting calls are reported to it.
         self._participant.inbox.start(loop)
@@ -144,7 +144,7 @@ class DdsMiddleware(Middleware):
         self.say_once(sentence, sentence)
 
     def close(self) -> None:
-        """Send buffered messages, and leave."""
+        """Send queued messages, and leave the graph."""
         # Before the participant: the library deletes the readers together with it.
         for listening in [one for several in self._readers.values() for one in several]:
             listening.close()
@@ -154,12 +154,12 @@ class DdsMiddleware(Middleware):
     # Shown entities
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Announce this process."""
+        """Announce this process; see `seam.Middleware.process`."""
         self._participant.tell(names.process_data(process))
         return nothing
 
     def node(self, name: str) -> Callable[[], None]:
-        """Announce a node."""
+        """Announce a node; see `seam.Middleware.node`."""
         if self._options.read_only:
             return nothing
         return self._discovery.show_node(node_name(name))
@@ -167,7 +167,7 @@ class DdsMiddleware(Middleware):
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Announce that a node subscribes to a topic, so that its readers are the node's."""
+        """Announce that a node subscribes to a topic, so that its reader counts as the node's."""
         claim = _Claim(node_name(node), name, ros_type, quality)
         self._claims.append(claim)
         for one in self._readers.get((name, ros_type), ()):
@@ -181,7 +181,7 @@ class DdsMiddleware(Middleware):
         return hide
 
     def _assign(self, listening: "_Listening") -> None:
-        """Announce a reader as one of the node that declared the subscription."""
+        """Announce a reader as one of the node that subscribes to its topic."""
         listening.hide()
         # ROS 2 lists a reader under one node: the first one that claims it.
         listening.hide = nothing
@@ -196,7 +196,7 @@ class DdsMiddleware(Middleware):
     # Topics
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> TopicWriter:
-        """Publish a topic as a node of this process."""
+        """Create a publisher of a topic for a node of this process."""
         kind = self._kind(ros_type)
         if self._options.read_only:
             raise LinkError("a read-only process publishes nothing")
@@ -214,7 +214,7 @@ class DdsMiddleware(Middleware):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with other processes' messages."""
+        """Call `on_message` with other processes' messages on a topic."""
         listening = _Listening(self, name, ros_type, on_message, is_latched=is_latched)
         try:
             listening.open(is_reliable=self._asks_reliable(name, ros_type))
@@ -234,7 +234,7 @@ class DdsMiddleware(Middleware):
         return stop
 
     def _asks_reliable(self, name: str, ros_type: str) -> bool:
-        """Whether a reader requests reliability: for tf2 yes, others accept any offer."""
+        """Return whether a reader requests reliability: for tf2, or if all writers offer it."""
         if name in ("tf", "tf_static"):
             return True
         # A reader that asks for more than is offered gets nothing at all.
@@ -248,7 +248,7 @@ class DdsMiddleware(Middleware):
         *,
         is_reliable: bool,
     ) -> TopicReader:
-        """Create a reader for a subscriber."""
+        """Create a reader of a subscribed topic."""
         quality = Quality(is_reliable=is_reliable, is_latched=listening.is_latched)
         return self._participant.reader(
             names.TOPIC + listening.name,
@@ -259,7 +259,7 @@ class DdsMiddleware(Middleware):
         )
 
     def sender(self, sample: DdsSample) -> bytes:
-        """Return the GUID of a message's writer."""
+        """Return the GUID of the writer that sent a message."""
         return self._discovery.gid(sample.writer)
 
     def _kind(self, ros_type: str) -> type[Raw]:
@@ -300,7 +300,7 @@ class DdsMiddleware(Middleware):
         return leave
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Call a service as a node of this process."""
+        """Create a client of a service for a node of this process."""
         return CycloneClient(self._services, name, ros_type)
 
     # What others show
@@ -313,7 +313,7 @@ class DdsMiddleware(Middleware):
             self._tell_departure(found)
 
     def _tell_departure(self, gone: GraphEntity) -> None:
-        """Report that a publisher of transforms has left."""
+        """Log that a publisher of transforms has left."""
         if gone.kind != PUBLISHER or gone.name != "tf":
             return
         # It may only have become known under its node's name.
@@ -325,7 +325,7 @@ class DdsMiddleware(Middleware):
             )
 
     def _compare(self, found: GraphEntity | Process) -> None:
-        """Report why an endpoint and ours do not connect, if so."""
+        """Log why a publisher and a subscription to tf of this process are incompatible, if so."""
         if not isinstance(found, GraphEntity) or found.kind != PUBLISHER:
             return
         # tf2's listeners ask for a fixed quality; other readers lower theirs.
@@ -354,7 +354,7 @@ class DdsMiddleware(Middleware):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Claim:
-    """A node's declared subscription; equal ones are distinct."""
+    """Subscription that a node has declared; equal ones are distinct."""
 
     node: str
     name: str
@@ -363,7 +363,7 @@ class _Claim:
 
 
 class _Listening:
-    """Reader of a topic; created again with lower QoS if it requested too much."""
+    """Reader of a topic, which is created again with lower QoS if it requested too much."""
 
     def __init__(
         self,
@@ -384,18 +384,18 @@ class _Listening:
         self._is_closed = False
 
     def open(self, *, is_reliable: bool) -> None:
-        """Create the reader."""
+        """Create the reader of the topic."""
         self.reader = self._middleware.open_reader(self, self._arrived, is_reliable=is_reliable)
 
     def close(self) -> None:
-        """Close the reader."""
+        """Close the reader of the topic."""
         self._is_closed = True
         self.hide()
         if self.reader is not None:
             self.reader.close()
 
     def refused(self, policy: int) -> None:
-        """Request less if a publisher offers less."""
+        """Create the reader again without reliability, if a publisher does not offer it."""
         # Less durability would lose earlier messages in silence, and tf2's topics keep their
         # quality.
         if self._is_closed or self.name in ("tf", "tf_static") or policy != _RELIABILITY:

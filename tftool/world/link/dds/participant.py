@@ -1,6 +1,6 @@
-"""This process as a DDS participant: readers and writers, and their threads.
+"""This process as a DDS participant: its readers and writers, and their threads.
 
-`cyclonedds` is imported with this module, and this module when `DdsReach` joins. Callbacks on the
+`cyclonedds` is imported with this module, and this module when `DdsReach` joins. Callbacks in the
 library's threads go through an inbox to the event loop; written data goes through an outbox.
 """
 
@@ -33,19 +33,20 @@ from tftool.world.link.seam import nothing
 from tftool.world.log import Repeats
 
 _MOST: Final = 160
-"""Characters of a complaint that are passed on: the bytes of the packet follow them."""
+"""Longest part of an error that is passed on; the bytes of the packet follow it."""
 
 _STAMP: Final = re.compile(r"^[\d.]+ (\[\w*\])?\s*")
 _NUMBER: Final = re.compile(r"[0-9a-f.]*\d[0-9a-f.]*")
 
 
 class LibraryLog:
-    """The library's error output, read through a pipe and passed to listeners.
+    """Error output of the DDS library, read through a pipe and passed to listeners.
 
-    The library has no function that redirects them: a domain writes to C's `stderr` at the time of
-    its creation. During that time the variable names our pipe. The library's end of the pipe never
-    blocks, and text that does not fit is dropped: the library holds locks while it writes, so
-    neither a full pipe nor Python's own lock, as in a callback from C, may stop it.
+    The library has no function that redirects its errors: a domain writes to C's `stderr` as it was
+    when the domain was created. During that time, the variable `stderr` refers to our pipe. The
+    library's end of the pipe never blocks, and text that does not fit is dropped: the library holds
+    locks while it writes, so neither a full pipe nor Python's own lock, as in a callback from C,
+    may stop it.
     """
 
     def __init__(self) -> None:
@@ -55,7 +56,7 @@ class LibraryLog:
         self._stream: int | None = None
 
     def listen(self, callback: Callable[[str], object]) -> Callable[[], None]:
-        """Call `callback` in another thread with sentences to print.
+        """Call `callback`, in another thread, with sentences for the user.
 
         Returns:
             A function that ends this.
@@ -71,7 +72,7 @@ class LibraryLog:
 
     @contextmanager
     def taking(self) -> Iterator[None]:
-        """Capture the errors of a domain created in this block, where C allows it."""
+        """Capture the errors of a domain created in this block, where C permits it."""
         try:
             c = ctypes.CDLL(None)
             stderr = ctypes.c_void_p.in_dll(
@@ -90,7 +91,7 @@ class LibraryLog:
             stderr.value = before
 
     def _open(self, c: ctypes.CDLL) -> int:
-        """Return the C stream to read; it stays open, as domains continue to write to it."""
+        """Return the C stream to write to; it stays open, as domains continue to use it."""
         if self._stream is None:
             # Never closed: the library may write at any time, also while the process ends.
             read, write = os.pipe()
@@ -120,26 +121,26 @@ class LibraryLog:
 
 
 LIBRARY_LOG: Final = LibraryLog()
-"""One for the process, as its `stderr` is."""
+"""Only instance, because a process has one `stderr`."""
 
 
 LARGEST: Final = 64 * 1024 * 1024
-"""Bytes of the largest message that is taken in."""
+"""Largest received message in bytes; larger ones are dropped."""
 
 AT_ONCE: Final = 256
-"""How many messages a reader hands over at a time."""
+"""Most messages taken from a reader at once."""
 
 PATIENCE: Final = 1_000_000_000
-"""Nanoseconds a reliable writer waits for a reader that has not taken what came before."""
+"""Nanoseconds that a reliable writer waits for a reader that has not taken earlier messages."""
 
 
 @dataclass(frozen=True, slots=True)
 class DdsSample:
-    """A received message.
+    """Received message.
 
     Attributes:
-        payload: CDR.
-        writer: The library's number of the writer that sent it.
+        payload: Message in CDR (ROS 2's serialised form).
+        writer: Number of the writer in the library.
     """
 
     payload: bytes
@@ -147,17 +148,17 @@ class DdsSample:
 
 
 class Domains:
-    """Domains of this process: the library has one configuration for each."""
+    """DDS domains in use by this process: the library has one configuration for each."""
 
     def __init__(self) -> None:
         self._held: dict[int, tuple[Any, str, int]] = {}
         self._lock = threading.Lock()
 
     def enter(self, number: int, network: Network) -> None:
-        """Use a domain; it is closed after as many calls of `leave`.
+        """Count one more use of a domain, opening it at the first; `leave` ends a use.
 
         Raises:
-            LinkError: If the domain exists with another configuration, or cannot be made.
+            LinkError: If the domain is open with another configuration, or cannot be opened.
         """
         config = network.xml()
 
@@ -178,7 +179,7 @@ class Domains:
             self._held[number] = made, config, count + 1
 
     def leave(self, number: int) -> None:
-        """End the use of a domain."""
+        """Count one use of a domain less; close the domain after the last."""
         with self._lock:
             made, config, count = self._held.pop(number)
             if count > 1:
@@ -191,25 +192,25 @@ _DOMAINS: Final = Domains()
 
 
 class Participant:
-    """Everything open in one domain.
+    """Participant in one DDS domain, with its readers and writers.
 
     Attributes:
-        entity: The library's participant.
-        gid: GUID, 16 bytes.
-        oversized: Messages that were larger than `LARGEST`.
+        entity: Participant object of the library.
+        gid: GUID of 16 bytes.
+        oversized: Number of received messages that were larger than `LARGEST`.
     """
 
     def __init__(self, domain: int, network: Network, name: str, user_data: bytes) -> None:
-        """Create the participant.
+        """Join a domain.
 
         Args:
             domain: Number of the domain.
-            network: Network on which to look for others.
-            name: Name shown to others.
-            user_data: User data sent with it.
+            network: Network in which to search for others.
+            name: Name that others see.
+            user_data: User data that others see.
 
         Raises:
-            LinkError: If there is no way in.
+            LinkError: If the domain cannot be joined.
         """
         self._domain = domain
         self.oversized = 0
@@ -233,7 +234,7 @@ class Participant:
         self.gid: bytes = self.entity.guid.bytes
 
     def close(self) -> None:
-        """Send buffered messages, and leave; no callback follows."""
+        """Send queued messages, and leave the domain; no callback follows."""
         self.inbox.close()
         self._outbox.close()
         for close in self._closing:
@@ -254,14 +255,14 @@ class Participant:
         on_sample: Callable[[DdsSample], object],
         on_refused: Callable[[int], object] | None = None,
     ) -> "TopicReader":
-        """Call `on_sample` on the loop with others' messages.
+        """Create a topic's reader, which calls `on_sample` in the event loop with others' messages.
 
         Args:
-            topic: The name of the topic in DDS.
+            topic: Name of the topic in DDS.
             kind: Class of the messages.
             quality: Requested quality of service.
-            on_sample: Called with every message.
-            on_refused: Called with the number of the policy that makes a writer incompatible.
+            on_sample: Function called with every message.
+            on_refused: Function called with the number of the policy that excludes a writer.
         """
         inbox, participant = self.inbox, self
 
@@ -297,10 +298,10 @@ class Participant:
         """Create a writer of a topic.
 
         Args:
-            topic: The name of the topic in DDS.
+            topic: Name of the topic in DDS.
             kind: Class of the messages.
             quality: Offered quality of service.
-            user_data: User data sent with it: the hash of its type.
+            user_data: User data of the writer: the hash of its type.
         """
         kept = Policy.History.KeepLast(max(1, quality.depth))
         # Samples not kept for late readers are kept until the present ones have them.
@@ -317,7 +318,7 @@ class Participant:
 
         Args:
             topic: The topic.
-            on_change: Called, on a thread of the library's, when there is something to take.
+            on_change: Function called, in a thread of the library, when there is a new message.
         """
 
         class Telling(Listener):  # type: ignore[misc]
@@ -327,11 +328,11 @@ class Participant:
         return BuiltinDataReader(self.entity, topic, listener=Telling())
 
     def tell(self, user_data: bytes) -> None:
-        """Change the participant's user data."""
+        """Replace the participant's user data, which others see."""
         self.entity.set_qos(Qos(Policy.Userdata(user_data)))
 
     def at_close(self, close: Callable[[], None]) -> None:
-        """Register a call before the participant is deleted."""
+        """Register a function to call before the participant is deleted."""
         self._closing.append(close)
 
     def _topic(self, name: str, kind: type[Raw]) -> Any:
@@ -345,7 +346,7 @@ class Participant:
         return self._topics[key]
 
     def _take(self, reader: Any, on_sample: Callable[[DdsSample], object]) -> None:
-        """Pass on all received messages (in one of the library's threads)."""
+        """Pass on all received messages of a reader; called in the library's threads."""
         while True:
             taken = reader.take(AT_ONCE)
             for one in taken:
@@ -362,30 +363,30 @@ class Participant:
 
 
 class TopicReader:
-    """A reader, until it is closed."""
+    """Reader of a topic, which can be closed."""
 
     def __init__(self, made: Any) -> None:
         self._made = made
         self.gid: bytes = made.guid.bytes
 
     def close(self) -> None:
-        """Close the reader."""
+        """Close the reader; no further message is passed on."""
         made, self._made = self._made, None
         if made is not None:
             _end(made)
 
     @property
     def writers(self) -> int:
-        """Return the number of matched writers."""
+        """Number of writers that match this reader."""
         return 0 if self._made is None else len(self._made.get_matched_publications())
 
 
 class TopicWriter:
-    """A writer, until it is closed; as a publisher see `seam.WirePublisher`.
+    """Writer of a topic, which can be closed; see `seam.WirePublisher`.
 
     Attributes:
-        gid: GUID, 16 bytes.
-        hide: Withdraws the announcement of the node that it belongs to.
+        gid: GUID of 16 bytes.
+        hide: Function that ends the announcement of this writer as its node's.
     """
 
     def __init__(self, made: Any, kind: type[Raw], outbox: Outbox, *, keeps: bool) -> None:
@@ -398,16 +399,16 @@ class TopicWriter:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a reader, or be kept for later ones."""
+        """Whether a message would reach a reader, or be stored for late ones."""
         return self._made is not None and (self._keeps or self.readers > 0)
 
     @property
     def readers(self) -> int:
-        """Return the number of matched readers."""
+        """Number of readers that match this writer."""
         return int(self._made.get_publication_matched_status().current_count)
 
     def put(self, payload: bytes, stamp: Stamp = 0) -> None:
-        """Queue a message for writing; DDS stamps it by its own clock.
+        """Queue a message for sending; DDS stamps it by its own clock.
 
         Raises:
             LinkError: If the participant is closed.
@@ -417,7 +418,7 @@ class TopicWriter:
             self._outbox.put(lambda: made.write(self._kind(payload)), len(payload))
 
     def close(self) -> None:
-        """Close the writer after writing everything queued."""
+        """Close the writer when everything queued is sent."""
         made, self._made = self._made, None
         if made is None:
             return
@@ -430,9 +431,9 @@ class TopicWriter:
 
 
 def _end(entity: Any) -> None:
-    """Delete a library object now, whatever still refers to it.
+    """Delete an object of the library now, even if something still refers to it.
 
-    The library itself does so, and only so, when the last reference is gone.
+    The library itself only does this when the last reference is gone.
     """
     entity.__del__()
 

@@ -1,4 +1,4 @@
-"""Options of a DDS link and their contradictions."""
+"""Options of a DDS link, and checks that they do not contradict each other."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,10 +20,10 @@ NO_WHEEL: Final = (
 
 @dataclass(frozen=True, slots=True)
 class DdsReach(Reach):
-    """Reach of DDS beyond the loopback; none by default.
+    """Networks that a DDS link may use; by default only the loopback of this machine.
 
     Attributes:
-        places: Interfaces to use and addresses to go to.
+        places: Interfaces to use, and addresses to connect to.
     """
 
     OPTIONS: ClassVar[Mapping[str, LinkOption]] = {
@@ -52,11 +52,11 @@ class DdsReach(Reach):
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "DdsReach":
-        """Combine the values of the options; see `Reach.read`."""
+        """Return the reach that the given options describe; see `Reach.read`."""
         return cls(tuple(given.get("dds_on") or ()))
 
     def place(self, domain: int) -> str:
-        """Return the domain and its peers or interfaces as text."""
+        """Return the domain and its interfaces or addresses as text."""
         return f"DDS domain {domain} on {', '.join(self.places) or 'the loopback'}"
 
     def join(self, options: "Options") -> "Middleware":
@@ -64,7 +64,7 @@ class DdsReach(Reach):
 
         Raises:
             UsageError: If the extra `dds` is not installed.
-            LinkError: If there is no way in.
+            LinkError: If the domain cannot be joined.
         """
         try:
             from tftool.world.link.dds.middleware import DdsMiddleware

@@ -1,6 +1,6 @@
-"""DDS's network: ROS 2's environment variables and options, as Cyclone's configuration.
+"""Network settings of DDS: ROS 2's environment variables and options, as Cyclone's configuration.
 
-Nothing here sends anything. By default everything stays on the loopback of this machine; the
+This module sends nothing. By default all messages stay on the loopback of this machine; the
 library's own defaults would send to the whole network at once.
 """
 
@@ -17,10 +17,10 @@ from tftool.base.errors import LinkError
 LOOPBACK: Final = "127.0.0.1"
 
 MOST_PARTICIPANTS: Final = 120
-"""How many participants of one machine a domain has numbers for."""
+"""Largest number of participants of one machine in a domain."""
 
 _LARGE_PACKETS: Final = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>62000B</FragmentSize>"
-"""The loopback carries in one piece what a cable takes in forty."""
+"""Setting for large packets on the loopback, which carries in one what a cable needs forty for."""
 
 _RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
@@ -30,10 +30,10 @@ class Network:
     """Network in which a participant searches for others.
 
     Attributes:
-        interfaces: Names or addresses of the interfaces to use; none for those by which
-            its peers are reached.
-        peers: Addresses it goes to.
-        config: Cyclone's configuration that the user has set, taken in place of ours.
+        interfaces: Names or addresses of the interfaces to use; empty for the interfaces on the
+            routes to the peers.
+        peers: Addresses to connect to.
+        config: Cyclone's configuration set by the user, which replaces ours; "" if not set.
         told: Notices for the user, as sentences.
     """
 
@@ -53,7 +53,7 @@ class Network:
         return not (self.interfaces or self.peers or self.config)
 
     def xml(self) -> str:
-        """Return Cyclone's configuration."""
+        """Return the settings as Cyclone's configuration in XML."""
         if self.config:
             return self.config
         used = self.interfaces or ((LOOPBACK,) if self.is_loopback else _ways_to(self.peers))
@@ -78,14 +78,15 @@ class Network:
 
 
 def network(places: Iterable[str], environment: Mapping[str, str] | None = None) -> Network:
-    """Return where to search for others.
+    """Return the network in which to search for others.
 
     Args:
-        places: Interfaces and addresses that the user named.
-        environment: ROS 2's variables; those of this process when None.
+        places: Interfaces and addresses that the user gave.
+        environment: Environment variables of ROS 2; None for this process's.
 
     Raises:
-        LinkError: If a place is none, or the environment forbids it.
+        LinkError: If a place is neither an interface nor an address, or the environment forbids
+            discovery.
     """
     variables = os.environ if environment is None else environment
     interfaces: list[str] = []
@@ -122,10 +123,10 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
 
 
 def _confined(variables: Mapping[str, str]) -> str:
-    """Return the variable that limits ROS 2 to this machine; "" if none does.
+    """Return the name of the variable that limits ROS 2 to this machine; "" if none does.
 
     Raises:
-        LinkError: If one forbids discovery altogether, or is none of ROS 2's words.
+        LinkError: If a variable forbids discovery altogether, or has a value unknown to ROS 2.
     """
     reach = variables.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip().upper()
     if reach and reach not in _RANGES:
@@ -144,10 +145,10 @@ def _confined(variables: Mapping[str, str]) -> str:
 
 
 def _checked(place: str) -> str:
-    """Check an interface's name or address, or resolve a host's name.
+    """Return an interface's name, or an address, resolved if it is a host's name.
 
     Raises:
-        LinkError: If the value is neither.
+        LinkError: If the text is none of these.
     """
     if place in _interfaces():
         return place
@@ -173,7 +174,7 @@ def _interfaces() -> list[str]:
 
 
 def _is_own(place: str) -> bool:
-    """Whether a place is an interface of this machine, by name or address."""
+    """Return whether a place is an interface of this machine, by name or address."""
     if place in _interfaces():
         return True
     try:
@@ -200,15 +201,15 @@ def _is_loopback(place: str) -> bool:
 
 
 def _own(used: Iterable[str]) -> list[str]:
-    """Return the addresses among interfaces."""
+    """Return those of some interfaces that are given by address."""
     return [one for one in used if one not in _interfaces()]
 
 
 def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
-    """Return our own addresses on the routes to some peers, without sending anything.
+    """Return this machine's addresses on the routes to some peers, without sending anything.
 
     Raises:
-        LinkError: If there is no way to one.
+        LinkError: If there is no route to a peer.
     """
     found = []
     for peer in peers:
@@ -231,17 +232,17 @@ def _interface(place: str) -> str:
 
 
 def other_domains(domain: int) -> list[int]:
-    """Return domains in which other programs of this machine listen, by ports (Linux only)."""
+    """Return the other domains in use on this machine, found by open ports (Linux only)."""
     return sorted(set(_listening()) - {domain})
 
 
 def participants_here(domain: int) -> int:
-    """Count this machine's participants in a domain, ours included (Linux only)."""
+    """Count this machine's participants in a domain, with this process's (Linux only)."""
     return _listening().get(domain, 0)
 
 
 def _listening() -> dict[int, int]:
-    """Count the participants in each domain of this machine; empty if unknown."""
+    """Return the number of this machine's participants by domain; empty if unknown."""
     ports: set[int] = set()
     for table in ("/proc/net/udp", "/proc/net/udp6"):
         try:

@@ -1,4 +1,4 @@
-"""Client of one server in its own thread: connects, subscribes, and reconnects.
+"""Client of one Foxglove server in its own thread: connects, subscribes, and reconnects.
 
 `websockets` is imported with this module, and this module when `FoxgloveReach` joins. Received data
 goes through an inbox to the event loop of the world.
@@ -36,49 +36,49 @@ from tftool.world.link.foxglove.protocol import (
 from tftool.world.link.queues import Inbox
 
 PAUSES: Final = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
-"""Seconds before each further attempt to connect again; the last one from then on."""
+"""Seconds before each further attempt to connect; the last number is repeated."""
 
 STEADY: Final = 2.0
-"""Seconds after which a connection counts as one that works, and pauses begin anew."""
+"""Seconds after which a connection counts as working, so that the next pauses are short again."""
 
 QUIET: Final = 0.2
-"""Seconds without news after which a server has said what it offers."""
+"""Seconds without a change after which a server's announcements count as complete."""
 
 PATIENCE: Final = 5.0
-"""Seconds to wait for that at most."""
+"""Longest wait in seconds for complete announcements."""
 
 TIMEOUT: Final = 10.0
-"""Seconds for a connection to open; a server that does not answer a ping is as slow at most."""
+"""Longest wait in seconds for a connection to open, and for the response to a ping."""
 
 _NOT_FOXGLOVE: Final = "it speaks WebSocket, but not Foxglove's protocol"
 
 _REFUSED: Final = re.compile(r"unknown channel\D*(\d+)|channel (\d+) is not available", re.I)
-"""Sentences of Foxglove's SDK and of the older foxglove_bridge about a refused subscription."""
+"""Pattern of sentences about a refused subscription: Foxglove's SDK, older foxglove_bridge."""
 
 _AGAIN: Final = 0.05
-"""Seconds before a refused subscription is asked for again."""
+"""Seconds before a refused subscription is requested again."""
 
 _MOST_REFUSED: Final = 5
 """Refusals of one channel after which its subscription is given up."""
 
 _WAITING: Final = 4
-"""Frames that wait unread in `websockets`; then the server has to wait."""
+"""Most unread frames in `websockets`; beyond them the server has to wait."""
 
 
 class FoxgloveData(NamedTuple):
-    """A received message: its channel, and its payload in the server's encoding."""
+    """Received message: its channel, and its bytes in the server's encoding."""
 
     channel: FoxgloveChannel
     payload: bytes
 
 
 class ClientReceiver(NamedTuple):
-    """Callbacks of a client; each is called on the event loop.
+    """Callbacks of a client, which are called in the event loop.
 
     Attributes:
-        changed: Called when the server has come, gone or offers something else.
+        changed: Called when the server was connected or lost, or has changed its announcements.
         data: Called with each message.
-        time: Called with each time the server tells.
+        time: Called with each time that the server sends.
         warn: Called with sentences for the user.
     """
 
@@ -89,15 +89,15 @@ class ClientReceiver(NamedTuple):
 
 
 class _Direct(connect):
-    """A connection to the given address, without following redirects."""
+    """Connection to exactly the given address: redirects are not followed."""
 
     def process_redirect(self, exc: Exception) -> Exception:
-        """Refuse a redirect."""
+        """Refuse a redirect, by returning the exception."""
         return exc
 
 
 class FoxgloveClient:
-    """Connection to one server, renewed whenever it ends, until `close`."""
+    """Client of one server, which reconnects whenever the connection ends, until `close`."""
 
     def __init__(
         self,
@@ -108,14 +108,14 @@ class FoxgloveClient:
         place: str = "",
         pauses: Sequence[float] = PAUSES,
     ) -> None:
-        """Start connecting.
+        """Start to connect, in a new thread.
 
         Args:
-            address: The server's address.
-            inbox: Brings calls to the event loop.
-            receiver: Receiver of the calls.
-            place: The address as sentences show it.
-            pauses: Seconds before each further attempt.
+            address: Address of the server.
+            inbox: Queue of calls to the event loop.
+            receiver: Callbacks.
+            place: Address as sentences show it.
+            pauses: Seconds before each further attempt to connect.
         """
         self._address = address
         self._inbox = inbox
@@ -146,7 +146,7 @@ class FoxgloveClient:
         """Wait until the server has announced its channels.
 
         Raises:
-            LinkError: If the server cannot be reached, or is no Foxglove server.
+            LinkError: If the server cannot be reached, or is not a Foxglove server.
         """
         self._first.wait(TIMEOUT + PATIENCE)
         if self._failure or not self._first.is_set():
@@ -159,7 +159,7 @@ class FoxgloveClient:
 
     @contextlib.contextmanager
     def state(self) -> Iterator[ServerState]:
-        """Return what the server has announced, locked against changes."""
+        """Yield what the server has announced, locked against changes."""
         with self._lock:
             yield self._state
 
@@ -167,9 +167,9 @@ class FoxgloveClient:
         """Subscribe to a topic, now or when the server announces it.
 
         Args:
-            name: The topic without a leading slash.
-            ros_type: Type.
-            again: Whether to subscribe again, for messages that the server keeps.
+            name: Name of the topic, without a leading slash.
+            ros_type: Type of the topic.
+            again: Whether to subscribe again if subscribed, to get messages that the server stores.
         """
         self._call(self._want, (name, ros_type), again)
 
@@ -178,7 +178,7 @@ class FoxgloveClient:
         self._call(self._forget, (name, ros_type))
 
     def close(self) -> None:
-        """Disconnect."""
+        """Disconnect, and wait for the thread's end."""
         self._call(self._stop)
         self._thread.join(TIMEOUT)
 
@@ -204,7 +204,7 @@ class FoxgloveClient:
             self._start(self._connection.close())
 
     async def _live(self) -> None:
-        """Connect, and reconnect, until closed."""
+        """Connect, and reconnect after each loss, until the client is closed."""
         failures = lost = 0
         while not self._is_closed:
             began = self._loop.time()
@@ -232,7 +232,7 @@ class FoxgloveClient:
                 await asyncio.wait_for(self._woken.wait(), pause)
 
     async def _connected(self) -> str:
-        """Read a connection until it ends; return the reason as part of a sentence."""
+        """Connect and read until the connection ends; return the reason, for a sentence."""
         try:
             async with _Direct(
                 self._address,
@@ -262,7 +262,7 @@ class FoxgloveClient:
         return "the server has closed it"
 
     async def _read(self, connection: ClientConnection) -> None:
-        """Process everything received."""
+        """Process the messages of a connection until it ends."""
         self._heard.clear()
         self._subscriptions.clear()
         self._refusals.clear()
@@ -311,7 +311,7 @@ class FoxgloveClient:
             self._tell_change()
 
     def _tell_change(self) -> None:
-        """Report a change; several at once are reported together."""
+        """Report that announcements changed; changes close together are reported once."""
         with self._lock:
             is_due, self._is_change_due = self._is_change_due, True
         if not is_due:
@@ -343,7 +343,7 @@ class FoxgloveClient:
         return ros_topic(self._heard[self._subscriptions[channel]])
 
     def _subscribe(self) -> None:
-        """Subscribe to wanted channels, and drop those that are gone or different."""
+        """Subscribe to wanted channels, and unsubscribe from those that are gone or changed."""
         channels = self._state.channels
         gone = [
             number
@@ -363,10 +363,11 @@ class FoxgloveClient:
             self._send(protocol.request("subscribe", subscriptions=asked))
 
     def _ask_again_later(self, sentence: str) -> bool:
-        """Return whether the sentence refuses a subscription that is asked for again.
+        """Return whether a server's sentence refuses a subscription, which is then requested again.
 
-        Servers made with Foxglove's SDK announce a channel a moment before they know it: a quick
-        subscription is refused, and nothing would ever come.
+        Servers made with Foxglove's SDK announce a channel slightly before they accept
+        subscriptions to it. A quick subscription is then refused, and without a second one no
+        message would ever come.
         """
         found = _REFUSED.search(sentence)
         channel = int(found[1] or found[2]) if found else None
@@ -404,7 +405,7 @@ class FoxgloveClient:
 
 
 def _of_closed(error: ConnectionClosed) -> str:
-    """Return why a connection ended."""
+    """Return the reason why a connection ended, for a sentence."""
     close = error.rcvd or error.sent
     if close is None:
         return "it broke off"
@@ -416,7 +417,7 @@ def _of_closed(error: ConnectionClosed) -> str:
 
 
 def _of_failure(error: Exception) -> str:
-    """Return why no connection was made."""
+    """Return the reason why no connection was made, for a sentence."""
     if isinstance(error, ssl.SSLCertVerificationError):
         return (
             f"its certificate is not trusted: {error.verify_message} (SSL_CERT_FILE=FILE names "

@@ -1,4 +1,4 @@
-"""A Foxglove WebSocket server as a link's middleware, which is read-only."""
+"""Foxglove WebSocket server as a link's middleware, for reading only."""
 
 import asyncio
 from collections.abc import Callable
@@ -26,18 +26,18 @@ from tftool.world.link.seam import Arrived, Middleware, Watcher
 CLOCK: Final = ("clock", "rosgraph_msgs/msg/Clock")
 
 MOST_LEARNT: Final = 1_000_000
-"""Characters of the definitions from which types are learnt: to read them takes a second."""
+"""Characters of definitions that are registered; to read as many takes a second."""
 
 _TIME_GID: Final = b"time"
 
 
 class FoxgloveMiddleware(Middleware):
-    """This process as a client of a server, which does not list its clients."""
+    """This process as a client of a Foxglove server, which does not list its clients."""
 
     NO_WRITING: ClassVar[str] = "a Foxglove server is only read here: nothing is published to it"
 
     def __init__(self, options: Options, reach: FoxgloveReach) -> None:
-        """Connect; see `seam.Middleware`."""
+        """Connect to the server; see `seam.Middleware`."""
         super().__init__(Graph("tftool", options.domain))
         self._domain = options.domain
         self._place = reach.place(options.domain)
@@ -59,18 +59,18 @@ class FoxgloveMiddleware(Middleware):
 
     @property
     def lost(self) -> int:
-        """Messages dropped because the inbox was full."""
+        """Number of messages dropped because the inbox was full."""
         return self._inbox.lost
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Call back on `loop` from now on, and report changes of the graph."""
+        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
         self.watcher = watcher
         self._inbox.start(loop)
         for one in self.graph.entities():
             self.report(one, True)
 
     def close(self) -> None:
-        """Disconnect."""
+        """Disconnect from the server."""
         self._inbox.close()
         self._client.close()
 
@@ -84,7 +84,7 @@ class FoxgloveMiddleware(Middleware):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with other processes' messages."""
+        """Call `on_message` with the server's messages on a topic."""
         topic = name, ros_type
         ears = self._ears.setdefault(topic, [])
         ears.append(on_message)
@@ -122,7 +122,7 @@ class FoxgloveMiddleware(Middleware):
             on_message(arrived)
 
     def _conversion(self, channel: FoxgloveChannel) -> Callable[[bytes], bytes] | None:
-        """Return the conversion of a channel's payloads to CDR; None if there is none."""
+        """Return the function that converts a channel's messages to CDR; None if there is none."""
         if channel not in self._conversions:
             self._conversions[channel] = None
             try:
@@ -137,7 +137,7 @@ class FoxgloveMiddleware(Middleware):
     # What the server shows
 
     def _changed(self, _: None) -> None:
-        """Update the graph with the server's announcements."""
+        """Update the graph from the server's announcements."""
         with self._client.state() as state:
             self._learn_types(state)
             found = self._shown(state)
@@ -159,7 +159,7 @@ class FoxgloveMiddleware(Middleware):
                 self.report(new, True)
 
     def _learn_types(self, state: ServerState) -> None:
-        """Register types known only to the server, so that they can be recorded and listed."""
+        """Register types that only the server defines, so that they can be recorded and listed."""
         for channel in state.channels.values():
             size = len(channel.definition) + len(channel.type)
             if channel.type in self._learnt or self._learnt_size + size > MOST_LEARNT:
@@ -172,7 +172,7 @@ class FoxgloveMiddleware(Middleware):
                 self._warn(f"The definition of '{channel.type}' cannot be used: {error}.")
 
     def _shown(self, state: ServerState) -> dict[str, GraphEntity]:
-        """Return all graph entries by our own keys."""
+        """Return all entries for the graph, by keys of our own."""
         found: dict[str, GraphEntity] = {}
         types: dict[str, str] = {}
         nodes: set[str] = set()

@@ -27,25 +27,25 @@ from tftool.recordings.message_conversion import as_ros2
 from tftool.recordings.schema_text import same_layout, short
 
 SUBPROTOCOLS: Final = ("foxglove.sdk.v1", "foxglove.websocket.v1")
-"""Names by which servers know the protocol, the newer one first."""
+"""Names of the protocol's versions for the connection, the newer one first."""
 
 LARGEST: Final = 64 * 1024 * 1024
-"""Bytes of the largest message that is taken in."""
+"""Largest message in bytes; a larger one ends the connection."""
 
 LARGEST_TEXT: Final = 32 * 1024 * 1024
-"""Characters of the largest JSON that is read."""
+"""Longest JSON message in characters."""
 
 MOST_CHANNELS: Final = 5_000
-"""Channels that are remembered; a server's further ones are ignored."""
+"""Most channels of a server that are stored; further ones are ignored."""
 
 MOST_NODES: Final = 10_000
-"""Publishers, subscribers and services that are remembered of a server, each."""
+"""Most publishers, subscribers and services of a server that are stored, each."""
 
 MOST_DEFINITIONS: Final = 32 * 1024 * 1024
-"""Characters of all definitions of types that are remembered."""
+"""Most characters of definitions that are stored."""
 
 MOST_WARNINGS: Final = 10
-"""Sentences of a server for its client that are passed on from one connection."""
+"""Most sentences from a server that are passed on to the user per connection."""
 
 _LONGEST_NAME: Final = 300
 _DATA: Final = struct.Struct("<BIQ")
@@ -54,20 +54,20 @@ _CLOCK: Final = struct.Struct("<4siI")
 
 
 class ProtocolError(Exception):
-    """Error for a message that no Foxglove server sends; the text is part of a sentence."""
+    """Error for a message that violates the protocol; the text is part of a sentence."""
 
 
 @dataclass(frozen=True, slots=True)
 class FoxgloveChannel:
-    """One topic of a server with one schema.
+    """Topic of a server with one schema.
 
     Attributes:
-        number: Number on this connection.
-        topic: The topic, as the server writes it.
-        encoding: Encoding of messages: "cdr", "ros1", "protobuf", "json".
-        type: The type, as the server writes it.
+        number: Number of the channel on this connection.
+        topic: Name of the topic, as the server writes it.
+        encoding: Encoding of the messages: "cdr", "ros1", "protobuf", "json".
+        type: Name of the type, as the server writes it.
         schema_encoding: Language of the definition: "ros2msg", "ros1msg", "protobuf".
-        definition: The definition; "" where it is left out or not remembered.
+        definition: Definition of the type; "" if it is missing or was too long to store.
     """
 
     number: int
@@ -90,8 +90,8 @@ class ServerState:
         subscribers: Names of each topic's subscribers.
         providers: Names of each service's nodes.
         services: Name and type of each service, by its number.
-        warnings: Sentences of the server for its client that were not passed on yet.
-        ignored: Channels above the limit.
+        warnings: Sentences from the server for the user that were not passed on yet.
+        ignored: Number of channels above the limit.
     """
 
     name: str = ""
@@ -107,7 +107,7 @@ class ServerState:
     _warned: int = 0
 
     def take(self, text: str) -> str:
-        """Process one JSON message; return its operation, "" for one without meaning here.
+        """Process one JSON message; return its operation, or "" for one that is not used.
 
         Raises:
             ProtocolError: If the message violates the protocol.
@@ -208,7 +208,7 @@ _CHANGES: Final = {
     "unadvertiseServices": ServerState._drop_services,
     "connectionGraphUpdate": ServerState._take_graph,
 }
-"""What each operation of a server changes; others need no answer."""
+"""Method that processes each operation of a server; other operations are ignored."""
 
 
 def _text(value: Any) -> str:
@@ -224,7 +224,7 @@ def _number(value: Any) -> int:
 
 
 def message_data(frame: bytes) -> tuple[int, bytes] | None:
-    """Return a binary message's subscription and payload; None for other kinds.
+    """Return subscription number and payload of a binary message; None for other kinds.
 
     Raises:
         ProtocolError: If the message ends too early.
@@ -237,7 +237,7 @@ def message_data(frame: bytes) -> tuple[int, bytes] | None:
 
 
 def server_time(frame: bytes) -> Stamp | None:
-    """Return the time in a binary message; None for other kinds.
+    """Return the time in nanoseconds that a binary message contains; None for other kinds.
 
     Raises:
         ProtocolError: If the message is cut off, or the time exceeds 32-bit seconds.
@@ -253,30 +253,30 @@ def server_time(frame: bytes) -> Stamp | None:
 
 
 def clock_message(stamp: Stamp) -> bytes:
-    """Return a rosgraph_msgs/msg/Clock as CDR."""
+    """Return a rosgraph_msgs/msg/Clock message in CDR."""
     return _CLOCK.pack(b"\x00\x01\x00\x00", *divmod(stamp, NANOSECONDS))
 
 
 def request(operation: str, **fields: Any) -> str:
-    """Return a client's message in JSON."""
+    """Return a client's message to the server, as JSON."""
     return json.dumps({"op": operation, **fields})
 
 
 TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
 
 LARGEST_FOREIGN: Final = 2 * 1024 * 1024
-"""Bytes of the largest message of foxglove's own: every second byte may become a transform."""
+"""Largest message in bytes of Foxglove's own types, whose transforms may take two bytes each."""
 
 _PARTS: Final = re.compile(r"^MSG: *(\S+)", re.MULTILINE)
 _ROS1_TRANSFORMS: Final = "tf/msg/tfMessage"
 
 
 class RosTopic(NamedTuple):
-    """A channel as a ROS 2 topic.
+    """ROS 2 topic that corresponds to a channel.
 
     Attributes:
-        name: The topic without a leading slash.
-        type: Type, "sensor_msgs/msg/LaserScan"; the server's name if ROS has none.
+        name: Name of the topic, without a leading slash.
+        type: Type, such as "sensor_msgs/msg/LaserScan"; the server's name if ROS has none.
     """
 
     name: str
@@ -284,7 +284,7 @@ class RosTopic(NamedTuple):
 
 
 def ros_topic(channel: FoxgloveChannel) -> RosTopic:
-    """Return the topic and type for a channel.
+    """Return the ROS topic and type of a channel.
 
     Foxglove reads its own transforms from any topic, so each such channel is a publisher of `tf`,
     or of `tf_static` if its name ends so.
@@ -307,12 +307,12 @@ def _is_foreign(channel: FoxgloveChannel) -> bool:
 
 
 def define(channel: FoxgloveChannel) -> bool:
-    """Register a channel's type by its definition, if unknown; return whether it was.
+    """Register a channel's type from its definition, if unknown; return whether it was registered.
 
-    A definition that changes types we know is not taken over.
+    A definition that would change known types is not registered.
 
     Raises:
-        InputError: If the definition is wrong.
+        InputError: If the definition is invalid.
     """
     full = ros_topic(channel).type
     if channel.encoding != "cdr" or channel.schema_encoding != "ros2msg" or not channel.definition:
@@ -327,10 +327,10 @@ def define(channel: FoxgloveChannel) -> bool:
 
 
 def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
-    """Return the conversion of a channel's payloads to CDR, by known definitions.
+    """Return the function that converts a channel's messages to CDR, by known definitions.
 
     Raises:
-        InputError: If there is none, as a part of a sentence.
+        InputError: If there is no conversion; the text is part of a sentence.
         MalformedMessage: If the type cannot be read.
     """
     if _is_foreign(channel):
@@ -351,10 +351,10 @@ def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
 
 
 def _definitions(channel: FoxgloveChannel) -> Interfaces | None:
-    """Return the server's definitions of a channel's type; None if it gives none.
+    """Return the server's definitions for a channel's type; None if it sends none.
 
     Raises:
-        InputError: If definitions are wrong, contain themselves or have too many fields.
+        InputError: If definitions are invalid, contain themselves or have too many fields.
     """
     if channel.schema_encoding not in ("ros1msg", "ros2msg") or not channel.definition.strip():
         return None

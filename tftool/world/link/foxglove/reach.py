@@ -19,10 +19,10 @@ _ADDRESS: Final = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class FoxgloveReach(Reach):
-    """Reach of a client that reads one server.
+    """Reach of a link that reads one Foxglove server.
 
     Attributes:
-        address: Address of the server, "ws://robot:8765".
+        address: Address of the server, such as "ws://robot:8765".
     """
 
     SCHEMES = ("ws://", "wss://")
@@ -33,14 +33,14 @@ class FoxgloveReach(Reach):
 
     @classmethod
     def at(cls, address: str) -> "FoxgloveReach":
-        """Return the reach to the server at an address; see `Reach.at`."""
+        """Return the reach of the server with an address; None for other words; see `Reach.at`."""
         found = _ADDRESS.fullmatch(address)
         if found is None or not 0 < int(found[1] or 1) < 65536:
             raise UsageError(f"'{address}' is not a server address: write ws://HOST:8765.")
         return cls(address)
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Whether the session is elsewhere: always."""
+        """Return True: the session is always in another process."""
         return True
 
     def place(self, domain: int) -> str:

@@ -1,7 +1,6 @@
-"""zenoh's names for ROS: types and hashes, keys, tokens, attachments.
+"""zenoh's names for ROS: types and hashes, keys, tokens (announcements), attachments.
 
-The names are those of ROS 2 over zenoh (`rmw_zenoh`), so that a ROS 2 node can be
-at the other end.
+The names are those of ROS 2 over zenoh (`rmw_zenoh`), so that the other side can be a ROS 2 node.
 """
 
 import hashlib
@@ -48,14 +47,14 @@ def type_hash(ros_type: str) -> str:
 
 
 def dds_name(ros_type: str) -> str:
-    """Return a type's DDS name: "tf2_msgs/msg/TFMessage" is `tf2_msgs::msg::dds_::TFMessage_`."""
+    """Return a type's DDS name: `tf2_msgs::msg::dds_::TFMessage_` for "tf2_msgs/msg/TFMessage"."""
     parts = ros_type.split("/")
     # What `ros_name` could not read goes back as it came.
     return f"{parts[0]}::{parts[1]}::dds_::{parts[2]}_" if len(parts) == 3 else ros_type
 
 
 def ros_name(dds_type: str) -> str:
-    """Return a type in its usual form; other names are unchanged."""
+    """Return the ROS name of a type from its DDS name; other names are unchanged."""
     parts = dds_type.split("::")
     if len(parts) != 4 or parts[2] != "dds_" or not parts[3].endswith("_"):
         return dds_type
@@ -63,25 +62,25 @@ def ros_name(dds_type: str) -> str:
 
 
 def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
-    """Return the key of a topic's messages or a service's requests.
+    """Return the zenoh key of a topic's messages or a service's requests.
 
     Args:
         domain: Number of the ROS domain.
         name: Name of the topic or service.
-        ros_type: Type.
-        its_hash: The hash that the other side has for the type, which may be of another
-            release; ours if "".
+        ros_type: Type of the topic or service.
+        its_hash: Hash of the type on the other side, which may be of another release; "" for
+            our hash.
     """
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/{its_hash or type_hash(ros_type)}"
 
 
 def any_hash_key(domain: int, name: str, ros_type: str) -> str:
-    """Return the key for reading: Humble uses no hash, and other releases' may differ."""
+    """Return the zenoh key for receiving, with any hash: Humble uses none, and releases differ."""
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 
 def quality(stated: Quality) -> str:
-    """Return a QoS in tokens' form; defaults are left empty."""
+    """Return a quality of service as text for a token; defaults are left empty."""
     reliability = "" if stated.is_reliable else _BEST_EFFORT
     durability = _TRANSIENT_LOCAL if stated.is_latched else ""
     history = _KEEP_ALL if stated.keeps_all else ""
@@ -89,7 +88,7 @@ def quality(stated: Quality) -> str:
 
 
 def read_quality(text: str) -> Quality:
-    """Parse the QoS of a token; missing or unknown parts become defaults."""
+    """Parse the quality of service in a token; missing or unknown parts become defaults."""
     parts = [*text.split(":"), "", "", ""]
     history, _, depth = parts[2].partition(",")
     return Quality(
@@ -107,9 +106,9 @@ def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
     """Return the key of the liveliness token with which rmw_zenoh announces an entity.
 
     Args:
-        entity: The entity; without a type hash it has ours.
+        entity: The entity; without a type hash, it gets our hash.
         node_id: Number of its node within the session.
-        entity_id: Own number within the session; of a node, the same.
+        entity_id: Number of the entity within the session; for a node, the same as `node_id`.
     """
     namespace, _, node = entity.node.rpartition("/")
     parts = [LIVELINESS, str(entity.domain), entity.session, str(node_id), str(entity_id)]
@@ -125,7 +124,7 @@ def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
 
 
 def parse_token(key: str) -> GraphEntity | Process | None:
-    """Parse a token; return None if it is unreadable."""
+    """Parse the key of a token; return None if it is unreadable."""
     if key.startswith(f"{OURS}/"):
         return _parse_process(key)
     parts = key.split("/")
@@ -153,7 +152,7 @@ def parse_token(key: str) -> GraphEntity | Process | None:
 
 
 def process_key(process: Process) -> str:
-    """Return the key of the token that announces a tftool."""
+    """Return the key of the token that announces a tftool process."""
     command = re.sub(r"\W", "_", process.command, flags=re.ASCII)[:64] or "_"
     facts = f"{process.session}/{process.since}/{process.pid}/{process.role.value}"
     return f"{OURS}/{process.domain}/{facts}/{command}"
@@ -186,11 +185,11 @@ def _unmangle(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Attachment:
-    """Metadata beside a payload.
+    """Metadata that zenoh sends with a message.
 
     Attributes:
-        sequence: Number of the message, or of the question that is answered.
-        stamp: Time of sending, by the sender's clock.
+        sequence: Number of the message, or of the request to which it responds.
+        stamp: Time of sending on the sender's clock, nanoseconds.
         gid: Id of the sender, 16 bytes.
     """
 
@@ -209,10 +208,10 @@ _NAMED = (b"\x0fsequence_number", b"\x10source_timestamp", b"\x0asource_gid")
 
 
 def parse_attachment(raw: bytes) -> Attachment:
-    """Parse a payload's metadata, in the present form or the named one of early Jazzy.
+    """Parse an attachment, in the present format or that of early Jazzy.
 
     Raises:
-        MalformedMessage: If the bytes have another form.
+        MalformedMessage: If the bytes have another format.
     """
     if len(raw) == _ATTACHMENT.size:
         sequence, stamp, length, gid = _ATTACHMENT.unpack(raw)
@@ -242,8 +241,8 @@ def _named_attachment(raw: bytes) -> Attachment:
 
 
 def gid_of(token: str) -> bytes:
-    """Return a publisher's 16-byte gid, derived from its token.
+    """Return the 16-byte gid of a publisher, derived from its token.
 
-    ROS 2 also makes them from the token, with another hash; only equality matters.
+    ROS 2 also derives gids from tokens, with another hash; only equality matters.
     """
     return hashlib.blake2b(token.encode(), digest_size=16).digest()

@@ -28,45 +28,45 @@ from tftool.world.link.zenoh.rendezvous import Rendezvous
 from tftool.world.link.zenoh.transport import KeyPublisher, Query, Sample, Wire
 
 SERVICE: Final = Quality(depth=10)
-"""ROS 2's quality of services."""
+"""Quality of service that ROS 2 uses for services."""
 
 REACHING: Final = 5.0
-"""Seconds to wait for a process at the other end of `connect`."""
+"""Longest wait in seconds for a process at the address in `connect`."""
 
 NEARBY: Final = 1.0
-"""Seconds to wait for the processes of this machine that are stopped."""
+"""Longest wait in seconds for processes of this machine that are stopped."""
 
 BUSY: Final = 10.0
-"""Seconds to wait for those that run, however slow a busy machine makes them."""
+"""Longest wait in seconds for processes of this machine that run, which may be slow."""
 
 INTRODUCED: Final = 1.0
-"""Seconds to wait for tokens of those who are connected."""
+"""Longest wait in seconds for the first tokens of connected processes."""
 
 ANSWERED: Final = 5.0
-"""Seconds in which each of them says which tokens it has; most take milliseconds."""
+"""Longest wait in seconds for each process's list of tokens; most take milliseconds."""
 
 SHOWN: Final = 0.3
-"""Seconds to wait for the tokens of all, once those of some are there."""
+"""Longest wait in seconds for the tokens of all processes, once some have arrived."""
 
 _STEP = 0.005
 
 
 class ZenohMiddleware(Middleware):
-    """This process in a ROS 2 graph over zenoh; its session is the zenoh session's id.
+    """This process's part in a ROS 2 graph over zenoh; its session name is the zenoh session's id.
 
     Attributes:
         wire: The zenoh session.
     """
 
     def __init__(self, options: Options, reach: ZenohReach) -> None:
-        """Join; immediately if there is no other process.
+        """Join the graph; this returns at once if there is no other process.
 
-        No other process of this machine can enter until `settle` or `close` is called, so that no
+        No other process of this machine can join until `settle` or `close` is called, so that no
         two of them decide at once whether to host.
 
         Raises:
-            LinkError: If there is no place to meet, zenoh is missing or refuses, or no
-                process answers where one should.
+            LinkError: If the session's folder cannot be used, zenoh is missing or refuses, or no
+                process responds at the address in `connect`.
         """
         self._options = options
         self._reach = reach
@@ -96,7 +96,7 @@ class ZenohMiddleware(Middleware):
             raise
 
     def _reach_out(self, others: dict[str, int]) -> None:
-        """Wait for the others, on this machine and at `connect`."""
+        """Wait until the other processes of this machine, and at `connect`, are connected."""
 
         # zenoh itself gives up waiting early, and a busy machine is slow to say hello: taking
         # that for silence would host a second world. A stopped process never says it.
@@ -116,7 +116,7 @@ class ZenohMiddleware(Middleware):
             raise LinkError(_no_answer_at(reach))
 
     def _take_in_tokens(self, *, is_expected: bool) -> None:
-        """Fill the graph with existing entities; wait if a process should be there."""
+        """Fill the graph with existing entities; wait for some if a process must exist."""
 
         def all_are_known() -> bool:
             for prefix in (keys.LIVELINESS, keys.OURS):
@@ -136,11 +136,11 @@ class ZenohMiddleware(Middleware):
 
     @property
     def lost(self) -> int:
-        """Messages dropped because the inbox was full."""
+        """Number of messages dropped because the inbox was full."""
         return self.wire.lost
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Call back on `loop` from now on, and report changes of the graph."""
+        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
         self.wire.start(loop)
         self.watcher = watcher
         if watcher is not None:
@@ -159,7 +159,7 @@ class ZenohMiddleware(Middleware):
             self._place.settle()
 
     def close(self) -> None:
-        """Send queued messages, leave, and remove this process's files."""
+        """Send queued messages, leave the graph, and remove this process's files."""
         for stop in self._stops:
             stop()
         with contextlib.suppress(Exception):
@@ -173,11 +173,11 @@ class ZenohMiddleware(Middleware):
     # Shown entities
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Announce this process."""
+        """Announce this process; see `seam.Middleware.process`."""
         return self.show(keys.process_key(process))
 
     def node(self, name: str) -> Callable[[], None]:
-        """Announce a node."""
+        """Announce a node; see `seam.Middleware.node`."""
         number = self._nodes[name] = self._number()
         entity = GraphEntity(NODE, self._options.domain, self.session, node_name(name))
         hide = self.show(keys.token_key(entity, number, number))
@@ -191,13 +191,13 @@ class ZenohMiddleware(Middleware):
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Announce that a node subscribes to a topic."""
+        """Announce that a node subscribes to a topic; see `seam.Middleware.subscription`."""
         return self.show(self._token(SUBSCRIPTION, node, name, ros_type, quality))
 
     # Topics
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> "ZenohPublisher":
-        """Publish a topic as a node of this process."""
+        """Create a publisher of a topic for a node of this process."""
         token = self._token(PUBLISHER, node, name, ros_type, quality)
         # A latched one keeps its own last messages, so each has an outlet of its own.
         outlet = self.wire.publisher(keys.data_key(self._options.domain, name, ros_type), quality)
@@ -211,7 +211,7 @@ class ZenohMiddleware(Middleware):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with other processes' messages."""
+        """Call `on_message` with other processes' messages on a topic."""
 
         def arrived(sample: Sample) -> None:
             try:
@@ -251,11 +251,11 @@ class ZenohMiddleware(Middleware):
         return leave
 
     def client(self, node: str, name: str, ros_type: str) -> "ZenohClient":
-        """Call a service as a node of this process."""
+        """Create a client of a service for a node of this process."""
         return ZenohClient(self, name, ros_type, self._token(CLIENT, node, name, ros_type, SERVICE))
 
     def key_of_service(self, name: str, ros_type: str) -> str:
-        """Return the key for requests: with the server's own hash if it is announced."""
+        """Return the zenoh key of a service's requests, with the server's type hash if known."""
         # A server of another release has another hash, and zenoh compares keys letter by letter.
         servers = self.graph.entities(SERVER, name=name)
         known = next((one.type_hash for one in servers if one.ros_type == ros_type), "")
@@ -264,7 +264,7 @@ class ZenohMiddleware(Middleware):
     # Helpers
 
     def _token(self, kind: str, node: str, name: str, ros_type: str, quality: Quality) -> str:
-        """Return the key of a new token."""
+        """Return the key of a new token for an entity of this process."""
         domain, session = self._options.domain, self.session
         entity = GraphEntity(kind, domain, session, node_name(node), name, ros_type, quality)
         return keys.token_key(entity, self._nodes.get(node, 0), self._number())
@@ -274,7 +274,7 @@ class ZenohMiddleware(Middleware):
         return self._numbers
 
     def show(self, key: str) -> Callable[[], None]:
-        """Announce a token until the returned function is called; observers announce none."""
+        """Announce a token, unless read-only; return a function that ends this."""
         return nothing if self._options.read_only else self.wire.token(key)
 
     def _on_token(self, change: tuple[str, bool]) -> None:
@@ -291,7 +291,7 @@ class ZenohMiddleware(Middleware):
 
 
 class ZenohPublisher:
-    """Publisher with its token and sequence number."""
+    """Publisher of a topic over zenoh, with its token and sequence number."""
 
     def __init__(self, outlet: KeyPublisher, gid: bytes, hide: Callable[[], None]) -> None:
         self._outlet = outlet
@@ -301,22 +301,22 @@ class ZenohPublisher:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a subscription, or be kept for later ones."""
+        """Whether a message would reach a subscription, or be stored for late ones."""
         return self._outlet.is_wanted
 
     def put(self, payload: bytes, stamp: Stamp) -> None:
-        """Send one message."""
+        """Send one message with the next sequence number."""
         self._sequence += 1
         self._outlet.put(payload, Attachment(self._sequence, stamp, self._gid).encode())
 
     def close(self) -> None:
-        """Close the publisher."""
+        """Withdraw the announcement, and close the publisher."""
         self._hide()
         self._outlet.close()
 
 
 class ZenohRequest:
-    """A request, with the number and client for its response."""
+    """Received request over zenoh, with the number and client for its response."""
 
     def __init__(self, query: Query, beside: Attachment) -> None:
         self._query = query
@@ -324,22 +324,22 @@ class ZenohRequest:
 
     @property
     def payload(self) -> bytes:
-        """CDR bytes of the request."""
+        """Request in CDR (ROS 2's serialised form)."""
         return self._query.payload
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response, once."""
+        """Send the response; called once."""
         # The number and the client come back, so that the client knows which answer it is.
         beside = Attachment(self._beside.sequence, stamp, self._beside.gid)
         self._query.answer(payload, beside.encode())
 
     def refuse(self, reason: str) -> None:
-        """Report that there will be no response."""
+        """Tell the client that there will be no response, and why."""
         self._query.refuse(reason)
 
 
 class ZenohClient:
-    """Client with a token, announced with its first request, and a sequence number."""
+    """Client of a service over zenoh, whose token is announced with its first request."""
 
     def __init__(self, middleware: ZenohMiddleware, name: str, ros_type: str, token: str) -> None:
         self._middleware = middleware
@@ -351,7 +351,7 @@ class ZenohClient:
         self._stack = contextlib.ExitStack()
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Send a request and wait for the response."""
+        """Send a request, and wait at most `timeout` seconds for the response."""
         if not self._sequence:
             # Only who asks is a client: every world knows all services, and would fill the graph.
             self._stack.callback(self._middleware.show(self._token))
@@ -361,12 +361,12 @@ class ZenohClient:
         return await self._middleware.wire.ask(key, payload, beside, timeout=timeout)
 
     def close(self) -> None:
-        """Close the client."""
+        """Withdraw the announcement of the client."""
         self._stack.close()
 
 
 def _no_answer_at(reach: ZenohReach) -> str:
-    """Return advice if no process answers; refused certificates look the same."""
+    """Return a sentence with advice if no process responds at the address in `connect`."""
     protocols = {protocol_of(endpoint) for endpoint in reach.connect}
     text = (
         f"no process answers at {', '.join(reach.connect)} within {REACHING:g} s; "
@@ -384,7 +384,7 @@ def _no_answer_at(reach: ZenohReach) -> str:
 
 
 def _await(condition: Callable[[], bool], patience: float) -> bool:
-    """Poll until a condition holds, at most `patience` seconds; return whether it does."""
+    """Poll until a condition is true, at most `patience` seconds; return whether it is."""
     clock, pause = WallClock(), threading.Event()
     # Measured, not counted: a look takes as long as those take who are asked.
     while not (held := condition()) and clock.elapsed() < seconds(patience):

@@ -1,4 +1,4 @@
-"""Options of a zenoh link and their contradictions."""
+"""Options of a zenoh link, and checks that they do not contradict each other."""
 
 import re
 from collections.abc import Mapping
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from tftool.world.link.seam import Middleware
 
 PROTOCOLS: Final = ("tcp", "udp", "tls", "quic", "ws", "unixsock-stream")
-"""How an endpoint may begin."""
+"""Protocols with which an endpoint may begin."""
 
 SECURED: Final = ("tls", "quic")
-"""Those of them where both sides show certificates."""
+"""Protocols in which both sides show certificates."""
 
 _PATHS: Final = ("unixsock-stream",)  # what names a file and not a port
 _PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
@@ -29,8 +29,8 @@ class Certificates:
 
     Attributes:
         certificate: Our certificate, PEM.
-        key: Private key, PEM.
-        authority: The certificate that signed the other side's, PEM.
+        key: Our private key, PEM.
+        authority: Certificate of the authority that signed the other side's, PEM.
     """
 
     certificate: Path
@@ -38,10 +38,10 @@ class Certificates:
     authority: Path
 
     def check(self) -> None:
-        """Check that the files contain what they should; zenoh's own errors do not name them.
+        """Check that each file contains what it should; zenoh's own errors do not name the file.
 
         Raises:
-            InputError: If one is no such PEM file, or the key is another certificate's.
+            InputError: If a file is not such a PEM file, or the key belongs to another certificate.
         """
         import ssl
 
@@ -74,13 +74,13 @@ class Certificates:
 
 @dataclass(frozen=True, slots=True)
 class ZenohReach(Reach):
-    """Reach of a link beyond this machine's own processes; none by default.
+    """Networks that a zenoh link may use; by default only this machine's processes.
 
     Attributes:
-        listen: Endpoints where other machines may come in, "tcp/0.0.0.0:7448".
-        connect: Endpoints to go to, "tcp/robot:7447".
-        certificates: For endpoints that begin with tls/ or quic/.
-        config: A zenoh configuration, JSON5, taken in place of ours.
+        listen: Endpoints on which other machines may connect, such as "tcp/0.0.0.0:7448".
+        connect: Endpoints to connect to, such as "tcp/robot:7447".
+        certificates: Files for endpoints that begin with tls/ or quic/.
+        config: File with a zenoh configuration (JSON5) that replaces ours.
     """
 
     OPTIONS: ClassVar[Mapping[str, LinkOption]] = {
@@ -115,7 +115,7 @@ class ZenohReach(Reach):
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "ZenohReach":
-        """Combine the values of the options; see `Reach.read`."""
+        """Return the reach that the given options describe; see `Reach.read`."""
         listen, connect = tuple(given.get("listen") or ()), tuple(given.get("connect") or ())
         config: Path | None = given.get("zenoh_config")
         if config is not None and (listen or connect):
@@ -135,12 +135,12 @@ class ZenohReach(Reach):
         return bool(self.listen or self.connect or self.config is not None)
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Whether the session is on another machine."""
+        """Return whether the session is on another machine, given by `connect`."""
         return bool(self.connect)
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Whether a local process can be joined; see `Reach.has_members`."""
+        """Return whether there is a local process to join; see `Reach.has_members`."""
         # sockets and hashes cost 10 ms, and most commands ask nothing of this.
         from tftool.world.link.zenoh import rendezvous
 
@@ -148,13 +148,13 @@ class ZenohReach(Reach):
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the frames listed by local processes; see `Reach.frames_known`."""
+        """Return the frames that local processes list; see `Reach.frames_known`."""
         from tftool.world.link.zenoh import rendezvous
 
         return rendezvous.frames_known(domain)
 
     def place(self, domain: int) -> str:
-        """Return the endpoints as text."""
+        """Return the endpoints to connect to, as text."""
         return ", ".join(self.connect)
 
     def join(self, options: "Options") -> "Middleware":
@@ -165,12 +165,12 @@ class ZenohReach(Reach):
 
 
 def protocol_of(endpoint: str) -> str:
-    """Return the protocol of an endpoint."""
+    """Return the protocol of an endpoint, such as "tcp"."""
     return endpoint.partition("/")[0]
 
 
 def has_port(endpoint: str) -> bool:
-    """Whether an endpoint has a port where it needs one; zenoh would search in vain without."""
+    """Return whether an endpoint has a port, or needs none; without, zenoh searches in vain."""
     protocol, _, rest = endpoint.partition("/")
     # What follows a question mark or a hash are zenoh's own settings of an endpoint.
     address = re.split(r"[?#]", rest, maxsplit=1)[0]

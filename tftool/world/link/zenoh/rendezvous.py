@@ -1,9 +1,9 @@
 """Meeting place of this machine's processes: a folder that only its owner may enter.
 
-Every member of a session has a socket there, named after itself. A later process connects to all
-that answer, and removes the sockets of ended ones. So there is no daemon, and no process whose end
-matters. A lock held while a process joins prevents two of them from both believing they are the
-first.
+Every member of a session has a socket in the folder, named after the member. A later process
+connects to all members that respond, and removes the sockets of ended ones. So there is no daemon,
+and no process whose end matters. A lock held while a process joins prevents two of them from both
+believing they are the first.
 
 Other users of the machine are kept out: sockets are in folders of mode 700. If a path is too long
 for a socket, a short folder of the user is used instead, never a port. On platforms without such
@@ -27,26 +27,26 @@ from typing import Any, Final
 from tftool.base.errors import LinkError, UsageError
 
 FOLDER_VARIABLE: Final = "TFTOOL_SESSION_DIR"
-"""Environment variable that names another folder: processes that share it find each other."""
+"""Environment variable with another folder; processes with the same folder find each other."""
 
 HAS_UNIX_SOCKETS: Final = sys.platform != "win32" and hasattr(socket, "AF_UNIX")
 
 USER: Final = "tftool"
-"""Who members of a folder say they are, where a password guards it."""
+"""User name with which members log in, if a password guards the folder."""
 
 PASSWORDS: Final = "members"
-"""The file of a folder that holds the password."""
+"""Name of the file with the members' password."""
 
 PAGE_SECRET: Final = "page.secret"
-"""The file in the folder of all sessions that holds the secret of this user's pages."""
+"""Name of the file, in the folder of all sessions, with the secret of this user's pages."""
 
 FRAMES: Final = ".frames"
-"""Files of a folder that list the frames a member knows, for completing command lines."""
+"""Suffix of files that list a member's frames, for the completion of command lines."""
 
 _MOST_FRAMES = 5_000
 _LONGEST_SOCKET_PATH = 100  # 107 on Linux, 103 on macOS
 LOCK_TRIES = 1500
-"""How often the lock is asked for: more than a busy machine takes to open a session."""
+"""Number of attempts to take the lock, enough for a busy machine to open a session."""
 
 _LOCK_PAUSE = 0.01
 _PROBE_TIMEOUT = 0.2
@@ -57,12 +57,12 @@ _LONGEST_LIST = 2**24
 def folder(environment: Mapping[str, str] = os.environ) -> Path:
     """Return the folder with this user's sessions.
 
-    `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the user among the
-    temporary files.
+    It is `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the user among
+    the temporary files.
 
     Raises:
         UsageError: If `TFTOOL_SESSION_DIR` is a relative path: commands run in two folders
-            would each look in one of their own, and not find each other.
+            would then use different folders, and not find each other.
     """
     named = environment.get(FOLDER_VARIABLE)
     if named:
@@ -81,7 +81,7 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
 
 
 def has_members(domain: int, home: Path | None = None) -> bool:
-    """Whether a process can be joined, checked without changing anything."""
+    """Return whether there is a local process to join, checked without changing anything."""
     place = _fitting((folder() if home is None else home) / str(domain))
     with contextlib.suppress(OSError):
         return next(_living(place, sweep=False), None) is not None
@@ -89,9 +89,9 @@ def has_members(domain: int, home: Path | None = None) -> bool:
 
 
 def frames_known(domain: int, home: Path | None = None) -> list[str]:
-    """Return the frames known to running members of the local session, sorted.
+    """Return the frames that running members of the local session list, sorted.
 
-    Read from the lists that members keep; opens no session.
+    This reads the lists that members write, and opens no session.
     """
     place = _fitting((folder() if home is None else home) / str(domain))
     found: set[str] = set()
@@ -108,23 +108,23 @@ def frames_known(domain: int, home: Path | None = None) -> list[str]:
 
 
 def _member(path: Path) -> str:
-    """Return the member to which a file or socket belongs."""
+    """Return the name of the member to which a file or socket belongs."""
     return path.name.partition(".")[0]
 
 
 class Rendezvous:
-    """One process's place among those of its machine and domain.
+    """Place of one process among those of its machine and domain.
 
     Attributes:
         folder: Folder of the members' sockets.
         endpoint: Endpoint of this process, in zenoh's notation.
-        password: Password of this folder's members; "" where the sockets' permissions suffice.
-        others: Endpoints of the others that were alive when `enter` looked, and their
-            process numbers.
+        password: Password of this folder's members; "" if the sockets' permissions suffice.
+        others: Endpoints of the other members that responded when `enter` ran, with their
+            process ids.
     """
 
     def __init__(self, domain: int, home: Path | None = None) -> None:
-        """Choose a place; nothing is created before `enter`."""
+        """Choose a name and folder; nothing is created before `enter`."""
         self.folder = _fitting((folder() if home is None else home) / str(domain))
         self.endpoint = ""
         self.password = ""
@@ -134,12 +134,13 @@ class Rendezvous:
         self._lock: Any = None
 
     def enter(self) -> None:
-        """Take the lock, remove files of dead processes, and find a place.
+        """Take the lock, remove files of ended processes, and choose this process's endpoint.
 
-        `settle` gives the lock back.
+        `settle` releases the lock.
 
         Raises:
-            LinkError: If there is no folder that is the user's own, or no socket can be there.
+            LinkError: If the folder cannot be created, is open to others, or has a path too long
+                for sockets.
         """
         if HAS_UNIX_SOCKETS and not _holds_sockets(self.folder):
             raise LinkError(
@@ -160,13 +161,13 @@ class Rendezvous:
             raise LinkError(_unusable(self.folder, error)) from error
 
     def settle(self) -> None:
-        """Release the lock, so that others may join."""
+        """Release the lock, so that other processes may join."""
         if self._lock is not None:
             self._lock.close()
             self._lock = None
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List this process's frames for `frames_known`; a failed write is ignored."""
+        """Write the list of this process's frames for `frames_known`; errors are ignored."""
         path = self.folder / f"{self._name}{FRAMES}"
         # Renamed into place, so that a reader never sees half a list.
         fresh = path.with_name(f"{self._name}.new")
@@ -175,7 +176,7 @@ class Rendezvous:
             fresh.replace(path)
 
     def leave(self) -> None:
-        """Remove this process's files."""
+        """Remove this process's files from the folder."""
         self.settle()
         for path in self.folder.glob(f"{self._name}.*"):
             with contextlib.suppress(OSError):
@@ -214,7 +215,7 @@ class Rendezvous:
 
 
 def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
-    """Return endpoints and process ids of members that answer; others' files are removed."""
+    """Yield endpoint and process id of members that respond; the files of others are removed."""
     for path in sorted(folder.iterdir()):
         if path.suffix == ".sock":
             if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):
@@ -233,10 +234,10 @@ def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
 
 
 def _make_private(path: Path) -> None:
-    """Create a folder that only its owner may enter, or check that it is one.
+    """Create a folder that only its owner may enter, or check that an existing one is so.
 
     Raises:
-        LinkError: If the folder cannot be made, or others may enter it.
+        LinkError: If the folder cannot be created, or others may enter it.
     """
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -266,9 +267,9 @@ def _unusable(path: Path, error: OSError) -> str:
 
 
 def _fitting(place: Path) -> Path:
-    """Return the folder for a place: itself, or a short one if sockets need a shorter path.
+    """Return the folder for sockets: the given one, or a short one if its path is too long.
 
-    All processes with the same folder get the same one.
+    All processes with the same given folder get the same result.
     """
     if not HAS_UNIX_SOCKETS or _holds_sockets(place):
         return place
@@ -278,13 +279,13 @@ def _fitting(place: Path) -> Path:
 
 
 def _holds_sockets(folder: Path) -> bool:
-    """Whether a socket's path in a folder is short enough, and valid in a zenoh endpoint."""
+    """Return whether a socket's path in a folder is short enough, and valid for zenoh."""
     longest = len(os.fsencode(folder)) + len("/4194304-01234567.sock")
     return longest <= _LONGEST_SOCKET_PATH and not set("?#;=") & set(str(folder))
 
 
 def _password_in(folder: Path) -> str:
-    """Return the password of a folder's members, created by the first one (under the lock)."""
+    """Return the password of a folder's members; the first member creates it, holding the lock."""
     file = folder / PASSWORDS
     known = _text_of(file).partition(":")[2]
     if known:
@@ -297,10 +298,10 @@ def _password_in(folder: Path) -> str:
 
 
 def page_secret(home: Path | None = None) -> str:
-    """Return the secret in this user's page addresses: stable, from the sessions' folder.
+    """Return the secret in the addresses of this user's pages, from the sessions' folder.
 
-    So an open page finds the successor of its server. If the folder cannot be used, the secret is
-    new.
+    The secret stays the same, so that an open page finds the server that succeeds its own. If the
+    folder cannot be used, the secret is new.
     """
     place = folder() if home is None else home
     file = place / PAGE_SECRET
@@ -319,7 +320,7 @@ def page_secret(home: Path | None = None) -> str:
 
 
 def is_stopped(pid: int) -> bool:
-    """Whether a process is suspended, ended, or not visible from here."""
+    """Return whether a process is suspended, ended, or not visible to this one."""
     try:
         facts = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
     except OSError:
@@ -329,7 +330,7 @@ def is_stopped(pid: int) -> bool:
 
 
 def _answers(family: int, address: Any) -> bool:
-    """Whether a process listens there; a suspended one counts."""
+    """Return whether a process listens at an address; a suspended process counts."""
     with socket.socket(family, socket.SOCK_STREAM) as probe:
         probe.settimeout(_PROBE_TIMEOUT)
         try:
@@ -354,12 +355,12 @@ def _port_in(path: Path) -> int:
 
 
 def _text_of(path: Path) -> str:
-    """Return the text of a small file."""
+    """Return the text of a small file; "" if it cannot be read."""
     return _content_of(path, _LONGEST_TEXT).decode("ascii", "replace").strip()
 
 
 def _content_of(path: Path, longest: int) -> bytes:
-    """Return a file's first bytes; empty unless it is a regular file, as a pipe would block."""
+    """Return a file's first bytes; b"" unless it is a regular file, as a pipe would block."""
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
     try:
         with open(os.open(path, flags), "rb") as file:

@@ -1,4 +1,4 @@
-"""A zenoh session with callbacks on our event loop; the only file that uses zenoh."""
+"""zenoh session with callbacks in our event loop; the only file that uses zenoh."""
 
 import asyncio
 import contextlib
@@ -18,14 +18,14 @@ from tftool.world.link.zenoh.rendezvous import PASSWORDS, USER, Rendezvous
 
 
 class Sample(NamedTuple):
-    """A received message with its attachment."""
+    """Received message with its attachment, both as bytes."""
 
     payload: bytes
     attachment: bytes
 
 
 class Query:
-    """A received request that waits for its response."""
+    """Received request that waits for its response."""
 
     __slots__ = ("_query", "attachment", "payload")
 
@@ -34,21 +34,21 @@ class Query:
         self._query = query
 
     def answer(self, payload: bytes, attachment: bytes) -> None:
-        """Send the response, once."""
+        """Send the response; called once."""
         # Who asked may be gone by now.
         with contextlib.suppress(Exception):
             self._query.reply(self._query.key_expr, payload, attachment=attachment)
         self._query.drop()
 
     def refuse(self, reason: str) -> None:
-        """Report that there will be no response."""
+        """Tell the client that there will be no response, and why."""
         with contextlib.suppress(Exception):
             self._query.reply_err(reason.encode())
         self._query.drop()
 
 
 class KeyPublisher:
-    """Publisher of one key."""
+    """Publisher of one zenoh key."""
 
     def __init__(self, publisher: Any, outbox: Outbox, *, keeps: bool) -> None:
         self._publisher = publisher
@@ -57,11 +57,11 @@ class KeyPublisher:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a subscriber, or be kept for late ones."""
+        """Whether a message would reach a subscriber, or be stored for late ones."""
         return self._keeps or bool(self._publisher.matching_status.matching)
 
     def put(self, payload: bytes, attachment: bytes) -> None:
-        """Send one message.
+        """Queue one message for sending.
 
         Raises:
             LinkError: If the session is closed.
@@ -70,25 +70,25 @@ class KeyPublisher:
         self._outbox.put(send, len(payload))
 
     def close(self) -> None:
-        """Close after sending everything queued."""
+        """Close the publisher when everything queued is sent."""
         with contextlib.suppress(LinkError):
             self._outbox.put(self._publisher.undeclare)
 
 
 class Wire:
-    """An open zenoh session.
+    """Open zenoh session.
 
     Attributes:
-        zid: Name, in hexadecimal.
-        oversized: Number of messages above the size limit.
+        zid: Id of the session, in hexadecimal.
+        oversized: Number of received messages above the size limit.
     """
 
     def __init__(self, reach: ZenohReach, place: Rendezvous | None) -> None:
         """Open the session; callbacks are queued until `start`.
 
         Args:
-            reach: Reach beyond this machine.
-            place: Meeting point of this machine's processes, if there is one.
+            reach: Networks to use beyond this machine.
+            place: Meeting place of this machine's processes; None for none.
 
         Raises:
             LinkError: If zenoh is missing, or an endpoint cannot be used.
@@ -102,11 +102,11 @@ class Wire:
 
     @property
     def lost(self) -> int:
-        """Messages dropped because the inbox was full."""
+        """Number of messages dropped because the inbox was full."""
         return self._inbox.lost
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Make callbacks on `loop` from now on."""
+        """Make the callbacks in an event loop from now on."""
         self._inbox.start(loop)
 
     def close(self) -> None:
@@ -118,23 +118,23 @@ class Wire:
 
     @property
     def neighbours(self) -> frozenset[str]:
-        """Return the directly connected sessions."""
+        """Ids of the directly connected sessions."""
         info = self._session.info
         return frozenset(str(zid) for zid in [*info.peers_zid(), *info.routers_zid()])
 
     @property
     def reached(self) -> frozenset[str]:
-        """Return the remote endpoints of its connections."""
+        """Remote endpoints of this session's connections."""
         return frozenset(str(link.dst) for link in self._session.info.links())
 
     # Messages
 
     def publisher(self, key: str, quality: Quality) -> KeyPublisher:
-        """Declare a publisher of `key`.
+        """Declare a publisher of a zenoh key.
 
         Args:
             key: The key, without wildcards.
-            quality: Reliability, and number of messages kept for late subscribers.
+            quality: Reliability, and number of messages stored for late subscribers.
         """
         congestion, reliability = self._zenoh.CongestionControl, self._zenoh.Reliability
         reliable = quality.is_reliable
@@ -163,12 +163,12 @@ class Wire:
     def subscriber(
         self, key: str, on_message: Callable[[Sample], object], *, is_latched: bool = False
     ) -> Callable[[], None]:
-        """Call `on_message` with every sample until the returned function is called.
+        """Call `on_message` with every message of a key; return a function that ends this.
 
         Args:
-            key: The key, wildcards allowed.
-            on_message: Called on the loop.
-            is_latched: Whether to ask for earlier messages.
+            key: The key, which may have wildcards.
+            on_message: Function called in the event loop.
+            is_latched: Whether to request earlier messages.
         """
 
         def arrived(sample: Any) -> None:
@@ -191,7 +191,7 @@ class Wire:
         return _undeclare(subscriber)
 
     def _take(self, sample: Any, on_message: Callable[[Sample], object]) -> None:
-        """Queue a sample, after a check of its size (in zenoh's thread)."""
+        """Check a message's size and queue it for the event loop; called in zenoh's thread."""
         if sample.kind != self._zenoh.SampleKind.PUT:
             return
         size = len(sample.payload)
@@ -208,7 +208,7 @@ class Wire:
     # Questions
 
     def server(self, key: str, on_query: Callable[[Query], object]) -> Callable[[], None]:
-        """Call `on_query` with every request until the returned function is called."""
+        """Call `on_query` with every request of a key; return a function that ends this."""
 
         def asked(query: Any) -> None:
             payload, attachment = query.payload, query.attachment
@@ -226,16 +226,16 @@ class Wire:
         return _undeclare(self._session.declare_queryable(key, self._handler(asked), complete=True))
 
     async def ask(self, key: str, payload: bytes, attachment: bytes, *, timeout: float) -> bytes:
-        """Send a request and wait for the response.
+        """Send a request, and wait for the response.
 
         Args:
-            key: The service's key.
-            payload: The request.
+            key: Key of the service.
+            payload: Request in CDR.
             attachment: Attachment to send with it.
-            timeout: Seconds to wait.
+            timeout: Longest wait in seconds.
 
         Raises:
-            LinkError: If no server answers, or the answer is a refusal.
+            LinkError: If no server responds, or the server refuses.
         """
         answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
         silent = f"no server answered within {timeout:g} s, or it has left"
@@ -286,13 +286,11 @@ class Wire:
     # Tokens
 
     def token(self, key: str) -> Callable[[], None]:
-        """Announce `key` to all sessions until the returned function is called or this process
-        ends.
-        """
+        """Announce a token until the returned function is called or this process ends."""
         return _undeclare(self._session.liveliness().declare_token(key))
 
     def tokens(self, key: str, timeout: float = 1.0) -> list[str]:
-        """Return the present tokens, after the answers of all connected sessions."""
+        """Return the existing tokens that match a key, from all connected sessions."""
         found: list[str] = []
         over = threading.Event()
 
@@ -310,7 +308,7 @@ class Wire:
     def watch_tokens(
         self, key: str, on_token: Callable[[tuple[str, bool]], object]
     ) -> Callable[[], None]:
-        """Call `on_token` with (token, whether it is present) at every change."""
+        """Call `on_token` with (token, whether it exists) on changes; return a stop function."""
 
         def changed(sample: Any) -> None:
             there = sample.kind == self._zenoh.SampleKind.PUT
@@ -340,7 +338,7 @@ _SCOUTING_DELAY = 100  # milliseconds `open` waits at most for a peer that does 
 
 
 def import_zenoh() -> Any:
-    """Import the library.
+    """Import the library `zenoh`.
 
     Raises:
         LinkError: If zenoh is missing.
@@ -359,9 +357,9 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
     """Open a zenoh session.
 
     Args:
-        zenoh: The library.
-        reach: Reach beyond this machine.
-        place: Meeting point of this machine's processes, if there is one.
+        zenoh: The imported library.
+        reach: Networks to use beyond this machine.
+        place: Meeting place of this machine's processes; None for none.
 
     Raises:
         LinkError: If an endpoint or a file cannot be used.
@@ -385,7 +383,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
 
 
 def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
-    """Return zenoh's settings; its defaults would listen on every interface."""
+    """Return our settings for zenoh, whose defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router passes on between this machine's processes, which know each other
