@@ -169,9 +169,9 @@ def test_a_forgotten_half_is_not_waited_for_again(world):
 
 @pytest.mark.parametrize("timeout", [1.0, float("nan"), float("inf"), "1"])
 def test_a_timeout_that_is_not_whole_nanoseconds_is_refused(world, timeout):
-    with pytest.raises(TypeError, match=r"seconds\(2.5\) makes one"):
+    with pytest.raises(TypeError, match=r"write seconds\(2.5\) for 2.5 seconds"):
         run(world.clock, world.wait_for_transform("world", "turtle1", 0, timeout))
-    with pytest.raises(TypeError, match=r"seconds\(2.5\) makes one"):
+    with pytest.raises(TypeError, match=r"write seconds\(2.5\) for 2.5 seconds"):
         run(
             world.clock,
             world.wait_for_transform_full("world", 1, "turtle1", 2, "world", timeout),

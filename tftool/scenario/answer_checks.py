@@ -1,6 +1,6 @@
-"""Checks of an answer: range, pose, refusal, names.
+"""Checks of a scenario's answers: ranges, poses, exceptions, names.
 
-A `Form` reads the keys beside a question and makes a check from them; the check judges answers, and
+A `Form` reads the keys beside a question and makes a check from them. The check judges answers, and
 describes the expected and the found answer in words.
 """
 
@@ -25,32 +25,32 @@ from tftool.scenario.fields import Key, Reading, listed
 from tftool.scenario.units import ANGLE, Unit
 
 NEAR = 1e-6
-"""How far a value may be off where no tolerance is given: metres, radians, the rest."""
+"""Tolerance of a value if none is given, in metres, radians or other units."""
 
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """Outcome of one check: whether it holds, and the finding as text."""
+    """Outcome of one check: whether it holds, and the answer as text."""
 
     ok: bool
     found: str
 
 
 def _meant(error: TransformException) -> str:
-    """Return the known frame name nearest to an unknown one; empty without one."""
+    """Return the hint "did you mean …" of an error about an unknown frame; "" without one."""
     remedy = error.remedy if isinstance(error, LookupException) else ""
     return remedy if "did you mean" in remedy else ""
 
 
 class AnswerCheck(ABC):
-    """Check of an answer; its text follows the question in a sentence."""
+    """Base of checks of an answer; a check's text follows the question in a sentence."""
 
     @abstractmethod
     def judge(self, answer: Any) -> Judged:
-        """Compare an answer."""
+        """Compare an answer with the expected one."""
 
     def refused(self, error: TransformException) -> Judged:
-        """Judge a missing answer."""
+        """Judge the exception of a question that has no answer."""
         # Some of tf2's sentences end in a full stop and a blank, others in neither.
         hint = _meant(error)
         said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
@@ -61,12 +61,12 @@ class AnswerCheck(ABC):
 
 
 Make: TypeAlias = Callable[[Mapping[str, Any], Reading, TextPlace], AnswerCheck]
-"""Makes the check of the words beside the question and in it, or notes the mistake."""
+"""Function that makes a check from the read keys beside a question, or records a mistake."""
 
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """Keys of one kind of check: those allowed beside the question, and its constructor."""
+    """Keys of one kind of check beside the question, and the function that makes the check."""
 
     fields: Mapping[str, Key]
     make: Make
@@ -77,7 +77,7 @@ class Form:
 
 @dataclass(frozen=True, slots=True)
 class RangeCheck(AnswerCheck):
-    """Number within bounds; the bounds are excluded, except by `between`."""
+    """Check that a number is within bounds, which only `between` includes."""
 
     unit: Unit
     below: float | None = None
@@ -87,7 +87,7 @@ class RangeCheck(AnswerCheck):
     tolerance: float = NEAR
 
     def judge(self, answer: float) -> Judged:
-        """Compare an answer."""
+        """Compare a number with the bounds."""
         ok = True
         if self.below is not None:
             ok = ok and answer < self.below
@@ -119,7 +119,7 @@ class RangeCheck(AnswerCheck):
 
 
 def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float = NEAR) -> Form:
-    """Read below, above, between, or is with a tolerance: at least one, or the default."""
+    """Return the form that reads below, above, between, or is with a tolerance, or a default."""
     one = values.quantity(unit)
     fields = {
         "below": Key(one, None),
@@ -151,7 +151,7 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
 
 
 def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
-    """Return the existing name nearest to each unknown one."""
+    """Return "; did you mean …" with the existing name nearest to each unknown one, or ""."""
     found = [near_names(name, known) for name in wanted if name not in known]
     near = [f"'{names[0]}'" for names in found if names]
     return f"; did you mean {', '.join(near)}?" if near else ""
@@ -159,14 +159,14 @@ def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class FrameFacts:
-    """Facts about a frame; all None if it is unknown.
+    """Facts about a frame; all None if the frame is unknown.
 
     Attributes:
         exists: Whether the frame is known.
-        parent: Parent.
-        static: Whether the link is static.
-        broadcaster: Sender.
-        known: The frames that there are.
+        parent: Name of its parent.
+        static: Whether the link to the parent is static.
+        broadcaster: Name of its publisher.
+        known: Names of all frames.
     """
 
     exists: bool
@@ -178,13 +178,13 @@ class FrameFacts:
 
 @dataclass(frozen=True, slots=True)
 class FrameCheck(AnswerCheck):
-    """Expected facts about a frame; None means unchecked."""
+    """Check of expected facts about a frame; facts that are None are not checked."""
 
     name: str
     wanted: FrameFacts
 
     def judge(self, answer: FrameFacts) -> Judged:
-        """Compare an answer."""
+        """Compare a frame's facts with the expected ones."""
         if not answer.exists:
             hint = _nearest([self.name], answer.known)
             return Judged(not self.wanted.exists, f"no such frame{hint}")
@@ -231,12 +231,12 @@ FRAME_FORM = Form(_FRAME_FACTS, _frame_check)
 
 @dataclass(frozen=True, slots=True)
 class NamesCheck(AnswerCheck):
-    """Expectation of exactly these names, in any order."""
+    """Check that an answer contains exactly some names, in any order."""
 
     wanted: frozenset[str]
 
     def judge(self, answer: Iterable[str]) -> Judged:
-        """Compare an answer."""
+        """Compare names with the expected ones."""
         found = frozenset(answer)
         # Names that matched are no candidates for "did you mean".
         hint = _nearest(sorted(self.wanted - found), found - self.wanted)
@@ -256,10 +256,10 @@ COUNT_FORM = Form(
 
 @dataclass(frozen=True, slots=True)
 class CleanCheck(AnswerCheck):
-    """Expectation of no findings."""
+    """Check that the doctor has no findings."""
 
     def judge(self, answer: Iterable[str]) -> Judged:
-        """Compare an answer."""
+        """Check that a list of findings is empty."""
         found = list(answer)
         return Judged(not found, "; ".join(found) or "none")
 
@@ -273,18 +273,18 @@ CLEAN_FORM = Form({}, lambda *_: CleanCheck())
 # Poses.
 
 SHORT = 30
-"""Up to how many characters a value is repeated inside an advice."""
+"""Longest value in characters that an error text repeats."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """Tolerance of a pose."""
+    """Tolerance of a pose: metres for the position, radians for angles."""
 
     position: float = NEAR
     angle: float = NEAR
 
     def words(self, *, position: bool, angle: bool) -> str:
-        """Return the tolerance in brackets; empty if it only covers rounding."""
+        """Return the tolerance in brackets; "" if it only covers rounding."""
         parts = []
         if position and self.position != NEAR:
             parts.append(f"{self.position:g} m")
@@ -294,7 +294,7 @@ class Tolerance:
 
 
 def _tolerance(node: Node, reading: Reading) -> Tolerance:
-    """Read a number for everything, or a mapping: {position: 1 mm, angle: 0.1 deg}."""
+    """Read a tolerance: a number, or a mapping such as {position: 1 mm, angle: 0.1 deg}."""
     if not isinstance(node, document.Mapping):
         text = node.text.strip() if isinstance(node, document.Scalar) else ""
         for part, unit in (("position", values.LENGTH), ("angle", values.ANGLE)):
@@ -324,17 +324,17 @@ _REFUSALS = tuple(
 
 @dataclass(frozen=True, slots=True)
 class RefusalCheck(AnswerCheck):
-    """Expectation that a lookup fails with this exception or a subclass."""
+    """Check that a lookup fails with an exception of a class or its subclasses."""
 
     raises: str
     says: str | None
 
     def judge(self, answer: Transform) -> Judged:
-        """Compare an answer."""
+        """Return a failed check: the lookup has an answer."""
         return Judged(False, f"no exception: {_pose_text(answer)}")
 
     def refused(self, error: TransformException) -> Judged:
-        """Compare the refusal."""
+        """Compare the lookup's exception with the expected one."""
         ok = isinstance(error, getattr(errors, self.raises))
         ok = ok and (self.says is None or self.says in str(error))
         return Judged(ok, f"{type(error).__name__}: {error}")
@@ -349,7 +349,7 @@ _ANGLES = ("theta", "angular")
 
 @dataclass(frozen=True, slots=True)
 class PoseCheck(AnswerCheck):
-    """Expected parts of a frame's or a turtle's pose, by name; others are unchecked."""
+    """Check of parts of a pose, such as x or yaw, by name; others are not checked."""
 
     wanted: Mapping[str, float]
     tolerance: Tolerance
@@ -357,7 +357,7 @@ class PoseCheck(AnswerCheck):
     rotation_words: str = ""
 
     def judge(self, answer: Transform) -> Judged:
-        """Compare an answer."""
+        """Compare a pose with the expected parts."""
         ok = self._fits(answer.translation._asdict())
         if self.rotation is not None:
             ok = ok and angle_between(self.rotation, answer.rotation) <= self.tolerance.angle
@@ -402,7 +402,7 @@ _POSE_PARTS = {
 
 
 def _value(node: Node, reading: Reading) -> tuple[TextPlace, Mapping[str, Any]]:
-    """Read the parts of a pose, with their places."""
+    """Read the parts of an expected pose; return their place in the file, too."""
     return node.place, reading.record(node, _POSE_PARTS, "a value")
 
 
@@ -431,13 +431,13 @@ POSE_FORM = Form(
     },
     _pose_check,
 )
-"""A value with a tolerance, or a refusal; with nothing said, any transform will do."""
+"""Form of a pose with a tolerance, or an exception; without keys, any pose is accepted."""
 
 
 def _rotation(
     parts: Mapping[str, Any], reading: Reading, place: TextPlace
 ) -> tuple[Quaternion | None, str]:
-    """Read the rotation of a value and its notation; missing angles are 0."""
+    """Return the rotation of an expected pose and its text; missing angles are 0."""
     angles = {key: parts[key] for key in ("roll", "pitch", "yaw") if parts[key] is not None}
     given = parts["rotation"]
     if given is not None:
@@ -456,12 +456,12 @@ def _rotation(
 
 
 class TurtlePoseCheck(PoseCheck):
-    """Expected parts of a turtle's published pose; others are unchecked."""
+    """Check of parts of a turtle's published pose; others are not checked."""
 
     __slots__ = ()
 
     def judge(self, answer: Any) -> Judged:
-        """Compare an answer."""
+        """Compare a turtle's Pose message with the expected parts."""
         if answer is None:
             return Judged(False, "nothing was published")
         have = {

@@ -1,4 +1,4 @@
-"""Built-in scenarios: names and files."""
+"""Built-in scenarios: their names and files."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from tftool.base.escaping import visible
 from tftool.base.near_names import near_names
 
 PACKAGE = Path(__file__).resolve().parents[1]
-"""Where tftool is; its scenarios and examples are in it or, in a checkout, beside it."""
+"""Folder of the package; scenarios and examples are in it or, in a checkout, beside it."""
 
 
 def folder() -> Path:
@@ -20,13 +20,12 @@ def folder() -> Path:
 
 
 def shipped(name: str, mark: str) -> Path:
-    """Return the folder shipped with tftool that contains a file or folder named `mark`.
+    """Return the folder `name` shipped with tftool that contains a file or folder `mark`.
 
-    A wheel carries it inside the package; in a checkout, also an editable install of one,
-    it lies beside it.
+    In a wheel it is inside the package; in a checkout, also one installed as editable, beside it.
 
     Raises:
-        InputError: If the file is in neither place.
+        InputError: If the folder is in neither place.
     """
     for place in (PACKAGE / name, PACKAGE.parent / name):
         if (place / mark).exists():
@@ -40,7 +39,7 @@ def names() -> list[str]:
 
 
 def abouts() -> list[tuple[str, str]]:
-    """Return every built-in scenario's description, by name."""
+    """Return name and description of every built-in scenario."""
     from tftool.scenario.load import load
 
     return [(path.stem, load(path, {}).about) for path in sorted(folder().glob("*.yaml"))]
@@ -55,12 +54,12 @@ def path_of(name: str) -> Path | None:
 
 
 def is_shipped(path: Path) -> bool:
-    """Whether a file is a built-in scenario, whose expectations are known to be right."""
+    """Return whether a file is a built-in scenario, whose expectations are known to be right."""
     return path.parent == folder()
 
 
 def unknown(word: str) -> str:
-    """Return the sentence about a word that is neither a built-in scenario nor a file."""
+    """Return the error text for a word that is neither a built-in scenario nor a file."""
     near = near_names(word, names())
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names())}."
     shown = visible(word)

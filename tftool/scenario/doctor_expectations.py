@@ -1,4 +1,4 @@
-"""Expectations about the doctor's findings, in a scenario or beside a recording.
+"""Expectations about the doctor's findings, in a scenario or in a file beside a recording.
 
 The doctor, and with it numpy, is imported only if an expectation needs it, which is rare.
 """
@@ -18,23 +18,23 @@ if TYPE_CHECKING:
     from tftool.doctor.model import Settings
 
 ENDING = ".doctor.yaml"
-"""What the name of a recording's own list ends in."""
+"""Ending of the name of a file with rules beside a recording."""
 
 
 @dataclass(frozen=True, slots=True)
 class DoctorRules:
-    """Checks that the doctor omits, and its thresholds.
+    """Rules for the doctor: checks to leave out, and thresholds.
 
     Attributes:
-        ignore: Ids and areas of checks.
-        limits: Thresholds by check and name.
+        ignore: Ids and areas of checks to leave out.
+        limits: Thresholds, by check and by name.
     """
 
     ignore: tuple[str, ...] = ()
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def settings(self, given: "Settings") -> "Settings":
-        """Return a command's settings, with these thresholds where it gives none."""
+        """Return a command's settings for the doctor, with these thresholds added."""
         from tftool.doctor.model import Settings
 
         limits = {name: dict(of) for name, of in self.limits.items()}
@@ -47,7 +47,7 @@ NO_RULES = DoctorRules()
 
 
 def check_or_area(node: Node, reading: Reading) -> str:
-    """Read a check's id, or an area of checks."""
+    """Read the id of a check, or an area of checks."""
     from tftool.doctor.findings import Area
     from tftool.doctor.judge import CHECKS
 
@@ -60,7 +60,7 @@ def check_or_area(node: Node, reading: Reading) -> str:
 
 
 def limits(node: Node, reading: Reading) -> Mapping[str, Mapping[str, float]]:
-    """Read thresholds: `gap.seconds: 2`."""
+    """Read thresholds, such as `gap.seconds: 2`."""
     from tftool.doctor.judge import CHECKS
 
     found: dict[str, dict[str, float]] = {}
@@ -84,7 +84,7 @@ def limits(node: Node, reading: Reading) -> Mapping[str, Mapping[str, float]]:
 
 
 def rules(node: Node, reading: Reading) -> DoctorRules:
-    """Read the doctor's rules: `{ignore: [gap, names], limits: {gap.seconds: 2}}`."""
+    """Read rules for the doctor, such as `{ignore: [gap, names], limits: {gap.seconds: 2}}`."""
     known = {
         "ignore": Key(values.several(check_or_area, "checks"), ()),
         "limits": Key(limits, MappingProxyType({})),
@@ -93,10 +93,10 @@ def rules(node: Node, reading: Reading) -> DoctorRules:
 
 
 def rules_beside(path: str | Path) -> tuple[DoctorRules, Path | None]:
-    """Return the rules beside a recording, `run.doctor.yaml` for `run.mcap`, and their path.
+    """Return the rules in a file such as `run.doctor.yaml` beside `run.mcap`, and its path.
 
     Raises:
-        InputError: If the file cannot be read; `ScenarioError` with every mistake.
+        InputError: If the file cannot be read; a `ScenarioError` lists every mistake in it.
     """
     recording = Path(path)
     for name in (f"{recording.name}{ENDING}", f"{recording.stem}{ENDING}"):

@@ -1,7 +1,7 @@
-"""YAML text as a small tree whose values know their positions.
+"""YAML text as a small tree whose values have their positions in the text.
 
 Only YAML's syntax is used: its event stream. The reader of a value decides later what a plain word
-means, so that `no` can be a frame and `1e-3` a number, and no tag can construct anything.
+means, so that `no` can be a frame and `1e-3` a number, and no tag can construct an object.
 """
 
 from collections.abc import Iterator
@@ -18,18 +18,18 @@ from tftool.base.named_files import open_named
 from tftool.scenario import document
 
 LARGEST = 256 * 1024
-"""Characters a scenario may have."""
+"""Longest scenario in characters."""
 
 DEEPEST = 20
-"""Levels of nesting a scenario may have."""
+"""Largest depth of nesting in a scenario."""
 
 MOST_VALUES = 20_000
-"""Values a scenario may have, with every alias written out."""
+"""Most values in a scenario, with every alias written out."""
 
 
 @dataclass(frozen=True, slots=True)
 class TextPlace:
-    """Position in a text: line and column from 0, and width."""
+    """Position in a text: line and column from 0, and width in characters."""
 
     line: int
     column: int
@@ -38,7 +38,7 @@ class TextPlace:
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A single value as written; `plain` if it has no quotes."""
+    """Single value as written in the text; `plain` if it has no quotes."""
 
     place: TextPlace
     text: str
@@ -46,13 +46,13 @@ class Scalar:
 
     @property
     def is_nothing(self) -> bool:
-        """Whether nothing was written, or YAML's words for it."""
+        """Whether the value is empty, `~` or `null`."""
         return self.plain and self.text in {"", "~", "null"}
 
 
 @dataclass(frozen=True, slots=True)
 class Mapping:
-    """Keys and values in file order; keys may be repeated."""
+    """Keys and values of a mapping, in the order of the file; keys may be repeated."""
 
     place: TextPlace
     entries: tuple[tuple[Scalar, "Node"], ...]
@@ -60,7 +60,7 @@ class Mapping:
 
 @dataclass(frozen=True, slots=True)
 class Sequence:
-    """A list of values."""
+    """Values of a list."""
 
     place: TextPlace
     items: tuple["Node", ...]
@@ -70,11 +70,11 @@ Node = Scalar | Mapping | Sequence
 
 
 class Document:
-    """A named text, its lines, and its tree.
+    """YAML text with a name and its lines.
 
     Args:
         text: The whole text.
-        name: Its name in messages, usually its path.
+        name: Name of the text in messages, usually its path.
 
     Attributes:
         mistakes: Mistakes that did not stop the reading.
@@ -93,11 +93,11 @@ class Document:
         return Mistake.at(self.name, self._lines, place.line, place.column, text, width=place.width)
 
     def read(self) -> Node:
-        """Parse the tree.
+        """Parse the text; return the root of the tree.
 
         Raises:
-            ScenarioError: When the text is not YAML, is empty, holds more than one
-                document, or is too large, too deep or too much.
+            ScenarioError: If the text is not YAML, is empty, contains more than one
+                document, is too large or too deep, or has too many values.
         """
         try:
             reader = _TreeReader(self)
@@ -121,12 +121,12 @@ class Document:
         return root
 
     def refuse(self, place: TextPlace, text: str, cause: Exception | None = None) -> NoReturn:
-        """Raise an error about the whole text because of one position."""
+        """Raise an error with all mistakes so far, and a last one at a position."""
         raise ScenarioError(self.name, [*self.mistakes, self.mistake(place, text)]) from cause
 
 
 class _TreeReader:
-    """Converter of YAML events to nodes."""
+    """Converter of YAML events to the nodes of the tree."""
 
     def __init__(self, document: Document) -> None:
         self.document = document
@@ -199,10 +199,10 @@ def _place(event: yaml.Event) -> TextPlace:
 
 
 def text_of(path: Path | str) -> str:
-    """Return a file's text, limited to the size of a scenario.
+    """Return the text of a scenario's file, up to the allowed size.
 
     Raises:
-        InputError: If it cannot be read, or is not UTF-8.
+        InputError: If the file cannot be read, or is not UTF-8.
     """
     try:
         with open_named(Path(path)) as file:

@@ -1,4 +1,4 @@
-"""User programs in a scenario, judged by its expectations.
+"""Users' programs that run in a scenario and are judged by its expectations.
 
 A scenario itself never names code to run; only the caller does. A program replaces one of the
 scenario's nodes, under its name, or is added to them; a launch file replaces all of them.
@@ -26,11 +26,11 @@ from tftool.world.world import World
 
 @dataclass(frozen=True, slots=True)
 class Entrant:
-    """A user's program.
+    """User's program to run in a scenario.
 
     Attributes:
         words: Words after `tftool run`: a file, or a package and its executable, then arguments.
-        node: The node of the scenario whose place it takes; empty when it lives beside them.
+        node: Name of the scenario's node that the program replaces; empty if it is added.
     """
 
     words: tuple[str, ...]
@@ -39,13 +39,13 @@ class Entrant:
 
 @dataclass(frozen=True, slots=True)
 class Exercise:
-    """Programs and launch files that a user adds to a scenario.
+    """Programs and a launch file that a user adds to a scenario.
 
     Attributes:
-        workspace: Workspace of packages.
-        programs: Programs.
+        workspace: Workspace in which packages are searched.
+        programs: Programs to run.
         launch: Words after `tftool launch`; empty without a launch file.
-        tell: Called with each line of the log.
+        tell: Function called with each log message.
     """
 
     workspace: Workspace
@@ -54,16 +54,16 @@ class Exercise:
     tell: Callable[[LogRecord], object] = lambda record: None
 
     def judge(self, scenario: Scenario, *, watch: Watch = nullcontext) -> Verdict:
-        """Play a scenario with these programs on simulated time to its end, and judge it.
+        """Play a scenario with the programs on simulated time to its end, and judge it.
 
         A program that fails is part of the verdict; the others go on, as processes do.
 
         Args:
-            scenario: Scenario or timeline to play.
-            watch: Context managers around the play, such as a recording.
+            scenario: Scenario to play.
+            watch: Function that returns a context manager for the run, such as a recording.
 
         Raises:
-            UsageError: If there is no such node, package or executable.
+            UsageError: If a node, package or executable does not exist.
             InputError: If a file cannot be read or is not valid Python.
         """
         failures: list[str] = []

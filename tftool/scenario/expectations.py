@@ -1,4 +1,4 @@
-"""Judging a scenario's expectations while it is played."""
+"""Node that judges a scenario's expectations while the scenario is played."""
 
 import asyncio
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from tftool.world.world import World
 
 
 def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
-    """Judge one expectation now."""
+    """Judge one expectation at the current time."""
     try:
         answer = expectation.question.answer(scene)
     except TransformException as error:
@@ -25,10 +25,10 @@ def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
 
 
 class Expectations(Node):
-    """Judge of every expectation at its time, after everything else of that instant.
+    """Node that judges every expectation at its time, after everything else of that instant.
 
     Attributes:
-        outcomes: Outcome of each, None for those still to come.
+        outcomes: Outcome of each expectation; None for those still to come.
     """
 
     phase: ClassVar[Phase] = Phase.WATCH
@@ -36,7 +36,7 @@ class Expectations(Node):
     def __init__(
         self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
     ) -> None:
-        """Watch `world`; log lines and transforms count from now on."""
+        """Add the node to a world; log messages and transforms count from now on."""
         super().__init__(world, "expectations")
         self.expected = tuple(expected)
         self.outcomes: list[Outcome | None] = [None] * len(self.expected)
@@ -50,7 +50,7 @@ class Expectations(Node):
         self._stops.append(world.log.listen(self._scene.count, self.name))
 
     def judged(self) -> tuple[Outcome, ...]:
-        """Return the outcome of each; expectations not yet due are marked."""
+        """Return the outcome of each expectation, "not reached" for those still to come."""
         pairs = zip(self.expected, self.outcomes, strict=True)
         return tuple(
             outcome or expected.outcome("not reached", None, False) for expected, outcome in pairs

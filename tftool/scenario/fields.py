@@ -1,9 +1,8 @@
-"""Readers of a document by its expected structure; all mistakes are reported together.
+"""Readers of a YAML document by its expected structure; all mistakes are reported together.
 
-A reader is a function from a node to a value. It notes the mistake and
-raises `Unreadable`; a reader of several things catches it and continues with
-the next, so that one pass finds all mistakes. The readers of single values are
-in `units`.
+A reader is a function from a node to a value. If it cannot read the value, it records the mistake
+and raises `Unreadable`. A reader of several values catches this and continues with the next value,
+so that one pass finds all mistakes. The readers of single values are in `units`.
 """
 
 import re
@@ -22,7 +21,7 @@ T = TypeVar("T")
 Reader: TypeAlias = Callable[[Node, "Reading"], Any]
 
 REQUIRED: Any = object()
-"""The default of a field that must be given."""
+"""Default that marks a field which must be given."""
 
 UNREAD: Any = object()
 """Placeholder for a value that could not be read."""
@@ -31,19 +30,19 @@ _ARGUMENT = re.compile(r"\$(?:\$|\{(\w+)\}|(\w+))")
 
 
 class Unreadable(Exception):
-    """Signal that a part could not be read; the reason is already recorded."""
+    """Exception for a value that could not be read; the mistake is recorded already."""
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Allowed values of one key, and its default."""
+    """Reader of the value of one key, and the default value."""
 
     read: Reader
     default: Any = REQUIRED
 
 
 class Reading:
-    """One pass over a document, with its arguments and mistakes."""
+    """One pass over a document, with the scenario's arguments and the mistakes found."""
 
     def __init__(self, source: Document) -> None:
         self.source = source
@@ -52,7 +51,7 @@ class Reading:
         self._noted: set[tuple[TextPlace, str]] = set()
 
     def note(self, where: Node | TextPlace, text: str) -> None:
-        """Record a mistake, once even if an alias repeats it."""
+        """Record a mistake; only once, even if an alias repeats it."""
         place = where if isinstance(where, TextPlace) else where.place
         if (place, text) not in self._noted:
             self._noted.add((place, text))
@@ -71,14 +70,14 @@ class Reading:
             return UNREAD
 
     def whole(self, values: Iterable[T]) -> list[T]:
-        """Return the values if every one of them was read."""
+        """Return the values; raise Unreadable if one of them is `UNREAD`."""
         found = list(values)
         if any(value is UNREAD for value in found):
             raise Unreadable
         return found
 
     def part(self, node: Node, text: str) -> Scalar:
-        """Return a part of a value for separate reading; its mistakes point at the value."""
+        """Return a part of a value as a node whose mistakes point at the whole value."""
         return Scalar(node.place, text.replace("$", "$$"))
 
     def text(self, node: Node, wanted: str) -> str:
@@ -86,7 +85,7 @@ class Reading:
 
         Args:
             node: Node of the document to read.
-            wanted: Expected noun, with its article: "a frame".
+            wanted: Noun for messages, with its article, such as "a frame".
         """
         if not isinstance(node, Scalar):
             kind = "a list" if isinstance(node, document.Sequence) else "a mapping"
@@ -127,7 +126,7 @@ class Reading:
         return found
 
     def items(self, node: Node, wanted: str) -> tuple[Node, ...]:
-        """Return a list's items; an empty value is an empty list."""
+        """Return the items of a list; an empty value is an empty list."""
         if isinstance(node, Scalar) and node.is_nothing:
             return ()
         if not isinstance(node, document.Sequence):
@@ -135,15 +134,12 @@ class Reading:
         return node.items
 
     def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
-        """Read a mapping with known keys.
+        """Read a mapping with known keys; return a value for every known key.
 
         Args:
             node: The mapping.
             known: Readers of the known keys.
-            what: Noun of the mapping, with its article: "a broadcaster".
-
-        Returns:
-            A value for every known key.
+            what: Noun for messages, with its article, such as "a broadcaster".
         """
         entries = self.entries(node, ", ".join(known) or "empty")
         return self.values(node.place, entries, known, what)
@@ -155,7 +151,7 @@ class Reading:
         known: Mapping[str, Key],
         what: str,
     ) -> dict[str, Any]:
-        """Read entries already split into keys and values; see `record`."""
+        """Read entries that are split into keys and values; see `record`."""
         whole = True
         meant = set()
         for name, (key, _) in entries.items():
@@ -182,7 +178,7 @@ class Reading:
 
 
 class DeclaredField(NamedTuple):
-    """A field that is read from a scenario; see `reads`."""
+    """Field of a class that is read from a scenario; see `reads`."""
 
     read: Reader
     default: Any
@@ -191,22 +187,22 @@ class DeclaredField(NamedTuple):
 
 
 def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = False) -> Any:
-    """Declare a field that is read from a scenario.
+    """Declare a field of a class that is read from a scenario.
 
     Args:
-        read: Reader of its value.
-        default: Default value; without one the key is required.
-        key: Key, where that is not a name in Python.
-        beside: Whether the key is a sibling of the one that names the kind, not inside it.
+        read: Reader of the value.
+        default: Default value; without one, the key is required.
+        key: Key in the scenario, if it is not a valid name in Python.
+        beside: Whether the key is beside the key that names the class, not inside its value.
     """
     return DeclaredField(read, default[0] if default else REQUIRED, key, beside)
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(reads,))
 class Declared:
-    """Base of kinds with fields that a scenario gives: frozen, and equal if their fields are.
+    """Base of classes whose fields a scenario gives: frozen, and equal if their fields are.
 
-    Not a dataclass, whose generated code took a sixth of the start of a scenario.
+    It is not a dataclass, because the code that dataclasses generate took a sixth of the start-up.
     """
 
     declared: ClassVar[Mapping[str, DeclaredField]] = {}
@@ -237,11 +233,11 @@ class Declared:
 
 
 def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[[type[T]], type[T]]:
-    """Enter a class in the table of its kinds.
+    """Register the decorated class in a table, under its key.
 
     Args:
-        kinds: Table of all kinds, by their keys.
-        key: Key of this one in a scenario.
+        kinds: Table of classes, by their keys.
+        key: Key of the class in a scenario.
         facts: Further attributes of the class; `short` names the field that a single value gives.
     """
 
@@ -255,7 +251,7 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
 
 
 def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
-    """Return the keys that a kind reads, and whether each is written beside the main value."""
+    """Return the keys that a class reads, and whether each is beside its main value."""
     return {
         one.key or name: (Key(one.read, one.default), one.beside)
         for name, one in kind.declared.items()
@@ -263,12 +259,12 @@ def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
 
 
 def attribute_names(kind: type[Declared]) -> dict[str, str]:
-    """Return the attribute for each of a kind's keys."""
+    """Return the attribute for each of a class's keys."""
     return {one.key or name: name for name, one in kind.declared.items()}
 
 
 def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
-    """Return the end of a sentence about an unknown word: the nearest known one, or all of them."""
+    """Return the end of a sentence about an unknown word: the nearest known one, or all."""
     choices = list(known)
     meant = did_you_mean(word, choices)
     if meant or not always:
@@ -277,12 +273,12 @@ def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
 
 
 def listed(words: Iterable[str]) -> str:
-    """Join words to a readable list."""
+    """Join words with commas."""
     return ", ".join(words)
 
 
 def quoted(text: str) -> str:
-    """Quote a value from a file for a message."""
+    """Quote a value from a file for a message, shortened if it is long."""
     shown = visible(text)
     return f"'{shown[:60]}…'" if len(shown) > 60 else f"'{shown}'"
 
@@ -295,18 +291,18 @@ def tagged(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> tuple[str, Any, dict[str, Any]]:
-    """Read a mapping in which one key gives the kind, and the others are its settings.
+    """Read a mapping in which one key names a class, and the other keys are settings.
 
     Args:
         node: The mapping.
-        reading: Pass in which the key is read.
+        reading: Pass over the document.
         what: Noun for messages, with its article.
-        kinds: Dataclass of each such key.
-        common: Keys allowed beside all of them.
-        beside: Keys allowed beside each, besides its own.
+        kinds: Class for each key that names one.
+        common: Keys that all classes allow beside it.
+        beside: Further keys that each class allows beside it.
 
     Returns:
-        The key, the object of its kind, and the values beside it.
+        The key, the object of its class, and the values beside the key.
     """
     entries = reading.entries(node, f"{listed(common)} and what it is about")
     tag = _tag(node, reading, what, kinds, common, beside)
@@ -344,7 +340,7 @@ def _tag(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> str:
-    """Return the key that gives a mapping's kind, or the mistake in its keys."""
+    """Return the key of a mapping that names a class; record a mistake if there is not one."""
     entries = reading.entries(node, "")
     tags = [key for key in entries if key in kinds]
     if len(tags) == 1:
@@ -369,7 +365,7 @@ def _tag(
 
 
 def _entries_of(kind: type, key: Scalar) -> Reader:
-    """Return a reader of a kind's value: a mapping, or its single main value."""
+    """Return a reader of the value of a key that names a class: a mapping, or one main value."""
     short = getattr(kind, "short", None)
 
     def read(value: Node, reading: Reading) -> dict[str, tuple[Scalar, Node]]:

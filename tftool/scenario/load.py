@@ -1,4 +1,4 @@
-"""Loading a scenario from YAML, or every mistake in it with its position.
+"""Reading of a scenario from YAML, with the position of every mistake in it.
 
 The kinds of nodes, actions and subjects are in `kinds.KINDS`, `actions.ACTIONS` and
 `questions.SUBJECTS`; this module names none of them.
@@ -37,17 +37,17 @@ from tftool.world.world import World
 NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
 
 KEPT: Mapping[str, str] = MappingProxyType({"script": "", "expectations": "", "teleop": "teleop"})
-"""Names of the nodes a play may add, and the kind of node a scenario may give each to."""
+"""Names of nodes that a run adds itself, with the kind of node that a scenario may give each to."""
 
 LOOK_EVERY: Duration = seconds(0.1)
-"""How often "by" and "during" look, unless said otherwise."""
+"""Nanoseconds between two judgements of "by" and "during", by default."""
 
 _WHEN = ("at", "by", "during", "always")
 
 _WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 MOST_LOOKS = 1_000_000
-"""How often all expectations of a scenario together may look."""
+"""Most judgements of all expectations of a scenario together."""
 
 
 def load(
@@ -56,13 +56,13 @@ def load(
     """Read a scenario file.
 
     Args:
-        path: The file.
-        arguments: Values for arguments the scenario declares.
-        expects: Whether expectations are judged. Those of a file are checked in any case, and
-            of a built-in scenario they are left out if they are not judged.
+        path: Path of the file.
+        arguments: Values of arguments that the scenario declares.
+        expects: Whether expectations are judged. Those of a user's file are read in any case;
+            those of a built-in scenario are left out if they are not judged.
 
     Raises:
-        InputError: If the file cannot be read; `ScenarioError` with every mistake in it.
+        InputError: If the file cannot be read; a `ScenarioError` lists every mistake in it.
         UsageError: If an argument is given that the scenario does not declare.
     """
     expects = expects or not builtin.is_shipped(Path(path))
@@ -72,12 +72,12 @@ def load(
 def parse(
     text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS, *, expects: bool = True
 ) -> Scenario:
-    """Parse a scenario from text; see `load`.
+    """Read a scenario from a text; see `load`.
 
     Args:
-        text: The YAML.
-        name: Its name in messages, usually its path.
-        arguments: Values for arguments the scenario declares.
+        text: The YAML text.
+        name: Name of the text in messages, usually its path.
+        arguments: Values of arguments that the scenario declares.
         expects: Whether to read the expectations.
     """
     source = Document(text, name)
@@ -92,15 +92,15 @@ def parse(
 
 
 class _ScenarioReader:
-    """One pass over a scenario; later parts are checked against earlier ones.
+    """Reader of a scenario in one pass; later parts are checked against earlier ones.
 
     Attributes:
-        given: Arguments from outside.
+        given: Arguments from the command line.
         expects: Whether expectations are read.
         duration: Duration of the scenario, once known.
         names: Names of its nodes, once all are known.
-        looks: Number of looks of all expectations so far.
-        not_a_tree: Places where its nodes publish links that no tree can hold.
+        looks: Number of times that all expectations so far are judged.
+        not_a_tree: Places where its nodes publish links that no tree can contain.
     """
 
     def __init__(self, given: Mapping[str, str], expects: bool) -> None:
@@ -112,7 +112,7 @@ class _ScenarioReader:
         self.not_a_tree: list[Mistake] = []
 
     def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
-        """Read everything, in the order that the checks need."""
+        """Read the whole scenario, in the order that the checks need."""
         known = {
             "about": Key(values.text, ""),
             "arguments": Key(self.arguments, NO_ARGUMENTS),
@@ -170,7 +170,7 @@ class _ScenarioReader:
         return MappingProxyType(reading.arguments)
 
     def check_given(self, declared: Mapping[str, str], reading: Reading) -> None:
-        """Refuse given arguments that the scenario does not declare."""
+        """Raise an error for given arguments that the scenario does not declare."""
         for name in self.given:
             if name not in declared:
                 have = f"; it has {listed(declared)}" if declared else "; it has none"
@@ -180,12 +180,12 @@ class _ScenarioReader:
                 )
 
     def length(self, node: Node, reading: Reading) -> Duration:
-        """Read the scenario's duration."""
+        """Read the duration of the scenario."""
         self.duration = values.time(least=values.SHORTEST)(node, reading)
         return self.duration
 
     def moment(self, node: Node, reading: Reading) -> Duration:
-        """Read a time since the start, not after the end."""
+        """Read a time since the start that is not after the scenario's end."""
         at: Duration = values.duration(node, reading)
         if self.duration is not None and at > self.duration:
             raise reading.refuse(
@@ -198,7 +198,7 @@ class _ScenarioReader:
     # Nodes.
 
     def nodes(self, node: Node, reading: Reading) -> tuple[NodeEntry, ...]:
-        """Read the nodes, each with a unique name."""
+        """Read the nodes, and give each a unique name."""
         items = [self.node(item, reading) for item in reading.items(node, "one node an item")]
         counts = Counter(kind for kind, _, _ in items)
         numbers: Counter[str] = Counter()
@@ -231,7 +231,7 @@ class _ScenarioReader:
     def against_a_tree(
         self, places: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
     ) -> None:
-        """Record nodes whose links contradict each other: two parents, a loop, itself."""
+        """Record nodes whose links contradict each other: two parents, or a loop."""
         parents: dict[str, tuple[str, int]] = {}
         for item, (kind, _, parameters) in zip(places, items, strict=True):
             link = None if parameters is UNREAD else link_of(kind, parameters)
@@ -258,7 +258,7 @@ class _ScenarioReader:
             self.not_a_tree.append(reading.source.mistake(item.place, text))
 
     def node(self, item: Node, reading: Reading) -> tuple[str, str, Any]:
-        """Split one node: its kind ("" if unknown), its name if given, the rest."""
+        """Split a node into its kind ("" if unknown), its name if given, and its parameters."""
         if isinstance(item, Scalar) and not item.is_nothing:
             # Just the kind: `- turtlesim`.
             entries: Mapping[str, tuple[Scalar, Node]] = {item.text: (item, Scalar(item.place, ""))}
@@ -297,7 +297,7 @@ class _ScenarioReader:
 
     @staticmethod
     def name_of(value: Node) -> str:
-        """Return a node's given name, even if it has mistakes."""
+        """Return the name given to a node, even if the node has mistakes."""
         for key, entry in value.entries if isinstance(value, document.Mapping) else ():
             if key.text == "name" and isinstance(entry, Scalar):
                 return entry.text
@@ -306,14 +306,14 @@ class _ScenarioReader:
     # Script and expectations.
 
     def script(self, node: Node, reading: Reading) -> tuple[Step, ...]:
-        """Read the script's actions."""
+        """Read the actions of the script."""
         read = [
             reading.try_read(self.step, item) for item in reading.items(node, "one action an item")
         ]
         return tuple(reading.whole(read))
 
     def step(self, node: Node, reading: Reading) -> Step:
-        """Read one action and its time."""
+        """Read one action of the script and its time."""
         common = {"at": Key(self.moment), "fails": Key(values.flag, False)}
         name, action, given = tagged(node, reading, "an action", ACTIONS, common, {})
         if isinstance(action, StopNode) and self.names is not None:
@@ -324,7 +324,7 @@ class _ScenarioReader:
         return Step(given["at"], action, node.place.line + 1, name, given["fails"])
 
     def expect(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """Read the scenario's expectations."""
+        """Read the expectations of the scenario."""
         read = [
             reading.try_read(self.expectation, item)
             for item in reading.items(node, "one expectation an item")
@@ -332,7 +332,7 @@ class _ScenarioReader:
         return tuple(one for several in reading.whole(read) for one in several)
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """Read one question; several times give several expectations."""
+        """Read one expectation, which is several if it has several times."""
         # Most commands expect nothing: they do without the questions.
         from tftool.scenario.questions import SUBJECTS
 
@@ -359,7 +359,7 @@ class _ScenarioReader:
         return tuple(Expectation(when, question, check, line) for when in whens)
 
     def moments(self, node: Node, reading: Reading) -> tuple[Duration, ...]:
-        """Read one time or a list of times."""
+        """Read one time or a list of times since the start."""
         if isinstance(node, document.Sequence):
             found: tuple[Duration, ...] = values.several(self.moment, "moments")(node, reading)
             if not found:

@@ -1,7 +1,7 @@
 """Kinds of nodes that a scenario may start: one entry each.
 
-An entry names the class and the parameters that a scenario may give it; every parameter is handed
-on under its own name, and its default is the class's own.
+An entry names the class and the parameters that a scenario may give; every parameter is passed on
+under its own name, and its default is the class's own.
 """
 
 import inspect
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 def robot_file(node: document.Node, reading: Reading) -> "Robot":
-    """Read a description beside the scenario; xacro is refused, since it runs code."""
+    """Read the path of a robot description, and load it; xacro is refused, since it runs code."""
     # numpy comes with it, which other scenarios do without.
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import load_description
@@ -56,7 +56,7 @@ def robot_file(node: document.Node, reading: Reading) -> "Robot":
 
 
 def joint_recording(node: document.Node, reading: Reading) -> tuple[Any, ...]:
-    """Read the joint states of a recording beside the scenario."""
+    """Read the path of a recording, and return its joint states."""
     from tftool.recordings.recording import open_recording
 
     path = _beside(node, reading, "a recording")
@@ -68,7 +68,7 @@ def joint_recording(node: document.Node, reading: Reading) -> tuple[Any, ...]:
 
 
 def joint_positions(node: document.Node, reading: Reading) -> dict[str, float]:
-    """Read positions by joint: numbers are radians or metres, or have units: `30 deg`, `5 cm`."""
+    """Read positions by joint, radians or metres, or with units: `30 deg`, `5 cm`."""
     found = {
         name: reading.try_read(_position, value)
         for name, (_, value) in reading.entries(node, "joint: position").items()
@@ -94,11 +94,11 @@ def _beside(node: document.Node, reading: Reading, wanted: str) -> Path:
 
 
 class NodeKind:
-    """Reader and constructor of one kind of node.
+    """Kind of node: the readers of its parameters, and the function that creates it.
 
     Attributes:
-        make: The class, or a function that does as a class does.
-        fields: Parameters, by their names.
+        make: Class of the node, or a function that creates it.
+        fields: Reader and default of each parameter, by name.
     """
 
     __slots__ = ("fields", "make")
@@ -111,12 +111,12 @@ class NodeKind:
         required: Collection[str] = (),
         **readers: Reader,
     ) -> None:
-        """Describe a kind.
+        """Describe a kind of node.
 
         Args:
-            make: The class, or a function that does as a class does.
-            usual: Names of parameters that are read as `USUAL` says, separated by blanks.
-            required: Parameters a scenario has to give, though the class has a default.
+            make: Class of the node, or a function that creates it.
+            usual: Names of parameters with the readers in `USUAL`, separated by blanks.
+            required: Parameters that a scenario must give, although the class has a default.
             readers: Readers of further parameters, by name.
         """
         self.make = make
@@ -131,14 +131,14 @@ class NodeKind:
         }
 
     def defaults(self) -> dict[str, Any]:
-        """Return a node's default parameters."""
+        """Return the default values of the parameters."""
         return {name: field.default for name, field in self.fields.items()}
 
     def build(self, world: World, name: str, parameters: Mapping[str, Any]) -> Node:
-        """Make a node and add it to `world`.
+        """Create a node in a world.
 
         Raises:
-            UsageError: If the parameters do not go together.
+            UsageError: If the parameters contradict each other.
         """
         return self.make(world, name, **parameters)
 
@@ -221,7 +221,7 @@ USUAL: Final[Mapping[str, Reader]] = {
     "turtle": values.turtle,
     "seed": values.whole(0, 2**32 - 1),
 }
-"""Readers of parameters that mean the same in every kind of node."""
+"""Readers of parameters that have the same meaning in every kind of node."""
 
 _PLANE = _triple(0.0, 0.0, "theta", 0.0)
 _SPAWN = _triple(4.0, 2.0, "theta", 0.0)
@@ -292,7 +292,7 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
 def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
     """Return parent and child of the single link that a node with these parameters publishes.
 
-    None for a node that publishes none, or whose links its parameters do not name.
+    Return None for a node that publishes no link, or links that its parameters do not name.
     """
     if kind in {"broadcaster", "message_broadcaster"}:
         parent, child = parameters["frame_id"], parameters["turtle"]

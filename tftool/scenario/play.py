@@ -1,4 +1,4 @@
-"""Running a scenario: builds its world, runs it on a clock, judges it, or records its frames."""
+"""Run of a scenario: its world is built, runs on a clock, and is judged or recorded."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -27,25 +27,25 @@ if TYPE_CHECKING:
 
 
 StandIn: TypeAlias = Callable[[World], object]
-"""Starts in a world what takes the place of one of a scenario's nodes."""
+"""Function that starts, in a world, the replacement of one of a scenario's nodes."""
 
 Watch: TypeAlias = Callable[[World], AbstractContextManager[object]]
-"""Something around a play, such as a recording of its world."""
+"""Function that returns a context manager for a run, such as a recording of its world."""
 
 NO_STAND_INS: Mapping[str, StandIn] = MappingProxyType({})
 
 TELEOP = "teleop"
-"""Name of the node that is added when a script presses keys and nothing takes them."""
+"""Name of the node that is added if a script presses keys and no node receives them."""
 
 
 class Play:
     """One run of a scenario: a world with its nodes, its script and its expectations.
 
     Attributes:
-        scenario: The scenario that is played.
-        world: The world.
-        start: The moment the play began; times in the scenario count from it.
-        failure: Why it ended early, in words; empty as long as it did not.
+        scenario: Scenario that is played.
+        world: World with its nodes.
+        start: Time at which the run began; times in the scenario count from it.
+        failure: Reason why the run ended early; "" if it did not.
     """
 
     def __init__(
@@ -55,12 +55,12 @@ class Play:
         *,
         stand_ins: Mapping[str, StandIn] = NO_STAND_INS,
     ) -> None:
-        """Build the world; nothing moves before `live`.
+        """Build the world; no node runs before `live`.
 
         Args:
-            scenario: Scenario or timeline to play.
-            clock: On whose time.
-            stand_ins: Nodes started in place of some of its own, by their names.
+            scenario: Scenario to play.
+            clock: Clock of the world.
+            stand_ins: Functions that start a replacement of some of its nodes, by the nodes' names.
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)
@@ -90,11 +90,11 @@ class Play:
         """Run the scenario.
 
         Args:
-            until: The last moment; that of the scenario's duration when None.
-            endless: Go on until the world is stopped, whatever the duration.
+            until: Last time, nanoseconds; None for the end of the scenario's duration.
+            endless: Whether to go on until the world is stopped, whatever the duration.
 
         Raises:
-            NodeFailed: If a node raised.
+            NodeFailed: If a node raised an exception.
         """
         self.start = self.world.clock.now()
         end = self.start + self.scenario.duration if until is None else until
@@ -105,7 +105,7 @@ class Play:
             raise
 
     def verdict(self) -> Verdict:
-        """Return the current verdict; expectations not yet due are marked."""
+        """Return the verdict so far; expectations not yet judged are marked."""
         steps = () if self._script is None else tuple(self._script.outcomes)
         judged = () if self._expectations is None else self._expectations.judged()
         return Verdict(
@@ -118,9 +118,9 @@ class Play:
 
 
 def left_to_a_person(scenario: Scenario) -> Scenario:
-    """Return the scenario without keys and drives, which a person at the keyboard replaces.
+    """Return a scenario without pressed keys and drives, which a person at the keyboard replaces.
 
-    Events of the world still happen. With a person in it, nothing is expected.
+    Other actions still happen. With a person driving, there are no expectations.
     """
     script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
     return replace(scenario, script=script, expect=())
@@ -131,16 +131,16 @@ def build(
     clock: Clock,
     arguments: Mapping[str, str] = NO_ARGUMENTS,
 ) -> Play:
-    """Build a play.
+    """Build the run of a scenario.
 
     Args:
-        scenario: Scenario or timeline to play.
-        clock: On whose time.
-        arguments: Values for arguments the scenario declares.
+        scenario: Scenario to play.
+        clock: Clock of the world.
+        arguments: Values of arguments that the scenario declares.
 
     Raises:
         UsageError: If an argument is given that the scenario does not declare.
-        ScenarioError: If the scenario cannot be read with them.
+        ScenarioError: If the scenario cannot be read with the arguments.
     """
     if arguments:
         scenario = parse(scenario.source, scenario.file, arguments)
@@ -152,12 +152,12 @@ def run_scenario(
 ) -> Verdict:
     """Play a scenario on simulated time to its end, and judge it.
 
-    A node that fails ends the play; that is part of the verdict.
+    A node that fails ends the run; that is part of the verdict.
 
     Args:
-        scenario: Scenario or timeline to play.
-        arguments: Values for arguments it declares.
-        watch: Context managers around the play, such as a recording.
+        scenario: Scenario to play.
+        arguments: Values of arguments that the scenario declares.
+        watch: Function that returns a context manager for the run, such as a recording.
     """
     clock = SimClock()
     play = build(scenario, clock, arguments)
@@ -168,7 +168,7 @@ def run_scenario(
 
 
 USUAL = seconds(5)
-"""How long a scenario is played unless more is asked for."""
+"""Nanoseconds for which a scenario is played by default."""
 
 
 def played(
@@ -181,16 +181,16 @@ def played(
     """Play a scenario on simulated time, and return all its transforms.
 
     Args:
-        found: File.
-        until: The last moment: a duration, infinity for all of it, or a moment that must lie
-            inside; `USUAL` if None.
-        margin: Seconds to play on after a moment, for transforms that arrive after their stamp.
+        found: File of the scenario.
+        until: Last time: a duration, infinity for the whole scenario, or a time inside it;
+            `USUAL` if None.
+        margin: Nanoseconds to play on after a time, for transforms that arrive after their stamp.
         cache_time: Cache time of the buffers, in place of the scenario's own; unlimited if None.
-        watch: Called with its world before it lives.
+        watch: Function called with the world before the run.
 
     Raises:
-        NodeFailed: If a node raised.
-        UsageError: If the moment is outside the span.
+        NodeFailed: If a node raised an exception.
+        UsageError: If the time is outside the scenario.
     """
     scenario = replace(load(found.paths[0], expects=False), expect=())
     if cache_time is not None:

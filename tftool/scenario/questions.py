@@ -1,7 +1,8 @@
 """Questions about a scenario: the subjects of expectations, with their answers.
 
-Each field of a subject names the reader of its value, and `answer` finds the answer.
-`declare` enters it in `SUBJECTS`, with its name in a scenario and the form of its expected answer.
+Each field of a subject names the reader of its value, and `answer` computes the answer.
+`declare` registers the subject in `SUBJECTS`, with its key in a scenario and the form of its
+expected answer.
 """
 
 import math
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
 
 
 class ScenarioWorld:
-    """World as questions see it.
+    """World of a scenario, as questions use it.
 
     Attributes:
         world: World of the scenario.
@@ -64,11 +65,11 @@ class ScenarioWorld:
 
     @property
     def now(self) -> Stamp:
-        """Current time."""
+        """Current time of the scenario's clock."""
         return self.world.clock.now()
 
     def lookup(self, target: str, source: str, time: RelativeMoment) -> Transform:
-        """Look up a pose at a time of the scenario."""
+        """Return the pose of source in target at a time of the scenario."""
         stamp = time.stamp(self.start, self.now)
         return self.world.buffer.lookup_transform(target, source, stamp).transform
 
@@ -76,7 +77,7 @@ class ScenarioWorld:
         """Return the facts about one frame.
 
         Raises:
-            LookupException: If there is none.
+            LookupException: If there is no such frame.
         """
         snapshot = self.world.buffer.snapshot(self.now)
         if name not in snapshot:
@@ -89,44 +90,44 @@ class ScenarioWorld:
         return self.world.buffer.snapshot(self.now).roots()
 
     def count(self, record: LogRecord) -> None:
-        """Count a log line for the questions about it."""
+        """Count a log message for the questions about log messages."""
         for question in self.lines:
             if question.counts(record):
                 self.lines[question] += 1
 
 
 SUBJECTS: Final[dict[str, type["Subject"]]] = {}
-"""Every subject, by its key."""
+"""Class of every subject, by its key."""
 
 
 class Subject(Declared):
-    """Something that can be asked about a scenario at some time.
+    """Question about a scenario at some time.
 
     Attributes:
         key: Key in a scenario.
-        form: Form of its expected answer.
+        form: Form of the expected answer.
     """
 
     key: ClassVar[str]
     form: ClassVar[Form]
 
     def answer(self, scene: ScenarioWorld) -> Any:
-        """Return the answer at this time.
+        """Return the answer at the current time.
 
         Raises:
-            TransformException: If there is none.
+            TransformException: If there is no answer.
         """
         raise NotImplementedError
 
     @property
     def problem(self) -> str:
-        """Return the fault in the combination of fields; empty if there is none."""
+        """Fault in the combination of fields; "" if there is none."""
         return ""
 
 
 @declare(SUBJECTS, "lookup", form=POSE_FORM)
 class Lookup(Subject):
-    """Pose of `source` in `target` at one time, or through a fixed frame at two."""
+    """Question for the pose of `source` in `target` at one time, or via a fixed frame at two."""
 
     target: str = reads(values.frame)
     source: str = reads(values.frame)
@@ -137,7 +138,7 @@ class Lookup(Subject):
 
     @property
     def problem(self) -> str:
-        """Return the fault in the combination of fields; empty if there is none."""
+        """Fault in the combination of fields; "" if there is none."""
         if self.fixed is None and (self.target_time or self.source_time):
             return "two times need a fixed frame to go through: 'fixed'"
         if self.fixed is not None and self.time is not None:
@@ -145,7 +146,7 @@ class Lookup(Subject):
         return ""
 
     def answer(self, scene: ScenarioWorld) -> Transform:
-        """Return the answer at this time."""
+        """Return the pose of source in target."""
         if self.fixed is None:
             return scene.lookup(self.target, self.source, self.time or RelativeMoment())
         latest = RelativeMoment()
@@ -164,7 +165,7 @@ class Lookup(Subject):
 
     @property
     def words(self) -> tuple[str, str, str]:
-        """Describe target, source, and the time or fixed frame."""
+        """Words for target, source, and the time or fixed frame."""
         if self.fixed is None:
             return self.target, self.source, "" if self.time is None else f" ({self.time})"
         latest = RelativeMoment()
@@ -176,7 +177,7 @@ class Lookup(Subject):
 
 
 class Between(Subject):
-    """Two frames, the second one relative to the first; see `Lookup` for the times."""
+    """Base of questions about one frame relative to another; see `Lookup` for the times."""
 
     start: str = reads(values.frame, key="from")
     end: str = reads(values.frame, key="to")
@@ -187,12 +188,12 @@ class Between(Subject):
 
     @property
     def problem(self) -> str:
-        """Return the fault in the combination of fields; empty if there is none."""
+        """Fault in the combination of fields; "" if there is none."""
         return self.lookup.problem
 
     @property
     def lookup(self) -> Lookup:
-        """Return the lookup that gives the answer."""
+        """Lookup of the pose between the two frames."""
         return Lookup(
             target=self.start,
             source=self.end,
@@ -205,10 +206,10 @@ class Between(Subject):
 
 @declare(SUBJECTS, "distance", form=range_form(LENGTH))
 class Distance(Between):
-    """Distance between two frames' origins."""
+    """Question for the distance between two frames' origins."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Return the distance in metres."""
         return math.hypot(*self.lookup.answer(scene).translation)
 
     def __str__(self) -> str:
@@ -218,10 +219,10 @@ class Distance(Between):
 
 @declare(SUBJECTS, "bearing", form=range_form(ANGLE))
 class Bearing(Between):
-    """Direction of a frame seen from another."""
+    """Question for the direction of a frame seen from another."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Return the direction in radians, counter-clockwise from the x axis."""
         return planar.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:
@@ -231,7 +232,7 @@ class Bearing(Between):
 
 @declare(SUBJECTS, "point", form=POSE_FORM)
 class PointOf(Subject):
-    """Position in one frame of a point fixed in another."""
+    """Question for the position in one frame of a point fixed in another."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -241,7 +242,7 @@ class PointOf(Subject):
     time: RelativeMoment = reads(values.moment, RelativeMoment())
 
     def answer(self, scene: ScenarioWorld) -> Transform:
-        """Return the answer at this time."""
+        """Return the position as a pose without rotation."""
         target_from_frame = scene.lookup(self.target, self.frame, self.time)
         return Transform(target_from_frame.apply((self.x, self.y, self.z)))
 
@@ -250,7 +251,7 @@ class PointOf(Subject):
 
 
 class Motion(Subject):
-    """Motion of one frame in another, averaged over a duration."""
+    """Base of questions about one frame's motion in another, averaged over a duration."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -258,17 +259,17 @@ class Motion(Subject):
     over: Duration = reads(values.period, seconds(0.1))
 
     def velocity(self, scene: ScenarioWorld) -> Velocity:
-        """Return the requested velocity at this time."""
+        """Return the velocity of the frame at the question's time."""
         stamp = self.time.stamp(scene.start, scene.now)
         return scene.world.buffer.lookup_twist(self.frame, self.target, stamp, self.over)
 
 
 @declare(SUBJECTS, "speed", form=range_form(SPEED))
 class SpeedOf(Motion):
-    """Speed of a frame's origin."""
+    """Question for the speed of a frame's origin."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Return the speed in m/s."""
         return math.hypot(*self.velocity(scene).linear)
 
     def __str__(self) -> str:
@@ -277,10 +278,10 @@ class SpeedOf(Motion):
 
 @declare(SUBJECTS, "turn_rate", form=range_form(TURN_RATE))
 class TurnRateOf(Motion):
-    """Counter-clockwise turn rate of a frame about the z axis."""
+    """Question for a frame's turn rate about the z axis, counter-clockwise."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Return the turn rate in rad/s."""
         return self.velocity(scene).angular.z
 
     def __str__(self) -> str:
@@ -288,7 +289,7 @@ class TurnRateOf(Motion):
 
 
 class OfFrame(Subject):
-    """A number measured for one frame."""
+    """Base of questions for a number measured for one frame."""
 
     short: ClassVar[str] = "frame"
     noun: ClassVar[str]
@@ -296,7 +297,7 @@ class OfFrame(Subject):
     frame: str = reads(values.frame)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Return the number, as `measure` computes it."""
         return type(self).measure(scene.frame(self.frame))
 
     def __str__(self) -> str:
@@ -305,7 +306,7 @@ class OfFrame(Subject):
 
 @declare(SUBJECTS, "rate", form=range_form(RATE), noun="rate", measure=lambda info: info.rate)
 class RateOf(OfFrame):
-    """Rate at which a frame is published."""
+    """Question for the rate at which a frame is published."""
 
 
 @declare(
@@ -316,7 +317,7 @@ class RateOf(OfFrame):
     measure=lambda info: as_seconds(info.age),
 )
 class AgeOf(OfFrame):
-    """Age of a frame's newest sample."""
+    """Question for the age of a frame's newest sample."""
 
 
 @declare(
@@ -327,17 +328,17 @@ class AgeOf(OfFrame):
     measure=lambda info: as_seconds(info.buffer_length),
 )
 class MemoryOf(OfFrame):
-    """Duration of a frame's history: newest minus oldest sample."""
+    """Question for the duration of a frame's history: newest minus oldest sample."""
 
 
 @declare(SUBJECTS, "frame", form=FRAME_FORM, short="name")
 class FrameOf(Subject):
-    """Whether a frame is known, its parent, and its publisher."""
+    """Question for whether a frame is known, its parent, and its publisher."""
 
     name: str = reads(values.frame)
 
     def answer(self, scene: ScenarioWorld) -> FrameFacts:
-        """Return the answer at this time."""
+        """Return the facts about the frame."""
         snapshot = scene.world.buffer.snapshot(scene.now)
         known = [info.frame for info in snapshot.frames]
         if self.name not in snapshot:
@@ -351,12 +352,12 @@ class FrameOf(Subject):
 
 @declare(SUBJECTS, "trees", form=COUNT_FORM, short="count")
 class Trees(Subject):
-    """Number of trees."""
+    """Question for the number of trees."""
 
     count: int = reads(values.whole(0, 100_000))
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Return the answer at this time."""
+        """Return the number of trees."""
         return len(scene.roots())
 
     def __str__(self) -> str:
@@ -365,12 +366,12 @@ class Trees(Subject):
 
 @declare(SUBJECTS, "roots", form=NAMES_FORM, short="names")
 class Roots(Subject):
-    """Frames without a parent."""
+    """Question for the frames without a parent."""
 
     names: tuple[str, ...] = reads(values.several(values.frame, "frames"))
 
     def answer(self, scene: ScenarioWorld) -> tuple[str, ...]:
-        """Return the answer at this time."""
+        """Return the names of the frames without a parent."""
         return scene.roots()
 
     def __str__(self) -> str:
@@ -379,12 +380,12 @@ class Roots(Subject):
 
 @declare(SUBJECTS, "turtles", form=NAMES_FORM, short="names")
 class Turtles(Subject):
-    """Turtles on the field."""
+    """Question for the turtles on the field."""
 
     names: tuple[str, ...] = reads(values.several(values.turtle, "turtles"))
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
-        """Return the answer at this time."""
+        """Return the names of the turtles."""
         # Topics outlive turtles and come before them; a turtle's services do neither.
         ending = "/teleport_absolute"
         services = scene.world.services()
@@ -396,7 +397,7 @@ class Turtles(Subject):
 
 @declare(SUBJECTS, "pose", form=TURTLE_POSE_FORM, short="turtle")
 class PoseOf(Subject):
-    """A turtle's last published pose."""
+    """Question for a turtle's last published pose."""
 
     turtle: str = reads(values.turtle)
 
@@ -416,18 +417,18 @@ class PoseOf(Subject):
     short="text",
 )
 class Logged(Subject):
-    """Number of log lines that contain a text."""
+    """Question for the number of log messages that contain a text."""
 
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)
     level: str | None = reads(values.choice(LEVELS, "a level"), None)
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Return the answer at this time."""
+        """Return the number of log messages."""
         return scene.lines.get(self, 0)
 
     def counts(self, record: LogRecord) -> bool:
-        """Whether a log line is counted."""
+        """Return whether a log message is counted."""
         return (
             self.text in record.text
             and self.node in (None, record.node)
@@ -441,13 +442,13 @@ class Logged(Subject):
 
 @declare(SUBJECTS, "doctor", form=CLEAN_FORM, short="findings")
 class Diagnosed(Subject):
-    """Findings of the doctor in all transforms since the start."""
+    """Question for the doctor's findings in all transforms since the start."""
 
     findings: str = reads(values.choice(("clean",), "what the doctor finds"), "clean")
     ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
-        """Return the answer at this time."""
+        """Return the findings as text, without those of ignored checks."""
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
         from tftool.doctor.judge import judge

@@ -1,4 +1,4 @@
-"""Values: a checked scenario, and the verdict on one run of it."""
+"""Values of a scenario that was read and checked, and the verdict on one run of it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class NodeEntry:
-    """A node to start.
+    """Node that a scenario starts.
 
     Attributes:
         kind: Kind, a key of `kinds.KINDS`.
         name: Given name, or the kind, numbered if there are several.
-        parameters: All parameters of its kind.
+        parameters: Values of all parameters of its kind.
     """
 
     kind: str
@@ -32,14 +32,14 @@ class NodeEntry:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One action, `at` nanoseconds after the start.
+    """One action of a scenario's script.
 
     Attributes:
-        at: Time of the step.
+        at: Time of the step, nanoseconds after the start.
         action: Action of the step.
         line: Line in the file.
-        name: Name there: "spawn".
-        fails: Whether the step must be refused.
+        name: Name of the action in the file, such as "spawn".
+        fails: Whether the action is expected to fail.
     """
 
     at: Duration
@@ -54,9 +54,9 @@ class When:
     """Times at which an expectation is judged, in nanoseconds since the start.
 
     Attributes:
-        kind: "at" a moment, "by" a moment at the latest, or "during" a while.
+        kind: "at" a time, "by" a time at the latest, or "during" a period.
         first: First time of judging.
-        last: The last one.
+        last: Last time of judging.
         every: Interval between the times of judging.
     """
 
@@ -73,12 +73,12 @@ class When:
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """A condition that must hold, and its times.
+    """Condition that must hold at some times.
 
     Attributes:
         when: Times at which the expectation is judged.
-        question: The question.
-        check: Check of the answer, from `checks`.
+        question: Question whose answer is checked.
+        check: Check of the answer.
         line: Line in the file.
     """
 
@@ -91,7 +91,7 @@ class Expectation:
         return f"{self.when}: {self.question} {self.check}"
 
     def outcome(self, found: str, at: Duration | None, ok: bool) -> "Outcome":
-        """Return its outcome in words."""
+        """Return the outcome of judging the expectation."""
         return Outcome(
             str(self.question), self.line, str(self.when), str(self.check), found, at, ok
         )
@@ -99,22 +99,22 @@ class Expectation:
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """A world, the actions in it, and its expectations.
+    """World, the actions in it, and expectations about it.
 
     Attributes:
         name: Name: that of the file without the suffix.
-        file: Its file, as it was given.
-        about: Contents.
+        file: Path of the file, as given.
+        about: Description in words.
         arguments: Arguments that can be set from outside, with their values.
         duration: Duration on simulated time, nanoseconds.
         cache_time: Cache time of the buffer, nanoseconds.
-        nodes: Nodes, in order.
-        script: Steps.
+        nodes: Nodes to start, in order.
+        script: Steps of the script.
         expect: Expectations.
-        doctor: Checks that the doctor leaves out, in expectations and in `tftool doctor`.
+        doctor: Rules for the doctor, in expectations and in `tftool doctor`.
         source: Text of the scenario, to be read again with other arguments.
         not_a_tree: Places where its nodes publish two parents of a frame, a loop, or a self-link.
-            Not refused: the doctor may be asked about such a scenario.
+            This is allowed: the doctor may be asked about such a scenario.
     """
 
     name: str
@@ -140,12 +140,12 @@ class Outcome:
     """Outcome of one expectation.
 
     Attributes:
-        expectation: The question in words: "distance from turtle2 to turtle1".
+        expectation: The question in words, such as "distance from turtle2 to turtle1".
         line: Line in the scenario's file.
-        when: Time condition of the expectation: "by 20 s".
-        expected: Description of a right answer: "below 0.5 m".
-        found: Sentence about the error.
-        at: Time of the verdict, nanoseconds since the start; None if its time never came.
+        when: Time condition of the expectation, such as "by 20 s".
+        expected: Description of a right answer, such as "below 0.5 m".
+        found: The answer, or the error, in words.
+        at: Time of the judgement, nanoseconds since the start; None if it was never judged.
         ok: Whether the expectation is met.
     """
 
@@ -159,11 +159,11 @@ class Outcome:
 
     @property
     def reached(self) -> bool:
-        """Whether the expectation's time was reached."""
+        """Whether the expectation was judged."""
         return self.at is not None
 
     def judgement(self) -> Judgement:
-        """Convert the outcome for tables and test reports."""
+        """Return the outcome in the form for tables and test reports."""
         return Judgement(
             subject=f"{self.when}: {self.expectation} {self.expected}",
             ok=self.ok,
@@ -179,13 +179,13 @@ class Verdict:
     """Verdict on one run of a scenario.
 
     Attributes:
-        scenario: Name.
-        file: File.
-        outcomes: One for each step that failed or was to, in the order of time; then one for
-            each expectation, in the order of the file.
+        scenario: Name of the scenario.
+        file: Path of its file, as given.
+        outcomes: One for each step that failed or was expected to, in the order of time; then one
+            for each expectation, in the order of the file.
         lasted: Duration of the run, nanoseconds on its clock.
-        failure: Why the run ended early; empty when it did not.
-        warnings: Slips of programs that show outside simulated time alone: sentences.
+        failure: Reason why the run ended early; empty if it did not.
+        warnings: Sentences about mistakes in programs that simulated time hides.
     """
 
     scenario: str
@@ -197,11 +197,11 @@ class Verdict:
 
     @property
     def ok(self) -> bool:
-        """Whether nothing failed, and every expectation that was due holds."""
+        """Whether nothing failed, and every expectation that was judged holds."""
         return not self.failure and all(one.ok for one in self.outcomes if one.reached)
 
     def report(self) -> Report:
-        """Convert the verdict for tables and test reports."""
+        """Return the verdict in the form for tables and test reports."""
         judgements = tuple(outcome.judgement() for outcome in self.outcomes)
         lasted = as_seconds(self.lasted)
         return Report(self.scenario, self.file, judgements, lasted, self.failure, self.warnings)

@@ -1,4 +1,4 @@
-"""Script of a scenario: every kind of action, run at its time."""
+"""Script of a scenario: a node that carries out actions, and the classes of actions."""
 
 import asyncio
 from collections.abc import Sequence
@@ -32,32 +32,32 @@ from tftool.world.nodes.turtle_drivers import KEYS, KeyPress
 from tftool.world.world import World
 
 SILENCE: Duration = seconds(1)
-"""How long before the end a service must have been asked for its silence to count."""
+"""Nanoseconds before the end within which a request without response is not a failure."""
 
 
 class StepFailed(TftoolError):
-    """Error for a refused step, with the reason."""
+    """Error for an action that failed, with the reason."""
 
 
 class Script(Node):
-    """Runs every step at its time; steps of one instant in file order.
+    """Node that carries out every step at its time; steps of one instant in file order.
 
-    A step that fails is told and noted; the others are done all the same.
+    A step that fails is logged and recorded; the others are carried out all the same.
 
     Attributes:
-        start: The moment the script began.
+        start: Time at which the script began.
         outcomes: Outcomes of the steps that should fail, and of those that failed.
     """
 
     def __init__(self, world: World, steps: Sequence[Step]) -> None:
-        """Make the script of a scenario in `world`."""
+        """Add the node to a world, with the steps of a scenario."""
         super().__init__(world, "script")
         self.steps = tuple(steps)
         self.start = world.clock.now()
         self.outcomes: list[Outcome] = []
 
     async def run(self) -> None:
-        """Run all steps; one that waits for an answer does not delay others."""
+        """Carry out all steps; one that waits for a response does not delay others."""
         self.start = self.clock.now()
         await asyncio.gather(*(self._do(step) for step in self.steps))
 
@@ -88,7 +88,7 @@ class Script(Node):
         """Call a service and wait for the response.
 
         Raises:
-            StepFailed: If the run ends and there is none.
+            StepFailed: If the run ends before the response.
         """
         asked = self.clock.now()
         try:
@@ -102,22 +102,22 @@ class Script(Node):
             ) from None
 
     async def wait_until(self, stamp: Stamp) -> None:
-        """Wait until a time, and for this node's turn within it."""
+        """Wait until a time, and for this node's turn within that instant."""
         await self.clock.sleep_until(stamp, self.phase, self.rank)
 
 
 REFRESH: Duration = seconds(0.5)
-"""How often a drive repeats its command; a turtle stops a second after the last one."""
+"""Nanoseconds between two commands of a drive; a turtle stops a second after the last one."""
 
 _REFUSED = "the buffer refused it; the log says why"
 
 
 ACTIONS: Final[dict[str, type["Action"]]] = {}
-"""Every action, by its key."""
+"""Class of every action, by its key."""
 
 
 class Action(Declared):
-    """Something that happens at a time of a scenario.
+    """Base of actions in a script.
 
     Attributes:
         key: Key in a scenario.
@@ -129,20 +129,20 @@ class Action(Declared):
         """Carry out the action now.
 
         Raises:
-            StepFailed: If the action is refused, with the reason.
+            StepFailed: If the action fails, with the reason.
         """
         raise NotImplementedError
 
 
 @declare(ACTIONS, "keys", short="keys")
 class Press(Action):
-    """Press keys on the teleop node one after the other."""
+    """Action that presses keys on the teleop node one after the other."""
 
     keys: tuple[str, ...] = reads(values.words(KEYS, "a key"))
     every: Duration = reads(values.period, seconds(1), beside=True)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Publish the keys, one per period."""
         start = script.clock.now()
         for count, key in enumerate(self.keys):
             await script.wait_until(start + count * self.every)
@@ -151,7 +151,7 @@ class Press(Action):
 
 @declare(ACTIONS, "drive")
 class Drive(Action):
-    """Command a velocity for a duration, then a stop."""
+    """Action that commands a turtle's velocity for a duration, then a stop."""
 
     turtle: str = reads(values.turtle, "turtle1")
     linear: float = reads(values.speed, 0.0)
@@ -160,7 +160,7 @@ class Drive(Action):
     lasting: Duration = reads(values.duration, key="for", beside=True)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Publish the velocity repeatedly for the duration, then a stop."""
         topic = script.publisher(f"{self.turtle}/cmd_vel", Twist)
         at = script.clock.now()
         end = at + self.lasting
@@ -177,7 +177,7 @@ class Drive(Action):
 
 @declare(ACTIONS, "spawn", short="name")
 class SpawnTurtle(Action):
-    """Spawn a turtle; without a name the simulator chooses one."""
+    """Action that spawns a turtle; without a name, the simulator chooses one."""
 
     name: str = reads(values.turtle, "")
     x: float = reads(values.length, CENTRE)
@@ -185,7 +185,7 @@ class SpawnTurtle(Action):
     theta: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Call the service that spawns the turtle."""
         request = build(Spawn.Request, self.x, self.y, self.theta, self.name)
         spawned = await script.call("spawn", request)
         if not spawned.name:
@@ -194,12 +194,12 @@ class SpawnTurtle(Action):
 
 @declare(ACTIONS, "kill", short="turtle")
 class KillTurtle(Action):
-    """Remove a turtle."""
+    """Action that removes a turtle."""
 
     turtle: str = reads(values.turtle)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Call the service that removes the turtle."""
         # The answer says nothing, as in ROS 2.
         is_there = script.world.has_service(f"{self.turtle}/set_pen")
         await script.call("kill", build(Kill.Request, self.turtle))
@@ -209,7 +209,7 @@ class KillTurtle(Action):
 
 @declare(ACTIONS, "teleport")
 class Teleport(Action):
-    """Move a turtle to a pose at once."""
+    """Action that moves a turtle to a pose at once."""
 
     turtle: str = reads(values.turtle, "turtle1")
     x: float = reads(values.length)
@@ -217,34 +217,34 @@ class Teleport(Action):
     theta: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Call the turtle's service teleport_absolute."""
         request = build(TeleportAbsolute.Request, self.x, self.y, self.theta)
         await script.call(f"{self.turtle}/teleport_absolute", request)
 
 
 @declare(ACTIONS, "hop")
 class Hop(Action):
-    """Turn a turtle, and move it along its new heading, at once."""
+    """Action that turns a turtle, and moves it along its new heading, at once."""
 
     turtle: str = reads(values.turtle, "turtle1")
     linear: float = reads(values.length, 0.0)
     angular: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Call the turtle's service teleport_relative."""
         request = build(TeleportRelative.Request, self.linear, self.angular)
         await script.call(f"{self.turtle}/teleport_relative", request)
 
 
 @declare(ACTIONS, "rotate")
 class Rotate(Action):
-    """Turn a turtle to a heading by the rotate action."""
+    """Action that turns a turtle to a heading by the ROS action rotate_absolute."""
 
     turtle: str = reads(values.turtle, "turtle1")
     theta: float = reads(values.angle)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Send the goal, without waiting for its end."""
         goal = build(RotateAbsolute.Goal, self.theta)
         script.world.send_goal(f"{self.turtle}/rotate_absolute", goal, patience=PATIENCE)
 
@@ -254,7 +254,7 @@ _channel = values.whole(0, 255)
 
 @declare(ACTIONS, "set_pen")
 class Pen(Action):
-    """Set a turtle's pen."""
+    """Action that sets the colour and width of a turtle's pen, or lifts it."""
 
     turtle: str = reads(values.turtle, "turtle1")
     r: int = reads(_channel, PEN_COLOR.r)
@@ -264,27 +264,27 @@ class Pen(Action):
     off: bool = reads(values.flag, False)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Call the turtle's service set_pen."""
         request = build(SetPen.Request, self.r, self.g, self.b, self.width, int(self.off))
         await script.call(f"{self.turtle}/set_pen", request)
 
 
 @declare(ACTIONS, "clear")
 class ClearField(Action):
-    """Erase all trails."""
+    """Action that erases all trails."""
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Call the simulator's service `clear`, or in the subclass `reset`."""
         await script.call(self.key, Empty.Request())
 
 
 @declare(ACTIONS, "reset")
 class ResetField(ClearField):
-    """Reset the field to one turtle in the centre."""
+    """Action that resets the field to one turtle in the centre."""
 
 
 class FrameAction(Action):
-    """Pose of a child in its parent."""
+    """Base of actions that broadcast the pose of a child in its parent."""
 
     parent: str = reads(values.frame)
     child: str = reads(values.frame)
@@ -297,21 +297,21 @@ class FrameAction(Action):
 
     @property
     def transform(self) -> Transform:
-        """Transform of the child in the parent."""
+        """Pose of the child in the parent."""
         rotation = quaternion_from_rpy(self.roll, self.pitch, self.yaw)
         return Transform((self.x, self.y, self.z), rotation)
 
 
 @declare(ACTIONS, "broadcast")
 class Broadcast(FrameAction):
-    """Broadcast a transform, once or repeatedly for a duration."""
+    """Action that broadcasts a transform, once or repeatedly for a duration."""
 
     stamp: RelativeMoment = reads(values.moment, RelativeMoment("now"))
     every: Duration = reads(values.period, seconds(0.1), beside=True)
     lasting: Duration = reads(values.duration, 0, key="for", beside=True)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Broadcast the transform, once or every period."""
         pose = self.transform
         at = script.clock.now()
         end = at + self.lasting
@@ -330,10 +330,10 @@ class Broadcast(FrameAction):
 
 @declare(ACTIONS, "static")
 class BroadcastStatic(FrameAction):
-    """Broadcast a static transform."""
+    """Action that broadcasts a static transform."""
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Broadcast the static transform once."""
         now = script.clock.now()
         pose = self.transform
         if not script.broadcast_static(TransformStamped(now, self.parent, self.child, pose)):
@@ -342,12 +342,12 @@ class BroadcastStatic(FrameAction):
 
 @declare(ACTIONS, "stop", short="node")
 class StopNode(Action):
-    """Stop a node and remove it from the world."""
+    """Action that stops a node and removes it from the world."""
 
     node: str = reads(values.name("a node"))
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Remove the node, and end a user's program that it belongs to."""
         # It may be gone already: stopped before, or left out by what hosts this world.
         gone = [node for node in script.world.nodes if node.name == self.node]
         for node in gone:
@@ -360,10 +360,10 @@ class StopNode(Action):
 
 @declare(ACTIONS, "say", short="text")
 class Say(Action):
-    """Write a line to the log, for people who watch."""
+    """Action that logs a message for people who watch."""
 
     text: str = reads(values.text)
 
     async def do(self, script: Script) -> None:
-        """Carry out the action now."""
+        """Log the message with level INFO."""
         script.info(self.text)

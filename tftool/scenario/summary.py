@@ -18,18 +18,18 @@ from tftool.scenario.scenario import Scenario, Verdict
 from tftool.world.clock import SimClock, run
 
 MOST_FRAMES = 20
-"""Of how many frames the ends, and the distances to each other, are told."""
+"""Most frames whose final poses and distances are listed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """A scenario after its end.
+    """Scenario after its end.
 
     Attributes:
-        scenario: The scenario that was played.
+        scenario: Scenario that was played.
         snapshot: All frames at its end.
-        verdict: Verdict of the run.
-        defaults: Arguments for which the expectations were written.
+        verdict: Verdict on the run.
+        defaults: Values of the arguments for which the expectations were written.
     """
 
     scenario: Scenario
@@ -38,7 +38,7 @@ class Played:
     defaults: Mapping[str, str]
 
     def changed(self) -> list[str]:
-        """Return the names of arguments that differ from those its expectations assume."""
+        """Return the names of arguments with other values than the expectations assume."""
         given = self.scenario.arguments
         return [name for name, value in given.items() if value != self.defaults.get(name)]
 
@@ -53,10 +53,10 @@ def play_through(
     """Play a scenario with its own script on simulated time.
 
     Args:
-        scenario: Scenario or timeline to play.
+        scenario: Scenario to play.
         defaults: Default values of its arguments.
-        duration: For how long; for the scenario's own duration when None.
-        watch: Context managers around the play, such as a recording.
+        duration: Nanoseconds to play; None for the scenario's own duration.
+        watch: Function that returns a context manager for the run, such as a recording.
     """
     clock = SimClock()
     play = build(scenario, clock)
@@ -69,7 +69,7 @@ def play_through(
 
 
 def written(played: Played) -> str:
-    """Format the verdict as lines for a person."""
+    """Return the summary as text lines."""
     scenario, verdict, snapshot = played.scenario, played.verdict, played.snapshot
     changed = played.changed()
     given = _settings(scenario.arguments, changed)
@@ -122,7 +122,7 @@ def written(played: Played) -> str:
 
 
 def as_json(played: Played) -> str:
-    """Return the verdict for --json."""
+    """Return the summary as JSON, for --json."""
     verdict = played.verdict
     frames = {}
     for info in played.snapshot.frames:

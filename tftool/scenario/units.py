@@ -1,6 +1,6 @@
 """Readers of single values: numbers with units, names, choices, times.
 
-Every number has a documented unit and may be given in another of the same kind.
+Every number has a documented unit and may be given in another unit of the same kind.
 """
 
 import math
@@ -21,14 +21,14 @@ _DEGREE = math.pi / 180.0
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A kind of number: its name, and its units' factors (the first is 1)."""
+    """Kind of number, such as a length: its name, and its units' factors (the first is 1)."""
 
     kind: str
     factors: Mapping[str, float]
 
     @property
     def name(self) -> str:
-        """Return the unit of a bare number; empty if it has none."""
+        """Unit of a number without one; "" if there is none."""
         return next(iter(self.factors), "")
 
 
@@ -46,10 +46,10 @@ NUMBER = Unit("a number", {})
 _UNITS = (DURATION, LENGTH, ANGLE, RATE, SPEED, TURN_RATE)
 
 FARTHEST = 1e9
-"""The largest number a scenario may name, in its own unit."""
+"""Largest number in a scenario, in its own unit."""
 
 LONGEST = 24 * 3600.0
-"""The longest duration a scenario may name, in seconds: a day."""
+"""Longest duration in a scenario in seconds: a day."""
 
 
 def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
@@ -83,7 +83,7 @@ def _about(written: str, unit: Unit) -> str:
 
 
 def quantity(unit: Unit, *, least: float = -math.inf) -> Reader:
-    """Return a reader of numbers in the first unit, not below `least`."""
+    """Return a reader of numbers, converted to the first unit, not below `least`."""
 
     def read(node: Node, reading: Reading) -> float:
         digits, written = _measure(node, reading, unit)
@@ -117,7 +117,7 @@ def time(*, least: float = 0.0) -> Reader:
 
 
 SHORTEST = 1e-3
-"""The shortest period a scenario may name, in seconds; a shorter one would never get on."""
+"""Shortest period in a scenario in seconds, so that a run makes progress."""
 
 duration = time()
 period = time(least=SHORTEST)
@@ -185,7 +185,7 @@ _TRUTHS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "
 
 
 def flag(node: Node, reading: Reading) -> bool:
-    """Read yes or no."""
+    """Read true or false, or another word for them."""
     value = reading.text(node, "true or false")
     if value.lower() not in _TRUTHS:
         raise reading.refuse(node, f"{quoted(value)} is neither true nor false")
@@ -193,7 +193,7 @@ def flag(node: Node, reading: Reading) -> bool:
 
 
 def or_none(read_one: Reader) -> Reader:
-    """Return a reader that also accepts `none`, or nothing."""
+    """Return a reader that also accepts `none` or an empty value, as None."""
 
     def read(node: Node, reading: Reading) -> object:
         if isinstance(node, Scalar) and (node.is_nothing or reading.text(node, "") == "none"):
@@ -218,7 +218,7 @@ def choice(choices: Iterable[str], what: str) -> Reader:
 
 
 def words(known: Iterable[str], what: str) -> Reader:
-    """Return a reader of words separated by blanks, each one of `known`."""
+    """Return a reader of one or more words of `known`, separated by blanks."""
     choices = tuple(known)
 
     def read(node: Node, reading: Reading) -> tuple[str, ...]:
@@ -235,7 +235,7 @@ def words(known: Iterable[str], what: str) -> Reader:
 
 
 def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
-    """Return a reader of a list of one kind of items."""
+    """Return a reader of a list whose items `read_one` reads."""
 
     def read(node: Node, reading: Reading) -> tuple[object, ...]:
         items = reading.items(node, what)
@@ -249,18 +249,18 @@ def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
 
 @dataclass(frozen=True, slots=True)
 class RelativeMoment:
-    """A time in a question: relative to the start or the question, or the latest.
+    """Time in a question: relative to the start or to the question's time, or the latest.
 
     Attributes:
-        kind: Origin of `offset`; none for "latest".
-        offset: Nanoseconds.
+        kind: Origin of `offset`; "latest" has none.
+        offset: Nanoseconds after the origin.
     """
 
     kind: Literal["latest", "now", "start"] = "latest"
     offset: Duration = 0
 
     def stamp(self, start: Stamp, now: Stamp) -> Stamp:
-        """Return the moment as a stamp, for a scenario's `start` and a question at `now`."""
+        """Return the time as a stamp, for a scenario's `start` and a question at `now`."""
         if self.kind == "latest":
             return 0
         return (start if self.kind == "start" else now) + self.offset

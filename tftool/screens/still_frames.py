@@ -1,4 +1,4 @@
-"""Complete frames in the form that screens show, and the time to show first."""
+"""Frames of a recording or file for screens, and the time to show first."""
 
 from dataclasses import dataclass
 from typing import Final, Protocol
@@ -10,33 +10,33 @@ from tftool.world.clock import Clock
 from tftool.world.log import Log
 
 SETTLING: Final[Duration] = seconds(3)
-"""How long after the beginning all frames are expected to have come; a scenario's turtles have."""
+"""Nanoseconds within which all frames are expected to appear, as a scenario's turtles do."""
 
 
 class ShownFrames(Protocol):
-    """Frames on a screen. Every `World` is one, and so are `StillFrames`."""
+    """Protocol of frames on a screen, which `World` and `StillFrames` follow."""
 
     @property
     def clock(self) -> Clock:
-        """Clock of the frames."""
+        """Clock whose time the frames' stamps use."""
 
     @property
     def buffer(self) -> Buffer:
-        """The frames."""
+        """Transform buffer with the frames."""
 
     @property
     def log(self) -> Log:
-        """Empty log."""
+        """Log whose messages the screen shows."""
 
 
 @dataclass(frozen=True, slots=True)
 class StillFrames:
-    """Complete frames, at rest.
+    """Frames of a recording or file, which do not change.
 
     Attributes:
-        clock: Stands still at their end.
-        buffer: The frames.
-        log: Lines of the screen itself.
+        clock: Clock that stands still at the frames' last time.
+        buffer: Transform buffer with the frames.
+        log: Log for messages of the screen itself.
     """
 
     clock: Clock
@@ -45,7 +45,7 @@ class StillFrames:
 
 
 def first_look(frames: Frames) -> Stamp | None:
-    """Return the time to show first; None for static transforms."""
+    """Return the time to show first; None if all transforms are static."""
     start, end = frames.span
     if start == end:
         return None
@@ -54,14 +54,14 @@ def first_look(frames: Frames) -> Stamp | None:
 
 
 def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
-    """Time to show first; None if nothing moves.
+    """Return the time to show first; None if all transforms are static.
 
-    It is the moment at which everything of the first `SETTLING` nanoseconds has arrived.
+    It is the time at which all frames of the first `SETTLING` nanoseconds have arrived.
 
     Args:
-        buffer: The frames.
-        begin: The first moment there is.
-        end: The last one.
+        buffer: Transform buffer with the frames.
+        begin: First time of the recording.
+        end: Last time of the recording.
     """
     frames = buffer.snapshot(end).frames
     first = [info.oldest for info in frames if info.samples and not info.is_static]

@@ -1,4 +1,4 @@
-"""The page's files in the package, and the browser's security policy for them."""
+"""Files of the page in the package, and the browser's security policy for them."""
 
 import gzip
 from collections.abc import Mapping
@@ -31,27 +31,27 @@ SAFETY: Mapping[str, str] = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
-"""Headers that go with every answer."""
+"""HTTP headers of every response."""
 
 
 @dataclass(frozen=True)
 class Asset:
-    """A file of the page, with its media type."""
+    """File of the page, with its media type."""
 
     kind: str
     content: bytes
 
     @cached_property
     def compressed(self) -> bytes:
-        """The content as gzip, compressed once and reproducibly."""
+        """Content as gzip, compressed once and always to the same bytes."""
         return gzip.compress(self.content, 6, mtime=0)
 
 
 def load() -> dict[str, Asset]:
-    """Read the page's files; keys are the paths they are served under.
+    """Read the page's files; return them by the paths under which they are served.
 
     Raises:
-        TftoolError: If the page was not built, which happens in a source tree only.
+        TftoolError: If the page was not built, which can happen in a source tree only.
     """
     here = resources.files("tftool.screens.browser")
     try:

@@ -1,4 +1,4 @@
-"""One open page: its outgoing pictures, and when they are sent."""
+"""Open page as the server sees it: the pictures to send to it, and their times."""
 
 import asyncio
 from collections.abc import Mapping
@@ -11,23 +11,23 @@ from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.screens.browser import page_messages, protocol
 
 FORGIVEN = seconds(1)
-"""Turns that came later than this in all are not made up for."""
+"""Delay in nanoseconds beyond which the schedule shifts instead of catching up."""
 
 
 class Cadence:
-    """Pace of a steady rate, with a pause after each turn at least as long as the turn.
+    """Schedule of turns at a steady rate; each pause is at least as long as the turn before it.
 
-    A turn that comes late moves none of those after it, as long as all of them are short: the
+    A turn that is late does not move the turns after it, as long as all of them are short: the
     average rate stays the requested one.
     """
 
     def __init__(self, period: Duration, start: Stamp) -> None:
-        """Start at `start`, with a turn every `period`."""
+        """Create a schedule that begins at `start`, with a turn every `period` nanoseconds."""
         self._period = period
         self._due = start
 
     def after(self, began: Stamp, ended: Stamp) -> Stamp:
-        """Return the time of the next turn after one with this start and end."""
+        """Return the time of the next turn, after one with this begin and end."""
         self._due += self._period
         # Thousands of frames may take longer than a period: never more than half the time.
         earliest = ended + (ended - began)
@@ -37,17 +37,17 @@ class Cadence:
 
 
 IN_FLIGHT = 2
-"""Poses a page may be sent before it says it has drawn the first of them."""
+"""Most messages with poses that are sent to a page before it acknowledges the first."""
 
 
 @dataclass(frozen=True, slots=True)
 class TreeMessage:
-    """The names of one state of the tree, as sent.
+    """Message with the names of the frames in one state of the tree.
 
     Attributes:
-        revision: Number.
-        text: The message.
-        shown: Shown frames of the snapshot.
+        revision: Number of the state.
+        text: The message as JSON.
+        shown: Indices of the snapshot's frames that are shown.
     """
 
     revision: int
@@ -56,7 +56,10 @@ class TreeMessage:
 
 
 class Poses:
-    """One snapshot, serialised once for all pages except for the sequence number."""
+    """Binary message with the poses of one snapshot, made once for all pages.
+
+    Only its sequence number differs from page to page.
+    """
 
     def __init__(
         self, epoch: Stamp, revision: int, snapshot: Snapshot, frames: list[FrameInfo]
@@ -64,7 +67,7 @@ class Poses:
         self._written = protocol.encode_poses(epoch, 0, revision, snapshot, frames)
 
     def __call__(self, sequence: int) -> bytes:
-        """Return the bytes for a page that has received `sequence` − 1 pictures."""
+        """Return the message's bytes with a page's sequence number."""
         start = len(page_messages.MAGIC)
         number = (sequence & 0xFFFFFFFF).to_bytes(4, "little")
         return self._written[:start] + number + self._written[start + 4 :]
@@ -72,7 +75,7 @@ class Poses:
 
 @dataclass(frozen=True, slots=True)
 class SharedMoment:
-    """Data for all pages that show the same time."""
+    """Messages for all pages that show the same time."""
 
     snapshot: Snapshot
     tree: TreeMessage
@@ -80,13 +83,13 @@ class SharedMoment:
 
 
 class PageClient:
-    """One open page: what it shows, and what it receives next.
+    """Open page as the server sees it: what the page shows, and what to send next.
 
     Attributes:
         at: Time shown by the page; None for the present.
-        pair: Target and source whose transform it is sent.
-        sent: Poses sent so far.
-        skipped: Poses not sent because the page was busy.
+        pair: Target and source of the pair whose transform the page shows.
+        sent: Number of messages with poses sent so far.
+        skipped: Number of messages with poses not sent because the page was busy.
     """
 
     def __init__(self, socket: ServerConnection) -> None:
@@ -105,7 +108,7 @@ class PageClient:
         self._wake = asyncio.Event()
 
     def hear(self, request: page_messages.PageRequest, epoch: Stamp) -> None:
-        """Handle a request to show a moment or a pair, or an acknowledgement."""
+        """Handle a page's request to show a time or a pair, or its acknowledgement."""
         if request.kind == "got":
             self._drawn = max(self._drawn, min(request["sequence"], self.sent))
             self._wake.set()
@@ -118,12 +121,12 @@ class PageClient:
         self._asked = True
 
     def wants(self) -> bool:
-        """Whether the page needs new poses; a request about the past is answered once."""
+        """Return whether to send new poses; for a past time only once per request."""
         asked, self._asked = self._asked, False
         return asked or self.at is None
 
     def offer(self, tree: TreeMessage, pair: str | None, poses: Poses) -> None:
-        """Offer the newest picture; an earlier unsent one is dropped."""
+        """Set the next picture to send; an earlier one that is not sent yet is dropped."""
         if self._next:
             self.skipped += 1
         self._next = [] if self._revision == tree.revision else [tree.text]
@@ -134,22 +137,22 @@ class PageClient:
         self._wake.set()
 
     def tell(self, text: str) -> None:
-        """Offer a message other than a picture; an earlier unsent one is dropped."""
+        """Set the next text message to send; an earlier one that is not sent yet is dropped."""
         self._word = text
         self._wake.set()
 
     def show_robot(self, text: str) -> None:
-        """Offer the robot; only the last one is sent."""
+        """Set the robot message to send; an earlier one that is not sent yet is dropped."""
         self._robot = text
         self._wake.set()
 
     def show_displays(self, blocks: Mapping[str, bytes]) -> None:
-        """Offer messages to draw, by topic; of each topic the last is sent."""
+        """Set messages to draw, by topic; of each topic, only the last one is sent."""
         self._displays.update(blocks)
         self._wake.set()
 
     async def feed(self) -> None:
-        """Send offered data whenever the page is ready; ends with the connection."""
+        """Send what is set whenever the page is ready, until the connection ends."""
         while True:
             await self._wake.wait()
             self._wake.clear()

@@ -1,4 +1,4 @@
-"""Drawable messages of a recording or a running session, topic by topic and within limits."""
+"""Messages to draw from a recording or a running session, by topic and within limits."""
 
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -30,28 +30,28 @@ DISPLAYS: Final[dict[str, Draw]] = {
     for one in [import_module(module.name)]
     for name in getattr(one, "TYPES", ())
 }
-"""By the type of a message: how it is drawn, by the file in `displays/` that names the type."""
+"""Function that draws each type of message, from the file in `displays/` that names the type."""
 
 ACCUMULATED: Final = frozenset(markers.TYPES)
-"""Types whose messages change what the ones before them showed: every message is drawn."""
+"""Types whose messages change what earlier ones showed, so that every message must be drawn."""
 
 MOST_TOPICS: Final = 40
-"""Topics that are drawn."""
+"""Most topics that are drawn."""
 
 _MOST_FAULTS: Final = 10
 
 MILLIMETRE: Final = 1e-3
-"""To what the places of clouds are rounded; those of other shapes to a hundredth of it."""
+"""Step in metres to which points of clouds are rounded; other positions to a hundredth of it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of what is drawn.
+    """Limits on the messages that are drawn.
 
     Attributes:
-        points: Points of one message.
-        all_points: Points of all messages of a topic together; of more messages, every second
-            one, or every third.
+        points: Most points of one message.
+        all_points: Most points of all messages of a topic; beyond it, only every second or third
+            message is drawn.
     """
 
     points: int = MOST_POINTS
@@ -59,18 +59,18 @@ class Limits:
 
 
 IN_A_FILE: Final = Limits(20_000, 600_000)
-"""Limits of a page that is sent around."""
+"""Limits for a page that is saved as a file."""
 
 
 @dataclass(slots=True)
 class DrawnTopic:
-    """Messages of one topic.
+    """Messages of one topic to draw.
 
     Attributes:
-        topic: Name.
+        topic: Name of the topic.
         type: Type of its messages.
-        messages: In the order of their stamps.
-        count: Number of were recorded.
+        messages: Messages in the order of their stamps.
+        count: Number of messages that were recorded.
         faults: Faults of messages, each with its count.
     """
 
@@ -81,13 +81,13 @@ class DrawnTopic:
     faults: dict[str, int] = field(default_factory=dict)
 
     def note(self, fault: str) -> None:
-        """Count a fault; of many different ones the first."""
+        """Count a fault; of many different faults, only the first are stored."""
         if fault in self.faults or len(self.faults) < _MOST_FAULTS:
             self.faults[fault] = self.faults.get(fault, 0) + 1
 
 
 def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
-    """Return a recording's drawable topics."""
+    """Return the topics of a recording that can be drawn, with their messages."""
     found: list[DrawnTopic] = []
     for topic in recording.topics:
         name = topic.type.replace("/msg/", "/").replace("/", "/msg/", 1)
@@ -99,7 +99,7 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
 
 
 def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
-    """Return a recording's drawable topics in their own opened file; callable from any thread."""
+    """Return the same as `recorded_tracks`, from a file opened here; callable from any thread."""
     with open_recording(name) as recording:
         return recorded_tracks(recording, limits)
 
@@ -132,7 +132,7 @@ def _fill(track: DrawnTopic, recording: Recording, limits: Limits) -> None:
 def pack_tracks(
     block: PackedBlock, tracks: Sequence[DrawnTopic], buffer: Buffer, epoch: Stamp
 ) -> list[dict[str, Any]]:
-    """Pack topics into a block; return their header.
+    """Add topics to a block of packed data; return the header that describes them.
 
     Each message has the pose of its frame at its own stamp, in the root of its tree.
     """
@@ -177,7 +177,7 @@ def _packed_shape(block: PackedBlock, shape: Shape, buffer: Buffer, epoch: Stamp
 
 
 def place(shape: Shape, buffer: Buffer) -> Shape:
-    """Return the shape with the pose of its frame at its stamp, looked up once."""
+    """Return a shape with the pose of its frame at its stamp, looked up once."""
     if shape.placement is not None:
         return shape
     unknown = replace(shape, placement=(None, None))
@@ -197,29 +197,29 @@ def place(shape: Shape, buffer: Buffer) -> Shape:
 
 
 PATIENCE: Final = 5
-"""Rounds in which a message waits for the transform of its frame at its stamp."""
+"""Rounds for which a message waits until its frame's transform at its stamp is known."""
 
 MOST_BYTES: Final = 6_000_000
-"""Bytes of a round, but for the last message of it: a cloud of 200 000 points has 4.8 MB."""
+"""Bytes of a round after which no further message is added; 200 000 points have 4.8 MB."""
 
 MOST_HELD: Final = 1000
-"""Messages of one topic that wait to be drawn; the oldest is dropped for a further one."""
+"""Most messages of one topic that wait to be drawn; a further one drops the oldest."""
 
 
 @dataclass(slots=True)
 class _HeardTopic:
-    """One subscribed topic.
+    """Topic of a running session to which the page is subscribed.
 
     Attributes:
-        drawn: Drawing on the page; its one message is the last one.
-        quality: Quality of service of its subscription.
-        stop: Ends the subscription.
-        held: Messages that are not drawn yet, and when each arrived; the last one only, unless
-            each changes what the ones before it showed.
-        waiting: The message that was drawn, until it can be placed.
-        rounds: For how many rounds it has waited.
+        drawn: Drawn topic for the page; its one message is the last one.
+        quality: Quality of service of the subscription.
+        stop: Function that ends the subscription.
+        held: Messages that are not drawn yet, with their times of arrival; only the last one,
+            unless each message changes what the ones before it showed.
+        waiting: Drawn message that cannot be placed yet.
+        rounds: Number of rounds for which it has waited.
         is_news: Whether a fault was not reported to the page yet.
-        block: The last block sent.
+        block: Last packed data sent to pages.
     """
 
     drawn: DrawnTopic
@@ -233,10 +233,10 @@ class _HeardTopic:
 
 
 class LiveDisplays:
-    """Subscriber to the drawable topics of a world, including later ones."""
+    """Subscriber to the topics of a world that can be drawn, including later ones."""
 
     def __init__(self, world: World, limits: Limits = Limits()) -> None:
-        """Subscribe."""
+        """Subscribe to the topics of a world that can be drawn."""
         self._world = world
         self._limits = limits
         self._heard: dict[str, _HeardTopic] = {}
@@ -245,7 +245,7 @@ class LiveDisplays:
         self._look()
 
     def close(self) -> None:
-        """Unsubscribe."""
+        """End all subscriptions."""
         self._stop_watching()
         for one in self._heard.values():
             one.stop()
@@ -253,11 +253,11 @@ class LiveDisplays:
 
     @property
     def blocks(self) -> dict[str, bytes]:
-        """Return the last message of every topic, for a newly opened page."""
+        """Packed last message of every topic, for a newly opened page."""
         return {topic: one.block for topic, one in self._heard.items() if one.block}
 
     def latest(self, most: int) -> list[DrawnTopic]:
-        """Return the last message of every topic for storage, thinned to at most `most` points."""
+        """Return the last message of every topic, thinned to at most `most` points."""
         found: list[DrawnTopic] = []
         for one in self._heard.values():
             self._draw(one)
@@ -267,9 +267,9 @@ class LiveDisplays:
         return found
 
     def round(self) -> dict[str, bytes]:
-        """Return the blocks of topics with new messages; many large ones are spread over rounds.
+        """Return the packed data of topics with new messages; large data is spread over rounds.
 
-        Called at the rate of the pages' updates.
+        This is called at the rate of the pages' updates.
         """
         told: dict[str, bytes] = {}
         room = MOST_BYTES
@@ -329,7 +329,7 @@ class LiveDisplays:
             del self._heard[topic]
 
     def _is_due(self, one: _HeardTopic) -> bool:
-        """Whether a topic has a new message that is drawn and placed."""
+        """Return whether a topic has a new message that is drawn and placed."""
         self._draw(one)
         if one.waiting is not None:
             one.rounds += 1
@@ -345,7 +345,7 @@ class LiveDisplays:
         return one.is_news
 
     def _draw(self, one: _HeardTopic) -> None:
-        """Draw a topic's new messages, unless one waits to be placed."""
+        """Convert a topic's new messages to shapes, unless one still waits to be placed."""
         if one.waiting is not None or not one.held:
             return
         one.rounds = 0
@@ -371,7 +371,7 @@ class LiveDisplays:
 
 
 def _is_known(shape: Shape, buffer: Buffer) -> bool:
-    """Whether the pose of a shape's frame at its stamp is known."""
+    """Return whether the pose of a shape's frame at its stamp is known."""
     root, frames = shape.frame, buffer.frames()
     if root not in frames or shape.stamp is None:
         return root in frames
@@ -388,4 +388,4 @@ def _is_known(shape: Shape, buffer: Buffer) -> bool:
 
 
 def _nothing() -> None:
-    """Do nothing, in place of ending a subscription."""
+    """Do nothing: the function to end a subscription that was not made."""

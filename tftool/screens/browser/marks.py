@@ -1,4 +1,4 @@
-"""Marks on the page's timeline: links without data, and the doctor's findings."""
+"""Marks on the page's timeline: times without data, and the doctor's findings."""
 
 from math import degrees
 from typing import Any, Final
@@ -15,18 +15,18 @@ from tftool.screens.browser.page_messages import answer
 from tftool.screens.browser.protocol import since
 
 MOST_GAPS: Final = 2000
-"""Gaps that are told; the longest of more."""
+"""Most gaps in the message; of more, the longest."""
 
 MOST_FINDINGS: Final = 200
-"""Findings that are told, the worst first."""
+"""Most findings in the message, the worst first."""
 
 
 def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
     """Return gaps and findings as a message for the page; times in seconds since the epoch.
 
     Args:
-        buffer: The judged source; it keeps no log times, so checks that need them are left out.
-        epoch: The moment from which the page counts.
+        buffer: Buffer to judge, without times of reception and the checks that need them.
+        epoch: Time from which the page counts.
     """
     frames = buffer.snapshot(0).frames
     if not any(frame.samples > 1 and not frame.is_static for frame in frames):
@@ -63,7 +63,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
 
 
 def _step(step: LocalisationStep, epoch: Stamp) -> dict[str, Any]:
-    """Return a localiser's jump as a mark."""
+    """Return a step (jump) of a localiser as a mark."""
     parent, child = step.edge
     at = since(epoch, step.stamp)
     message = f"{child} in {parent} steps {step.moved * 1e3:.0f} mm, {degrees(step.turned):.1f}°"

@@ -28,27 +28,27 @@ import numpy.typing as npt
 MAGIC: Final = b"TFS1"
 
 METRES: Final = 1e-6
-"""To what translations are rounded where not all digits have room."""
+"""Step in metres to which translations are rounded if the file would be too large."""
 
 QUATERNION: Final = 1e-7
-"""To what the numbers of a quaternion are rounded then: turns of a fifth of a microradian."""
+"""Step to which a quaternion's numbers are rounded then: a fifth of a microradian."""
 
 _WHOLE_BELOW: Final = 2.0**52
 _PIECE: Final = 1 << 20
 
 Progress = Callable[[int, int], object]
-"""Is told how far it has come: bytes done, bytes in all."""
+"""Function called with the progress: bytes done, and bytes in all."""
 
 
 class TooLarge(Exception):
-    """Error for packed data beyond the size limit."""
+    """Error for packed data larger than its limit."""
 
 
 class PackedBlock:
-    """A block being built: sections one by one, equal columns stored once."""
+    """Block of packed data being built: sections one by one, with equal columns stored once."""
 
     def __init__(self, *, is_rounded: bool = False) -> None:
-        """Start an empty block.
+        """Create an empty block.
 
         Args:
             is_rounded: Whether numbers may be rounded to `METRES` and `QUATERNION`.
@@ -59,7 +59,7 @@ class PackedBlock:
         self._known: dict[bytes, dict[str, Any]] = {}
 
     def section(self, content: bytes) -> list[int]:
-        """Append bytes; return their place in the block."""
+        """Append bytes; return their offset and length in the block."""
         where = [self._length, len(content)]
         padded = content + bytes(-len(content) % 8)
         self._sections.append(padded)
@@ -67,13 +67,13 @@ class PackedBlock:
         return where
 
     def wholes(self, numbers: npt.NDArray[np.int64], step: float = 1.0) -> dict[str, Any]:
-        """Append integers as a column: first or second differences, whichever is smaller."""
+        """Append integers as a column of first or second differences, whichever is smaller."""
         if len(numbers) and (numbers == numbers[0]).all():
             return {"value": float(numbers[0]) * step}
         return self._once(numbers, lambda: self._differences(numbers, step))
 
     def doubles(self, numbers: npt.NDArray[np.float64], step: float) -> dict[str, Any]:
-        """Append doubles as a column: exact, or rounded to `step`."""
+        """Append doubles as a column, exact or rounded to `step`; return its description."""
         numbers = np.ascontiguousarray(numbers, dtype=np.float64)
         bits = numbers.view(np.uint64)
         if len(bits) and (bits == bits[0]).all():
@@ -108,7 +108,7 @@ class PackedBlock:
         return known
 
     def plain(self, header: object) -> bytes:
-        """Return the whole block uncompressed, for temporary data; `header` comes first."""
+        """Return the whole block uncompressed, with `header` at its beginning."""
         return b"".join([_head(header), *self._sections])
 
     def deflated(
@@ -122,13 +122,13 @@ class PackedBlock:
         """Return the whole block, compressed with zlib.
 
         Args:
-            header: JSON in front of it.
-            most: Largest number of bytes.
-            progress: Called with the progress.
+            header: Value to write as JSON at the beginning.
+            most: Largest number of bytes; None for no limit.
+            progress: Function called with the progress.
             level: Level of compression, 1 to 9.
 
         Raises:
-            TooLarge: If the result is larger.
+            TooLarge: If the result is larger than `most`.
         """
         head = _head(header)
         squeeze = zlib.compressobj(level)
@@ -155,7 +155,7 @@ def _head(header: object) -> bytes:
 
 
 def _planes(words: npt.NDArray[Any]) -> bytes:
-    """Reorder bytes: the first of every word, then the second, up to the eighth."""
+    """Return all first bytes of some words, then all second bytes, up to the eighth."""
     little = np.ascontiguousarray(words).astype("<u8", copy=False)
     return np.ascontiguousarray(little.view(np.uint8).reshape(-1, 8).T).tobytes()
 

@@ -1,11 +1,11 @@
-"""Messages between the page and its server: the table from which both sides follow.
+"""Messages between the page and its server: one table from which the code of both sides follows.
 
-`REQUESTS` and `ANSWERS` hold the fields of every text message, `HEAD` and `NUMBERS` the layout of
-the binary one. Python reads requests and builds answers by them. For the page,
-`python -m tftool.screens.browser.page_messages` writes `page/messages.js`: the types of all
-messages, which TypeScript checks, and the decoder of the head.
+`REQUESTS` and `ANSWERS` contain the fields of every text message, `HEAD` and `NUMBERS` the layout
+of the binary one. Python reads requests and builds answers by them. For the page, `python -m
+tftool.screens.browser.page_messages` writes `page/messages.js`: the types of all messages, which
+TypeScript checks, and the decoder of the head.
 
-Moments are seconds since the clock's epoch, which a float holds to the nanosecond for a hundred
+Times are seconds since the clock's epoch, which a float stores to the nanosecond for a hundred
 days; the epoch itself is a text.
 """
 
@@ -20,13 +20,13 @@ from typing import Any, Final
 from tftool.base.errors import InputError
 
 MOST_MOMENTS: Final = 2000
-"""Moments of a pair that are sent at once: a plot has no more columns."""
+"""Most times of a pair in one message: a plot has no more columns."""
 
 MOST_TRAILS: Final = 60
-"""Frames whose trails are sent at once."""
+"""Most frames whose trails are in one message."""
 
 MOST_BYTES: Final = 16 * 1024
-"""The longest message a page has a reason to send: two names of some thousand letters."""
+"""Longest message from a page in bytes: enough for two names of some thousand letters."""
 
 ARROWS: Final = ("up", "down", "left", "right")
 """Keys that drive a turtle."""
@@ -34,7 +34,7 @@ ARROWS: Final = ("up", "down", "left", "right")
 
 @dataclass(frozen=True, slots=True)
 class PageRequest:
-    """Message of a page.
+    """Message from a page.
 
     Attributes:
         kind: Type, one of `REQUESTS`.
@@ -54,9 +54,9 @@ class FieldType:
     """Type of a field of a request.
 
     Attributes:
-        javascript: The type for TypeScript.
-        words: A sentence's end that says which values are right.
-        read: Returns the value for Python; raises ValueError for a wrong one.
+        javascript: The type in TypeScript.
+        words: End of a sentence that says which values are valid.
+        read: Function that returns the value for Python; raises ValueError for an invalid one.
     """
 
     javascript: str
@@ -217,22 +217,22 @@ HEAD: Final = {
     "oldest": "d",
     "newest": "d",
 }
-"""Head of binary poses behind the magic, little-endian: sequence number, revision of the names,
-number of frames; then moments: now, the one shown (NaN for the present), and the span of the
-buffer."""
+"""Head of the binary message after the magic number, little-endian: sequence number, revision of
+the names, number of frames; then times: now, the shown one (NaN for the present), and the span of
+the buffer."""
 
 HEADER: Final = struct.Struct(f"<4s{''.join(HEAD.values())}")
 
 NUMBERS: Final = ("x", "y", "z", "qx", "qy", "qz", "qw", "newest", "oldest", "rate", "samples")
-"""Numbers of each frame behind the head, doubles: its pose in its parent (NaN without data), its
+"""Numbers of each frame after the head, doubles: its pose in its parent (NaN without data), its
 span, its rate in hertz, and its number of samples."""
 
 
 def parse(message: str | bytes) -> PageRequest:
-    """Parse a message from a page.
+    """Parse a message from a page, and check its fields.
 
     Raises:
-        InputError: If the text is none of `REQUESTS`; names the mistake.
+        InputError: If the message is not one of `REQUESTS`; the text names the mistake.
     """
     if isinstance(message, bytes):
         raise InputError("the page sends text, not bytes")
@@ -258,7 +258,7 @@ def parse(message: str | bytes) -> PageRequest:
 
 
 def answer(kind: str, fields: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a message to the page, with exactly the fields of `ANSWERS`."""
+    """Return a message to the page, with exactly the fields that `ANSWERS` requires."""
     known = ANSWERS[kind]
     needed = {name for name in known if not name.endswith("?")}
     assert needed <= fields.keys() <= {name.removesuffix("?") for name in known}, kind
@@ -266,7 +266,7 @@ def answer(kind: str, fields: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def as_javascript() -> str:
-    """Return `page/messages.js`."""
+    """Return the text of `page/messages.js`."""
     lines = [
         "// @ts-check",
         "// Written by `python -m tftool.screens.browser.page_messages` from its tables: change "

@@ -1,4 +1,4 @@
-"""Encoding of the server's messages to the page; `page_messages` holds their fields."""
+"""Encoding of the server's messages to the page; `page_messages` defines their fields."""
 
 import json
 import math
@@ -18,14 +18,14 @@ from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.screens.browser.page_messages import HEADER, MAGIC, PageRequest, answer
 
 HISTORY = 120
-"""Moments that tell what the buffer remembers; fewer where there are many frames."""
+"""Number of past times sent to a new page; fewer if there are many frames."""
 
 MOST_FRAMES = 2000
-"""More than this is neither drawn nor listed by a browser at a useful rate."""
+"""Most frames shown; a browser could not draw or list more at a useful rate."""
 
 
 def since(epoch: Stamp, stamp: Stamp) -> float:
-    """Convert a stamp to seconds since the epoch."""
+    """Convert a stamp in nanoseconds to seconds since the epoch."""
     return (stamp - epoch) / NANOSECONDS
 
 
@@ -35,7 +35,7 @@ def stamp_at(epoch: Stamp, moment: float) -> Stamp:
 
 
 def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
-    """Return the oldest and newest stamp of any link; None if all are static."""
+    """Return the oldest and newest stamp of all moving links; None if all are static."""
     oldest = newest = 0
     for frame in frames:
         if frame.parent is not None and not frame.is_static and frame.samples:
@@ -45,7 +45,7 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
 
 
 def chosen(snapshot: Snapshot) -> list[int]:
-    """Choose frames to show if there are too many: those nearest to their roots."""
+    """Return the indices of the frames to show; if there are too many, those nearest to roots."""
     if len(snapshot.frames) <= MOST_FRAMES:
         return list(range(len(snapshot.frames)))
     kept = grow(snapshot, most=MOST_FRAMES).children
@@ -70,15 +70,15 @@ def encode_names(
     rate: float,
     begin: Stamp | None = None,
 ) -> str:
-    """Serialise the parts of a snapshot that seldom change.
+    """Return the message with the parts of a snapshot that seldom change, as JSON.
 
     Args:
-        epoch: The clock's.
-        revision: Counts how often the names have changed.
-        frames: Shown frames.
-        total: Number of names.
+        epoch: Epoch of the clock, nanoseconds.
+        revision: Number of changes of the names so far.
+        frames: Frames to show.
+        total: Number of all frames.
         rate: Rate of the clock, for playback.
-        begin: The moment to open with, where everything was recorded before.
+        begin: Time to open with if everything was recorded before; None for the present.
     """
     place = {frame.frame: index for index, frame in enumerate(frames)}
     return json.dumps(
@@ -104,7 +104,7 @@ def encode_names(
 def encode_poses(
     epoch: Stamp, sequence: int, revision: int, snapshot: Snapshot, frames: Sequence[FrameInfo]
 ) -> bytes:
-    """Serialise every frame's pose in its parent, and the facts that change with every sample."""
+    """Return the message with every frame's pose in its parent, and facts that change often."""
     span = reach(snapshot.frames)
     oldest, newest = span or (snapshot.now, snapshot.now)
     head = HEADER.pack(
@@ -139,7 +139,7 @@ _NO_POSE = (math.nan,) * 7
 
 
 def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
-    """Serialise the buffer's present time span."""
+    """Return the message with the buffer's present time span."""
     oldest, newest = reach(snapshot.frames) or (snapshot.now, snapshot.now)
     return json.dumps(
         answer(
@@ -154,7 +154,7 @@ def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
 
 
 def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stamp) -> str:
-    """Serialise the transform of `source` in `target`, with the exact numbers of `tftool echo`."""
+    """Return the message with a pair's transform, with the exact numbers of `tftool echo`."""
     told: dict[str, Any] = {"target": target, "source": source}
     try:
         found = buffer.lookup_transform(target, source, at)
@@ -175,7 +175,7 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
 
 
 def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Serialise a pair's transform at evenly spread times, null where there is none."""
+    """Return the message with a pair's transform at evenly spread times, null if unknown."""
     stamps = _stamps(epoch, asked)
     told: dict[str, Any] = {
         "target": asked["target"],
@@ -199,7 +199,7 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
 
 
 def encode_trails(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Serialise frames' positions at evenly spread times, null where unknown."""
+    """Return the message with frames' positions at evenly spread times, null if unknown."""
     stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
     places: dict[str, list[list[float] | None]] = {}
     for frame in asked["frames"]:
@@ -223,14 +223,14 @@ _TRAIL_DIGITS = 5
 
 
 def _stamps(epoch: Stamp, asked: PageRequest) -> list[Stamp]:
-    """Return evenly spread times over the requested span."""
+    """Return evenly spread times over the span in a request."""
     first, last = stamp_at(epoch, asked["from"]), stamp_at(epoch, asked["to"])
     steps = asked["count"] - 1
     return [first + (last - first) * step // steps for step in range(asked["count"])]
 
 
 SERIES = ("x", "y", "z", "roll", "pitch", "yaw")
-"""The columns of a series: metres, radians."""
+"""Columns of a series of poses, in metres and radians."""
 
 
 def _finite(values: Iterable[float]) -> list[float | None]:

@@ -1,4 +1,4 @@
-"""A robot for the page: shapes, joints, and the state of its meshes."""
+"""Robot for the page: its shapes, its joints, and which meshes cannot be shown."""
 
 import json
 from collections.abc import Collection, Mapping
@@ -22,19 +22,19 @@ from tftool.screens.browser.page_messages import answer
 from tftool.screens.terminal.sliders import Positions, slide_range
 
 MOST_SHAPES = 5000
-"""Shapes of one robot that are drawn."""
+"""Most shapes of one robot that are drawn."""
 
 
 @dataclass(slots=True)
 class ShownRobot:
-    """A robot on the page.
+    """Robot that the page shows.
 
     Attributes:
-        robot: Description.
+        robot: Description of the robot.
         folders: Folders of its meshes.
-        mover: Node that moves its joints, if it is ours; else None.
-        prefix: Prefix of the names of its links.
-        rest: Joint positions if nothing publishes them: then the page moves them itself.
+        mover: Node of this process that moves the joints; None if there is none.
+        prefix: Prefix of its links' names in frames' names.
+        rest: Joint positions if no node publishes them: then the page moves the joints itself.
     """
 
     robot: Robot
@@ -44,7 +44,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Determine the prefix of its links' names; return whether that changed."""
+        """Find the prefix of its links' names among some frames; return whether it changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix
@@ -52,12 +52,12 @@ class ShownRobot:
 
     @property
     def missing(self) -> list[str]:
-        """Return sentences about meshes and textures that are not shown."""
+        """Sentences about meshes and textures that are not shown."""
         found: list[str] = json.loads(self.as_text())["missing"]
         return found
 
     def as_text(self) -> str:
-        """Return everything the page draws of it, as a message."""
+        """Return the message with everything that the page draws of the robot."""
         missing: list[str] = []
         count = 0
         links = []
@@ -108,7 +108,7 @@ class ShownRobot:
         ]
 
     def _motion(self) -> list[dict[str, Any]]:
-        """Return the data for the page's own joint motion; see `page/kinematics.js`."""
+        """Return the data with which the page itself moves joints; see `page/kinematics.js`."""
         if self.rest is None:
             return []
         told: list[dict[str, Any]] = []

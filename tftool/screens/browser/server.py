@@ -1,9 +1,9 @@
-"""The page's server: HTTP for the page and a WebSocket for the frames, on one port.
+"""Server of the page: HTTP for the page and a WebSocket for the frames, on one port.
 
-It listens on 127.0.0.1 only, in the same event loop as the nodes. Other users of this machine reach
-that address too: requests for frames need the secret in the printed address. Pages of other sites
-must not read a robot's frames through their visitor's browser: the browser's Host and Origin are
-compared with our own address.
+It listens on 127.0.0.1 only, in the same event loop as the nodes. Other users of this machine can
+reach that address too: so requests for frames need the secret in the printed address. Pages of
+other sites must not read a robot's frames through their visitor's browser: so the browser's Host
+and Origin headers must be our own address.
 
 A page reports when it has drawn the last poses. A slow page does not get the poses in between:
 nothing is ever queued for it.
@@ -60,17 +60,17 @@ HOST = "127.0.0.1"
 PORT = 8765
 PORTS_TRIED = 20
 ROUTER_PORT = 7447
-"""Belongs to the ROS router of a machine that has one; never ours."""
+"""Port of ROS's zenoh router, which the page never uses."""
 
 MOST_CLIENTS = 32
 RANGE_EVERY = 10
-"""Ticks between two words about the buffer's reach to a page that shows the past."""
+"""Pictures between two updates of the buffer's time span for a page that shows the past."""
 
 DISPLAYS_RATE = 10.0
-"""Rate at which pages get drawn messages, hertz."""
+"""Rate in hertz at which messages to draw are sent to pages."""
 
 TREES_KEPT = 8
-"""Shapes of the tree whose names need not be written again."""
+"""Most states of the tree whose messages with names are stored."""
 
 # What the library has to say of strangers' broken handshakes is not for the user's terminal.
 _LOGGER = logging.getLogger("tftool.view")
@@ -79,16 +79,16 @@ _LOGGER.propagate = False
 
 
 class ShownWorld(Protocol):
-    """A clock and a buffer to show. Every `World` is one."""
+    """Protocol of a clock and a buffer to show; every `World` has both."""
 
     @property
     def clock(self) -> Clock:
-        """The clock of the frames."""
+        """Clock whose time the frames' stamps use."""
         ...
 
     @property
     def buffer(self) -> Buffer:
-        """The buffer of the frames."""
+        """Transform buffer with the frames."""
         ...
 
 
@@ -98,7 +98,7 @@ class PageServer:
     Attributes:
         port: Port on which it listens.
         asked_port: Requested port.
-        clients: The pages that are open.
+        clients: Pages that are open.
     """
 
     def __init__(
@@ -115,13 +115,13 @@ class PageServer:
         """Prepare the server without opening a port.
 
         Args:
-            source: Source of the frames.
-            port: Port to listen on, or else the next free one; 0 takes any.
-            rate: Pictures a second.
-            tell: Takes a sentence for the user.
+            source: Clock and buffer of the frames.
+            port: Port to listen on, or else the next free one; 0 for any.
+            rate: Pictures per second.
+            tell: Function called with sentences for the user.
             name: Name of the source, for a saved page.
-            secret: Token that requests for frames must carry; a new one if None.
-            begin: The moment to open with, where everything was recorded before.
+            secret: Token that requests for frames must contain; None for a new one.
+            begin: Time to open with if everything was recorded before; None for the present.
         """
         self.source = source
         self._name = name
@@ -145,24 +145,24 @@ class PageServer:
         self._ticks = 0
         self._secret = secret or secrets.token_urlsafe(24)
         self._writing: threading.Event | None = None
-        """Set to give up the file that is being written; None while none is."""
+        """Event that stops the writing of a page's file; None while none is written."""
 
     def show_robot(self, robot: ShownRobot) -> None:
-        """Show a robot from now on, in place of the previous one."""
+        """Show a robot from now on, in place of any other."""
         self._robot = robot
         robot.place(frozenset(self.source.buffer.frames()))
         self._tell_robot()
 
     def show_tracks(self, read: Callable[[Limits], Sequence[DrawnTopic]]) -> None:
-        """Draw recorded messages besides the frames; they are read when a page first opens."""
+        """Draw recorded messages besides the frames; `read` runs when a page first opens."""
         self._read_tracks = read
 
     def show_live(self, displays: LiveDisplays) -> None:
-        """Draw live messages besides the frames."""
+        """Draw messages of a running session besides the frames."""
         self._live = displays
 
     def take_keys(self, press: Callable[[str], object]) -> None:
-        """Pass the page's arrow keys to `press`, as "up", "down", "left" and "right"."""
+        """Call `press` with the page's arrow keys: "up", "down", "left" and "right"."""
         self._press = press
 
     def _tell_robot(self) -> None:
@@ -172,7 +172,7 @@ class PageServer:
                 client.show_robot(self._robot_text)
 
     def _move(self, joint: str, position: float) -> None:
-        """Move a joint; ignore unknown names."""
+        """Move a joint of the shown robot; unknown names are ignored."""
         robot = self._robot
         if robot is not None and robot.mover is not None and robot.robot.takes(joint):
             lower, upper = slide_range(robot.robot.joints[joint])
@@ -191,14 +191,14 @@ class PageServer:
         return self.address("/")
 
     def address(self, path: str) -> str:
-        """Return the address of a path, with the secret."""
+        """Return the address of a path on the server, with the secret."""
         return f"{self.origin}{path}?token={self._secret}"
 
     async def __aenter__(self) -> "PageServer":
-        """Start listening.
+        """Start to listen.
 
         Raises:
-            TftoolError: If no port near the one asked for is free.
+            TftoolError: If no port near the requested one is free.
         """
         for port in _candidates(self.asked_port):
             try:
@@ -231,7 +231,7 @@ class PageServer:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Tell every page that the session is over, and close."""
+        """Tell every page that the server ends, and close."""
         if self._writing is not None:
             self._writing.set()
         if self._server is not None:
@@ -239,7 +239,7 @@ class PageServer:
             await self._server.wait_closed()
 
     def _note(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        """Report once that no more connections can be accepted; asyncio would repeat it."""
+        """Log once that no more connections can be accepted; asyncio would repeat it."""
         error = context.get("exception")
         if not isinstance(error, OSError) or error.errno not in (errno.EMFILE, errno.ENFILE):
             loop.default_exception_handler(context)
@@ -248,7 +248,7 @@ class PageServer:
             self._tell("no more pages can be served: too few file descriptors (ulimit -n)")
 
     async def run(self) -> None:
-        """Send snapshots to the pages until cancelled."""
+        """Send pictures to the pages until cancelled."""
         clock = pace_of(self.source.clock)
         due = displays_due = clock.now()
         cadence = Cadence(self._period, due)
@@ -275,7 +275,7 @@ class PageServer:
                 client.tell(protocol.encode_range(self.source.clock.epoch, following.snapshot))
 
     def _tell_displays(self, displays: LiveDisplays, clock: Clock) -> Stamp:
-        """Offer drawn messages to the pages; return when to do it next."""
+        """Offer messages to draw to the pages; return the time of the next call."""
         began = clock.now()
         blocks = displays.round()
         for client in self.clients:
@@ -294,7 +294,7 @@ class PageServer:
         )
 
     def _tree(self, snapshot: Snapshot) -> TreeMessage:
-        """Return the names as sent before, if the tree is the same as at some earlier time."""
+        """Return the message with the frames' names, made anew only if the tree is a new one."""
         key = protocol.names_key(snapshot.frames)
         tree = self._trees.get(key)
         if tree is None:
@@ -330,7 +330,7 @@ class PageServer:
         client.offer(picture.tree, pair, picture.poses)
 
     async def _receive(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Answer a request for a file; None lets a WebSocket open."""
+        """Return the response to a request for a file; None to open a WebSocket."""
         ours = [f"{host}:{self.port}" for host in (HOST, "localhost")]
         if request.headers.get_all("Host") not in [[host] for host in ours]:
             return _refuse(HTTPStatus.FORBIDDEN, f"This page is served as {self.origin}/ only.")
@@ -393,7 +393,7 @@ class PageServer:
         return answer
 
     async def _packed_tracks(self) -> bytes:
-        """Return the drawn messages, packed once for all pages in another thread."""
+        """Return the recorded messages to draw, packed once for all pages in another thread."""
 
         def packed() -> bytes:
             assert self._read_tracks is not None
@@ -407,9 +407,9 @@ class PageServer:
         return await asyncio.shield(self._tracks)
 
     async def _standalone(self, connection: ServerConnection, query: str) -> Response:
-        """Return everything in the buffer as a standalone page, with the present view.
+        """Return a page that contains everything in the buffer and needs no server.
 
-        One file is written at a time; it is given up when its client leaves or the server stops.
+        Only one such file is written at a time; writing ends if the client or the server goes away.
         """
         if self._writing is not None:
             return _refuse(
@@ -500,7 +500,7 @@ class PageServer:
             await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _tell_past(self, socket: ServerConnection) -> None:
-        """Send poses from the whole buffer at low priority: they are for trails."""
+        """Send poses from the whole buffer, slowly, for the trails."""
         clock, now = pace_of(self.source.clock), self.source.clock.now()
         for moment in protocol.moments(self.source.buffer.snapshot(now).frames):
             began = clock.now()

@@ -1,8 +1,8 @@
-"""The page of `tftool view` with its data in one file, which works without a server.
+"""Page of `tftool view` with its data in one file, which works without a server.
 
-In place of a server, `page/lookups.js` answers from the packed samples, with the same numbers. The
-file loads nothing from others, and its content security policy permits only tftool's two scripts,
-by their digests.
+In place of a server, `page/lookups.js` computes answers from the packed samples, with the same
+numbers. The file loads nothing from others, and its content security policy permits only tftool's
+two scripts, by their digests.
 """
 
 import base64
@@ -28,23 +28,23 @@ from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Prog
 from tftool.screens.browser.robots import ShownRobot
 
 MOST_BYTES: Final = 10_000_000
-"""How large a file may become before numbers lose digits that no robot's sensors have."""
+"""Bytes of a file beyond which numbers are rounded, to steps finer than any robot's sensors."""
 
 _LARGEST_REFERENCE: Final = 64 * 1024 * 1024
 
 
 @dataclass(frozen=True, slots=True)
 class StandaloneData:
-    """Data of a page without a server.
+    """Data for a page that works without a server.
 
     Attributes:
-        name: Name of the source in sentences: "recording 'run.mcap'".
-        buffer: The frames.
-        epoch: The moment from which the page counts; not 0.
-        now: The last moment.
-        begin: First shown moment; None for the latest transforms.
+        name: Name of the source in sentences, such as "recording 'run.mcap'".
+        buffer: Transform buffer with the frames.
+        epoch: Time from which the page counts; not 0.
+        now: Last time.
+        begin: First shown time; None for the latest transforms.
         robot: Robot among the frames, with the folders of its meshes.
-        tracks: Messages that are drawn beside the frames.
+        tracks: Messages to draw besides the frames.
         view: First settings, as in the page's address after #.
     """
 
@@ -60,11 +60,11 @@ class StandaloneData:
 
 @dataclass(frozen=True, slots=True)
 class StandalonePage:
-    """A file that shows the frames in any browser.
+    """File that shows the frames in any browser.
 
     Attributes:
-        content: Bytes: HTML.
-        is_rounded: Whether numbers lost digits, so that it is not too large.
+        content: HTML, as bytes.
+        is_rounded: Whether numbers were rounded so that the file is not too large.
     """
 
     content: bytes
@@ -74,16 +74,16 @@ class StandalonePage:
 def standalone_page(
     data: StandaloneData, *, most: int = MOST_BYTES, progress: Progress | None = None
 ) -> StandalonePage:
-    """Build the file.
+    """Build the page's file.
 
     Args:
-        data: Contents.
-        most: From how many bytes on numbers are rounded, to a micrometre and 1e-7 in
-            quaternions. A rounded value may still be larger.
-        progress: Called with the progress.
+        data: Data for the page.
+        most: Number of bytes beyond which numbers are rounded, to a micrometre and 1e-7 in
+            quaternions. The file may still be larger then.
+        progress: Function called with the progress.
 
     Raises:
-        TftoolError: If the page was not built, which happens in a source tree only.
+        TftoolError: If the page was not built, which can happen in a source tree only.
     """
     files = assets.load()
     frame = _Frame.of(files)
@@ -144,7 +144,7 @@ def _digest(script: str) -> str:
 
 
 def _inert(text: str) -> str:
-    """Escape a text so that it cannot end the HTML element around it."""
+    """Return a script's or style's text, after a check that it cannot end its HTML element."""
     assert not re.search(r"</(script|style)|<!--", text, re.IGNORECASE)
     return text
 
@@ -251,7 +251,7 @@ def _robot(
 
 
 def _named_in(address: str, content: bytes) -> list[str]:
-    """Return the files that a mesh refers to by relative names, read inside its folders only."""
+    """Return the relative names of files that a mesh refers to."""
     kind = address[address.rfind(".") :].lower()
     if len(content) > _LARGEST_REFERENCE:
         return []

@@ -18,13 +18,13 @@ from tftool.drawing.plane import FARTHEST, ColoredLines, PlaneFrame, PlanePictur
 from tftool.geometry.rigid import Transform
 
 Lookup = Callable[[str, str], Transform | None]
-"""The pose of the second frame in the first, or None where there is none."""
+"""Function that returns the pose of the second frame in the first; None if unknown."""
 
 
 def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
     """Return the default fixed frame of a picture.
 
-    It is the root of the tree with both frames of the pair, or else of the largest tree. Empty
+    It is the root of the tree that contains both frames of the pair, else of the largest tree; ""
     without frames.
     """
     if pair[0] in snapshot and pair[1] in snapshot:
@@ -40,7 +40,7 @@ def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
 
 
 def in_snapshot(snapshot: Snapshot) -> Lookup:
-    """Return a lookup limited to the snapshot."""
+    """Return a function that looks poses up in a snapshot only."""
 
     def lookup(target: str, source: str) -> Transform | None:
         if target not in snapshot or source not in snapshot:
@@ -58,7 +58,7 @@ def in_snapshot(snapshot: Snapshot) -> Lookup:
 
 
 def moving(snapshot: Snapshot, fixed: str) -> list[str]:
-    """Return the frames that may move relative to `fixed`, one of each rigid group."""
+    """Return the frames that may move relative to `fixed`, one for each rigid group."""
     moves: dict[str, bool] = {}
     for info in snapshot.frames:
         chain: list[FrameInfo] = []
@@ -90,14 +90,14 @@ def pictured(
     ages: Mapping[str, float],
     turtles: frozenset[str] = frozenset(),
 ) -> PlanePicture:
-    """Draw the tree of `fixed` by looking up every frame in it; other trees separately.
+    """Return the picture of the tree of `fixed`, with one lookup per frame; other trees separately.
 
     Args:
         snapshot: Snapshot of the frames.
         fixed: Fixed frame of the picture.
-        lookup: Gives their poses.
-        ages: Seconds since there was news of each.
-        turtles: The frames drawn as turtles.
+        lookup: Function that returns the frames' poses.
+        ages: Seconds since each frame's newest transform.
+        turtles: Names of the frames that are drawn as turtles.
     """
     root = snapshot.frame(fixed).root if fixed in snapshot else None
     frames, nowhere = [], []
@@ -149,32 +149,32 @@ _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 PERIOD = seconds(0.1)
-"""How far apart the moments are at which frames are looked up."""
+"""Nanoseconds between two lookups of a frame."""
 
 REACH = seconds(30.0)
-"""How far back a trail that is drawn from scratch reaches, where the buffer does."""
+"""Nanoseconds that a trail drawn from scratch reaches back, if the buffer does."""
 
 KEPT = seconds(60.0)
-"""How long a trail is kept that was seen as it came."""
+"""Nanoseconds of a trail that are stored while it is being watched."""
 
 MOST_FRAMES = 24
-"""So many frames have trails."""
+"""Most frames with trails."""
 
 FADED = Color(112, 116, 130)
-"""Colour of marks as old as `REACH`; on a light ground and on a dark one it is faint."""
+"""Colour of a trail as old as `REACH`, faint on light and dark backgrounds."""
 
 STILL = 1e-6
-"""Metres in a period under which a frame stays where it is."""
+"""Smallest motion in metres per period; below it a frame counts as still."""
 
 GAP = seconds(1.0)
-"""Two moments farther apart are not joined by a line."""
+"""Longest time in nanoseconds between two positions that a line joins."""
 
 
 class FrameTrails:
-    """Trails of frames in one fixed frame, by repeated lookups.
+    """Trails of frames in one fixed frame, computed by repeated lookups.
 
     Args:
-        buffer: Source of the frames.
+        buffer: Transform buffer with the frames.
 
     Attributes:
         fixed: Fixed frame of the trails.
@@ -188,12 +188,12 @@ class FrameTrails:
         self._shown = ColoredLines()
 
     def follow(self, fixed: str, frames: Iterable[str], now: Stamp) -> ColoredLines:
-        """Look the frames up since the last time, and return all trails up to now.
+        """Look frames up for the time since the last call, and return all trails up to now.
 
         Args:
-            fixed: Fixed frame; a change starts all trails again.
-            frames: Frames; only the first `MOST_FRAMES` are followed.
-            now: The last moment.
+            fixed: Fixed frame; if it changes, all trails start again.
+            frames: Frames; only the first `MOST_FRAMES` have trails.
+            now: Last time, nanoseconds.
         """
         if fixed != self.fixed or now < self._next - 4 * PERIOD:
             self.fixed, self._ways, self._next = fixed, {}, 0
@@ -221,7 +221,7 @@ class FrameTrails:
         return _trails(ways, at)
 
     def _way(self, frame: str, fixed: str, start: Stamp, end: Stamp) -> "FrameWay":
-        """Look up where a frame was after `start`, every `PERIOD` until `end`."""
+        """Look up the positions of a frame after `start`, every `PERIOD` until `end`."""
         stamps = np.arange(start // PERIOD + 1, end // PERIOD + 1, dtype=np.int64) * PERIOD
         stamps = stamps[stamps > 0]
         if not len(stamps):
@@ -235,23 +235,23 @@ class FrameTrails:
 
 
 class FrameWay(NamedTuple):
-    """Way of a frame: stamps, shape (n,), and places in metres, shape (n, 3)."""
+    """Path of a frame: stamps, shape (n,), and positions in metres, shape (n, 3)."""
 
     stamps: npt.NDArray[np.int64]
     places: npt.NDArray[np.float64]
 
     def followed_by(self, other: "FrameWay") -> "FrameWay":
-        """Return this way and what came after it."""
+        """Return this path with another one appended."""
         stamps, places = zip(self, other, strict=True)
         return FrameWay(np.concatenate(stamps), np.concatenate(places))
 
     def after(self, stamp: Stamp) -> "FrameWay":
-        """Return the part from a moment on."""
+        """Return the part of the path from a time on."""
         first = int(np.searchsorted(self.stamps, stamp))
         return FrameWay(self.stamps[first:], self.places[first:])
 
     def before(self, stamp: Stamp) -> "FrameWay":
-        """Return the part before a moment."""
+        """Return the part of the path before a time."""
         end = int(np.searchsorted(self.stamps, stamp))
         return FrameWay(self.stamps[:end], self.places[:end])
 
@@ -260,7 +260,7 @@ NOWHERE = FrameWay(np.zeros(0, np.int64), np.zeros((0, 3)))
 
 
 def _trails(ways: Mapping[str, FrameWay], now: Stamp) -> ColoredLines:
-    """Join places to lines in the colours of their ages, oldest first."""
+    """Return the paths as lines whose colours show their age, oldest first."""
     stamps, ends, colors = [NOWHERE.stamps], [np.zeros((0, 2, 3))], [NOWHERE.stamps]
     for name, (times, places) in ways.items():
         moves = np.abs(np.diff(places, axis=0)).sum(axis=1) > STILL

@@ -1,4 +1,4 @@
-"""The log condensed for a person."""
+"""Log for a person: repeated messages are shown once, with a count."""
 
 import re
 from collections import deque
@@ -12,15 +12,15 @@ from tftool.screens.terminal.text_style import Look, wrapped
 from tftool.world.log import PROBLEMS, LogRecord
 
 MOST_LINES = 4
-"""Lines that one entry takes."""
+"""Most lines of one message."""
 
 FAR = 3600.0
-"""Seconds from the start beyond which a stamp may be of another clock, and is left as it is."""
+"""Seconds from the start beyond which a stamp may be of another clock, and is not replaced."""
 
 
 @dataclass(slots=True)
 class _Entry:
-    """A line with the times it was logged: the newest ones, and their number."""
+    """Log message with the times at which it was logged: the newest ones, and their number."""
 
     record: LogRecord
     kind: str
@@ -28,17 +28,17 @@ class _Entry:
     forgotten: int = 0
 
     def times(self, until: Stamp) -> int:
-        """Return how often the line had been logged by a time."""
+        """Return how often the message was logged up to a time."""
         later = sum(1 for stamp in self.stamps if stamp > until)
         return 0 if later == len(self.stamps) else self.forgotten + len(self.stamps) - later
 
     def last(self, until: Stamp) -> Stamp:
-        """Return when the line had last been logged by a time."""
+        """Return the last time, up to a given one, at which the message was logged; 0 for never."""
         return max((stamp for stamp in self.stamps if stamp <= until), default=0)
 
 
 class Journal:
-    """Log that shows repeated lines once, with a count."""
+    """Log that shows repeated messages once, with a count."""
 
     KEPT = 300
     STAMPS = 400
@@ -54,7 +54,7 @@ class Journal:
             self.add(record)
 
     def add(self, record: LogRecord) -> None:
-        """Add a line of the world's log."""
+        """Add a message of the world's log."""
         self.revision += 1
         warns = record.level in PROBLEMS
         text = (self._NUMBERS if warns else self._STAMP).sub("#", record.text)
@@ -73,15 +73,15 @@ class Journal:
     def lines(
         self, until: Stamp, start: Stamp, width: int, height: int, look: Look, *, back: int = 0
     ) -> list[Text]:
-        """Return the newest lines up to a time, the newest at the bottom.
+        """Return the newest messages up to a time as lines, the newest at the bottom.
 
         Args:
-            until: The moment shown.
-            start: The moment that counts as 0.
-            width: Cells across.
-            height: Lines.
-            look: Style of the text.
-            back: Number of newest lines to leave out.
+            until: Time that the screen shows.
+            start: Time that counts as 0.
+            width: Width in cells.
+            height: Number of lines.
+            look: Colours and characters to use.
+            back: Number of newest messages to leave out.
         """
         told = self._told(until)
         told = told[: max(len(told) - back, 1)]
@@ -98,16 +98,16 @@ class Journal:
     def strip(
         self, until: Stamp, start: Stamp, width: int, look: Look, *, most: int = MOST_LINES
     ) -> list[Text]:
-        """Return the newest line up to a time, wrapped, with a hint how to see more.
+        """Return the newest message up to a time, wrapped, with a hint how to see more.
 
-        If it leaves room, the line before it is above.
+        If there is room, the message before it is above.
 
         Args:
-            until: The moment shown.
-            start: The moment that counts as 0.
-            width: Cells across.
-            look: Style of the text.
-            most: Lines; what does not fit into them is cut.
+            until: Time that the screen shows.
+            start: Time that counts as 0.
+            width: Width in cells.
+            look: Colours and characters to use.
+            most: Most lines; the rest is cut.
         """
         told = self._told(until)
         dim = look.ink(look.palette.dim)
@@ -130,7 +130,7 @@ class Journal:
         return shown
 
     def _told(self, until: Stamp) -> list[_Entry]:
-        """Return the lines logged by a time, in order of each line's last time."""
+        """Return the messages logged up to a time, in order of each one's last time."""
         told = [entry for entry in self._entries if entry.times(until)]
         return sorted(told, key=lambda entry: entry.last(until))
 
@@ -171,7 +171,7 @@ class Journal:
 
 
 def _seconds_since(start: Stamp) -> Callable[[re.Match[str]], str]:
-    """Return a replacement of stamps by seconds since the start, of those not far from it."""
+    """Return a function that replaces stamps near the start by seconds since the start."""
 
     def told(found: re.Match[str]) -> str:
         since = int(found[1]) + int(found[2]) / 1e6 - as_seconds(start)

@@ -1,4 +1,4 @@
-"""Text in the panels of the terminal app, and its keys."""
+"""Text in the panels of the terminal app, and the help for its keys."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -23,14 +23,14 @@ from tftool.screens.terminal.text_style import Look, wrapped
 
 
 class Row(NamedTuple):
-    """A frame's row in the tree: the guides before its name."""
+    """Row of a frame in the tree panel: the guides before its name, and its facts."""
 
     guide: str
     info: FrameInfo
 
 
 def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
-    """Return the rows of all trees, one after the other; frames in a loop are last."""
+    """Return the rows of all trees, one tree after the other; frames in a loop are last."""
     guides = (ASCII if ascii_only else UNICODE)[1]
     return [
         Row(guides.lead(one) if one.info.root is not None else "", one.info)
@@ -39,7 +39,7 @@ def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
 
 
 def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
-    """Return the rows visible below `tree`'s heading, including the cursor's."""
+    """Return the rows that fit below the tree panel's heading, including the cursor's row."""
     at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
     space = max(1, height - 1)
     if len(listed) > space > 2:
@@ -52,15 +52,15 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
 def tree(
     moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
-    """Return every link with rate and age; stale ones in amber, then red.
+    """Return the lines of the tree panel: every link with rate and age; stale ones amber, then red.
 
     Args:
-        moment: Contents to show.
-        listed: Frames of the tree, as `rows` returns them.
-        cursor: The frame the cursor is on; it is kept in view.
-        width: Cells across.
-        height: Lines.
-        look: Style of the text.
+        moment: State to show.
+        listed: Rows of the frames, as `rows` returns them.
+        cursor: Frame under the cursor, which stays visible.
+        width: Width in cells.
+        height: Number of lines.
+        look: Colours and characters to use.
     """
     dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
     if not listed:
@@ -99,7 +99,7 @@ def tree(
 
 
 def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
-    """Return the picture's title: "Frames in world"."""
+    """Return the title of the picture's panel, such as "Frames in world"."""
     fixed = moment.picture.fixed
     if not fixed:
         return "Field"
@@ -107,7 +107,7 @@ def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
 
 
 class _Columns(NamedTuple):
-    """Widths of the tree's columns; the publisher's is 0 if there is no room."""
+    """Widths of the tree panel's columns; the publisher's is 0 if there is no room."""
 
     name: int
     rate: int
@@ -140,7 +140,7 @@ def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
 
 
 def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
-    """Format the pair's transform: briefly, or in every notation if there is room.
+    """Return the lines of the pair's panel: its transform, briefly or in every notation.
 
     Positive and negative numbers take equal width, so that columns never shift.
     """
@@ -187,7 +187,7 @@ def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tupl
 
 
 def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
-    """Format angles in radians, and the matrix."""
+    """Return the further rows of a transform: angles in radians, and the matrix."""
     radians = rpy_from_quaternion(found.transform.rotation)
     matrix = found.transform.matrix()
     rows = [("mat" if not place else "", _numbers(row, 3, 8)) for place, row in enumerate(matrix)]
@@ -195,7 +195,7 @@ def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
 
 
 def _away(x: float, y: float, z: float, look: Look) -> str:
-    """Describe distance and direction relative to straight ahead."""
+    """Describe the distance of a point and its direction relative to straight ahead."""
     away, bearing = math.hypot(x, y, z), math.degrees(math.atan2(y, x))
     if away < 0.001:
         return f"{away:.3f} m"
@@ -214,7 +214,7 @@ def _number(value: float, digits: int) -> str:
 
 
 def _numbers(values: Iterable[float], digits: int, width: int) -> str:
-    """Format numbers in columns of `width` after a blank; a long one takes more."""
+    """Format numbers in columns of `width` cells; a long number takes more."""
     return "".join(f" {_number(value, digits):>{width - 1}}" for value in values)
 
 
@@ -225,7 +225,7 @@ def _degree(look: Look) -> str:
 def scenarios(
     offered: Sequence[tuple[str, str]], cursor: int, width: int, height: int, look: Look
 ) -> list[Text]:
-    """List the scenarios with descriptions, and a cursor."""
+    """Return the lines of the list of scenarios, with descriptions and a cursor."""
     first = max(0, min(cursor - height // 2, len(offered) - height))
     wide = max((cell_len(name) for name, _ in offered), default=0) + 2
     dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
@@ -245,7 +245,7 @@ def scenarios(
 
 
 def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:
-    """Return a header line: what runs, its time, and whether that is the present."""
+    """Return the top line: the title, the time, and whether that is the present."""
     palette = look.palette
     clock = f"{as_seconds(moment.elapsed):.1f} s"
     if moment.behind:
@@ -274,14 +274,14 @@ def _bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Loo
 
 
 class Hint(NamedTuple):
-    """A key and its action; the footer shows as many hints as fit."""
+    """Key and its action; the footer shows as many hints as fit."""
 
     keys: str
     does: str
 
 
 def footer(hints: Sequence[Hint], width: int, look: Look) -> Text:
-    """Return one line of key help: the first hints that fit, and always the last."""
+    """Return the line of key help: the first hints that fit, and always the last."""
     strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
 
     def written(hint: Hint) -> Text:
@@ -339,10 +339,10 @@ LEAVING = """\
 
 
 def told(*, drives: bool, chooses: bool) -> str:
-    """Return every key that works here and its action, a line each.
+    """Return the help for every key that works, a line each.
 
     Args:
-        drives: Whether something can be driven.
+        drives: Whether there is a turtle to drive.
         chooses: Whether another scenario can be chosen.
     """
     return f"{DRIVING if drives else ''}{LOOKING}{CHOOSING if chooses else ''}{LEAVING}"
@@ -357,13 +357,13 @@ def hints(
     chooses: bool = False,
     in_space: bool = False,
 ) -> Sequence[Hint]:
-    """Return the keys that matter now; a narrow line keeps the first ones.
+    """Return the keys that matter now, the most important first.
 
     Args:
-        panel: The panel that has the keys.
-        drives: Whether something can be driven.
-        past: Whether an earlier moment is shown.
-        ascii_only: Whether keys are written in ASCII.
+        panel: Name of the panel that has the focus.
+        drives: Whether there is a turtle to drive.
+        past: Whether an earlier time is shown.
+        ascii_only: Whether to write keys in ASCII.
         chooses: Whether another scenario can be chosen.
         in_space: Whether the picture is in 3-D.
     """
@@ -399,7 +399,7 @@ def hints(
 
 
 SPAN = seconds(10.0)
-"""How much of time is shown."""
+"""Nanoseconds that the plot shows."""
 
 
 class PairPlot:
@@ -412,14 +412,14 @@ class PairPlot:
     def lines(
         self, moment: SceneMoment, scene: Scene, width: int, height: int, look: Look
     ) -> list[Text]:
-        """Look the pair up over the last seconds, or around an earlier time.
+        """Look the pair up over the last seconds, or around an earlier time; return plotted lines.
 
         Args:
-            moment: The shown state.
+            moment: State to show.
             scene: Scene in which the pair is looked up.
-            width: Cells across.
-            height: Lines.
-            look: Style of the text.
+            width: Width in cells.
+            height: Number of lines.
+            look: Colours and characters to use.
         """
         now = moment.stamp + moment.behind
         # Until there is so much of it, the curve grows from the left.

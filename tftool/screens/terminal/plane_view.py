@@ -1,4 +1,4 @@
-"""Picture of frames in a panel: its part of the plane, and insets of other trees."""
+"""Picture of frames in a panel: the visible part of the plane, and insets of other trees."""
 
 from rich.segment import Segment
 
@@ -9,20 +9,20 @@ from tftool.drawing.plane import Box, PlanePicture, Viewport, fitted_view
 from tftool.screens.terminal.text_style import Look
 
 STEP = 1.25
-"""How much nearer one step of the zoom comes."""
+"""Magnification of one step of the zoom."""
 
 MOST, LEAST = 1e9, 1e-4
-"""Metres to a row beyond which the zoom does not go."""
+"""Limits of the zoom, in metres per row."""
 
 ROOMY = 0.4
-"""The view shrinks only when less than this share of it is needed."""
+"""Share of the view that a picture must fill so that the view does not shrink."""
 
 
 class Camera:
-    """Camera that keeps the view of the plane steady between pictures.
+    """Camera over the plane, which keeps its view steady from picture to picture.
 
-    In fit mode the view grows immediately with its contents, but shrinks only when most of the view
-    is empty: a picture that changes its scale all the time cannot be read.
+    Until the user zooms or pans, the view grows at once with the picture, and shrinks only when
+    most of it is empty: a picture that changes its scale all the time cannot be read.
     """
 
     def __init__(self) -> None:
@@ -33,7 +33,7 @@ class Camera:
         self._shown = Viewport(0.0, 0.0, 1.0)
 
     def view(self, picture: PlanePicture, columns: int, rows: int) -> Viewport:
-        """Return the view for a picture of columns × rows of cells."""
+        """Return the visible part of the plane for a picture of columns × rows of cells."""
         if picture.fixed != self._fixed:
             # What a person zoomed into is elsewhere in another frame.
             self._fixed, self._box, self._own = picture.fixed, None, None
@@ -47,11 +47,11 @@ class Camera:
         return self._shown
 
     def zoom(self, steps: int, at: tuple[float, float] | None = None) -> None:
-        """Zoom in by some steps; out if negative.
+        """Zoom in by some steps, or out if negative.
 
         Args:
             steps: Number of steps.
-            at: The column and row that stays where it is; the middle if None.
+            at: Column and row that do not move; None for the middle.
         """
         columns, rows = self._size
         left, bottom, per_row = self._shown
@@ -64,14 +64,14 @@ class Camera:
         self._look_at(x + (middle_x - x) * share, y + (middle_y - y) * share, nearer)
 
     def pan(self, columns: float, rows: float) -> None:
-        """Pan by some cells, right and down."""
+        """Move the view by some cells to the right and down."""
         left, bottom, per_row = self._shown
         x = left + 0.25 * self._size[0] * per_row - 0.5 * columns * per_row
         y = bottom + 0.5 * self._size[1] * per_row + rows * per_row
         self._look_at(x, y, per_row)
 
     def fit(self) -> None:
-        """Fit everything again."""
+        """Show the whole picture again, after zooming and panning."""
         self._own = self._box = None
 
     def _look_at(self, x: float, y: float, per_row: float) -> None:
@@ -101,17 +101,17 @@ class Camera:
 
 
 WITH_INSETS = 16
-"""Rows of a panel from which trees apart are drawn, and not only named."""
+"""Smallest number of rows of a panel in which other trees are drawn, not only named."""
 
 INSET_WIDTH = 24
-"""Columns an inset takes at least."""
+"""Smallest width of an inset in columns."""
 
 
 class PlaneView:
-    """Draws pictures of frames into a panel of any size.
+    """Drawer of pictures of frames into a panel of any size.
 
     Attributes:
-        camera: Camera that decides the shown part.
+        camera: Camera that determines the visible part.
     """
 
     def __init__(self) -> None:
@@ -123,7 +123,7 @@ class PlaneView:
     def lines(
         self, picture: PlanePicture, width: int, height: int, look: Look, *, colors: bool
     ) -> list[Line]:
-        """Draw a picture: `height` lines of `width` cells."""
+        """Draw a picture; return `height` lines of `width` cells."""
         key = (width, height, look, colors)
         if key != self._key:
             self._key = key
@@ -142,11 +142,11 @@ class PlaneView:
         return [*lines, *notes]
 
     def cell(self, x: int, y: int) -> tuple[float, float]:
-        """Return the main picture's column and row under a cell of the panel."""
+        """Return the picture's column and row under a cell of the panel."""
         return x - self._gutter + 0.5, y + 0.5
 
     def frame_at(self, picture: PlanePicture, x: int, y: int) -> str | None:
-        """Return the frame nearest to a cell of the panel, at most three cells away."""
+        """Return the frame nearest to a cell of the panel; None if none is within three cells."""
         main = self._canvases.get(("", 0))
         column, row = self.cell(x, y)
         best = None
@@ -175,7 +175,7 @@ class PlaneView:
     def _insets(
         self, picture: PlanePicture, width: int, height: int, look: Look, colors: bool
     ) -> list[Line]:
-        """Draw the first of the other trees side by side, each under its heading."""
+        """Draw the first of the other trees side by side, each below its heading."""
         count = min(len(picture.apart), max(1, width // INSET_WIDTH))
         wide = width // count
         warning = look.ink(look.palette.warning)
@@ -195,7 +195,7 @@ class PlaneView:
         return rows
 
     def _notes(self, picture: PlanePicture, width: int, height: int, look: Look) -> list[Line]:
-        """Return notes about everything out of view."""
+        """Return lines about frames and trees that are not visible."""
         words = []
         shown = max(1, width // INSET_WIDTH) if height >= WITH_INSETS else 0
         hidden = picture.apart[shown:]

@@ -1,4 +1,4 @@
-"""The pair and the time that a screen shows."""
+"""Pair of frames and time that a screen shows, as the user selects them."""
 
 from dataclasses import replace
 
@@ -7,22 +7,22 @@ from tftool.screens.terminal import panel_text as panels
 from tftool.screens.terminal.scene import Scene, SceneMoment
 
 PATIENCE = seconds(4.0)
-"""For how long the frames of the first pair are waited for, and then those of another."""
+"""Nanoseconds to wait for the frames of the first pair, and then of another."""
 
 
 class SceneQuestion:
-    """Pair and time that stay selected while the user moves through frames and time.
+    """Pair and time that the user selects while moving through frames and time.
 
     Args:
-        scene: Scene that is asked.
-        pair: Target and source to begin with.
+        scene: Scene in which the pair is looked up.
+        pair: First target and source.
 
     Attributes:
-        target: The frame that is measured in.
-        source: The frame that is measured; the one under the cursor.
-        at: The moment asked for, or None for the present.
-        fixed: The frame the picture is drawn in; empty for the root of the pair's tree.
-        moment: The last answer, if there was one.
+        target: Frame in which the pose is expressed.
+        source: Frame whose pose is shown, the one under the cursor.
+        at: Time to show; None for the present.
+        fixed: Frame in which the picture is drawn; "" for the root of the pair's tree.
+        moment: Last state that was looked up; None before the first.
     """
 
     def __init__(self, scene: Scene, pair: tuple[str, str]) -> None:
@@ -35,12 +35,12 @@ class SceneQuestion:
         self._first_link_at: Duration | None = None
 
     def ask(self) -> SceneMoment:
-        """Look the pair up again."""
+        """Look up the state to show, at the selected time, and return it."""
         self.moment = self._answer()
         return self.moment
 
     def wait(self, moment: SceneMoment) -> SceneMoment:
-        """Update the age of a fixed time; nothing else changes."""
+        """Return the same state with its present age; nothing else changes at a fixed time."""
         now = self.scene.world.clock.now()
         self.moment = replace(moment, behind=now - moment.stamp)
         return self.moment
@@ -68,15 +68,15 @@ class SceneQuestion:
         return changed
 
     def fix(self) -> None:
-        """Draw the picture in the frame under the cursor; if it already is, in the root."""
+        """Draw the picture in the frame under the cursor; if it is already, in the root."""
         self.fixed = "" if self.fixed == self.source else self.source
 
     def swap(self) -> None:
-        """Swap target and source."""
+        """Exchange target and source."""
         self.target, self.source, self._picked = self.source, self.target, True
 
     def travel(self, step: Duration) -> None:
-        """Go to an earlier or later time; past the present it is live."""
+        """Select an earlier or later time; beyond the present, the live state."""
         now = self.scene.world.clock.now()
         there = (now if self.at is None else self.at) + step
         self.at = None if there >= now else max(there, self.scene.oldest())
@@ -93,7 +93,7 @@ class SceneQuestion:
         return found
 
     def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
-        """Return the pair; another one if its frames stopped and the user chose none."""
+        """Return the pair, or another one if its frames are gone and the user chose none."""
         asked, snapshot = (self.target, self.source), moment.snapshot
         if not self._picked and all(name in snapshot for name in self._wished):
             # They came late.

@@ -32,19 +32,19 @@ from tftool.world.world import World
 LOOKS_PER_SECOND = 15
 
 LEAST_BAR = 7
-"""Cells of a slider's bar for which names are cut."""
+"""Width in cells of a slider's bar that is kept by shortening names."""
 
 SMALLEST = (40, 8)
-"""Columns and rows below which nothing useful is to be seen."""
+"""Smallest columns and rows of a screen on which something useful can be shown."""
 
 BESIDE = 76
-"""Columns from which the picture has room beside the joints."""
+"""Smallest number of columns with the picture beside the joints."""
 
 WITH_LINKS = 9
-"""Rows that the link's pose gets below the joints where it takes all that is left."""
+"""Smallest number of rows of the link's panel that also lists the other links."""
 
 BELOW = 26
-"""Rows from which it has room below them."""
+"""Smallest number of rows with the picture below the joints."""
 
 KEYS = f"""\
  Up, Down        choose a joint (also k, j)
@@ -67,12 +67,12 @@ class RobotApp(PanelApp):
 
     Args:
         world: World with the robot's frames.
-        sliders: Joints.
-        link: The link whose pose is shown; the one farthest from the root if None.
-        prefix: Prefix of the names of every link.
+        sliders: Sliders of the robot's joints.
+        link: Link whose pose is shown; None for the one farthest from the root.
+        prefix: Prefix of the names of all links.
         setting: Options of the screen.
-        solids: Shapes of the links, if drawn.
-        missing: Why some of them are not, a sentence each.
+        solids: Shapes of the links; None if they are not drawn.
+        missing: Sentences on why some shapes are not drawn.
     """
 
     CSS = f"""{FRAME_CSS}
@@ -121,11 +121,11 @@ class RobotApp(PanelApp):
     # Building
 
     def keys_told(self) -> str:
-        """Return the key help."""
+        """Return the help for the keys of this screen."""
         return KEYS
 
     def compose(self) -> ComposeResult:
-        """Create the panels."""
+        """Create the panels of this screen."""
         yield Panel("header", can_focus=False)
         with Container(id="body"):
             with Container(id="side"):
@@ -136,11 +136,11 @@ class RobotApp(PanelApp):
         yield Panel("keys", "Keys", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start the updates."""
+        """Start the regular updates of the screen."""
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.redraw)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Fit everything into the new size."""
+        """Arrange the panels for the new size of the terminal."""
         self._arrange()
         self.call_after_refresh(self.redraw)
 
@@ -163,7 +163,7 @@ class RobotApp(PanelApp):
     # Looking
 
     def redraw(self) -> None:
-        """Redraw everything that changed."""
+        """Draw everything that has changed."""
         self.guarded(self._draw)
 
     def _draw(self) -> None:
@@ -206,7 +206,7 @@ class RobotApp(PanelApp):
             space.border_subtitle = f"meshes missing: {len(self._missing)}"
 
     def _chosen_frame(self) -> str:
-        """Return the link that the chosen joint moves."""
+        """Return the frame of the link that the chosen joint moves."""
         joint = self.sliders.chosen
         return self.prefix + (self.link if joint is None else joint.child)
 
@@ -268,7 +268,7 @@ class RobotApp(PanelApp):
         return lines[:height]
 
     def _others(self, width: int) -> list[Text]:
-        """Return where every link is, a line each below a heading."""
+        """Return lines with the position of every link, below a heading."""
         look, root = self.look, self.prefix + self.sliders.robot.root
         name_width = max(8, width - 24)
         lines = [Text(), Text(f"{'':{name_width}}       x       y       z", "dim")]
@@ -321,7 +321,7 @@ class RobotApp(PanelApp):
     # Keys
 
     def on_key(self, event: events.Key) -> None:
-        """Take the digits of a position in typing order."""
+        """Handle a digit or another key of a typed position, in the order of typing."""
         sliders, sign = self.sliders, event.character or ""
         if event.key == "enter":
             sliders.enter()
@@ -338,7 +338,7 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_choose(self, step: int) -> None:
-        """Choose another joint."""
+        """Move the cursor to another joint."""
         self.sliders.choose(step)
         self.redraw()
 
@@ -354,11 +354,11 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_everything(self, what: str) -> None:
-        """Set all joints to zero, to the middle, or at random."""
+        """Set all joints to zero, to the middle of their limits, or at random."""
         self._put(what, all_of_them=True)
 
     def action_one(self, what: str) -> None:
-        """Reset the chosen joint alone."""
+        """Set the chosen joint to zero, to the middle of its limits, or at random."""
         self._put(what, all_of_them=False)
 
     def _put(self, what: str, *, all_of_them: bool) -> None:
@@ -371,13 +371,13 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_picture(self) -> None:
-        """Show the robot in 3-D, or only the joints."""
+        """Show or hide the robot's 3-D picture."""
         self._wants_space = not self._wants_space
         self._arrange()
         self.call_after_refresh(self.redraw)
 
     def action_space(self, key: str) -> None:
-        """Orbit the picture."""
+        """Orbit, zoom or pan the 3-D picture."""
         self.query_one("#space", SpacePanel).press(key, self._chosen_frame())
 
     def action_link(self, step: int) -> None:
@@ -388,7 +388,7 @@ class RobotApp(PanelApp):
 
 
 def _bar(one: Slider, width: int, look: Look) -> str:
-    """Draw a slider, `width` cells wide."""
+    """Draw a joint's slider, `width` cells wide."""
     left, right, track, knob = "[]-o" if look.ascii_only else "├┤─●"
     room = max(3, width - 2)
     share = one.share

@@ -1,4 +1,4 @@
-"""State of a world at one time, now or as far back as the buffer reaches."""
+"""State of a world at one time, for screens: now, or as far back as the buffer reaches."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -28,12 +28,12 @@ from tftool.screens.terminal.frames_picture import (
 from tftool.world.nodes.trail import Trail
 
 FLASH = seconds(0.4)
-"""How long a wall stays lit after it was run into."""
+"""Nanoseconds for which a wall is highlighted after a turtle hit it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two frames, and the transform between them, or why there is none."""
+    """Two frames, and the transform between them or the reason why there is none."""
 
     target: str
     source: str
@@ -43,16 +43,16 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class SceneMoment:
-    """Everything on a screen at one time, immutable.
+    """State of a scene at one time, as the screen shows it; immutable.
 
     Attributes:
-        stamp: The moment shown.
-        behind: Time before now, nanoseconds; 0 if live.
-        elapsed: Time since the scene's start.
-        snapshot: All frames at that moment.
-        ages: For each frame, seconds since its latest stamp changed; 0 for static ones.
-        picture: The frames, seen from above in one of them.
-        pair: The transform asked for.
+        stamp: Time that is shown, nanoseconds.
+        behind: Nanoseconds before the present; 0 if live.
+        elapsed: Nanoseconds since the scene's start.
+        snapshot: All frames at that time.
+        ages: Seconds since each frame's stamp last changed; 0 for static frames.
+        picture: Picture of the frames, seen from above in one of them.
+        pair: Selected pair with its transform.
     """
 
     stamp: Stamp
@@ -65,11 +65,11 @@ class SceneMoment:
 
 
 class SimulatedTurtle(Protocol):
-    """A turtle's facts needed for drawing."""
+    """Protocol of a turtle: the facts needed to draw it."""
 
     @property
     def name(self) -> str:
-        """The turtle's name."""
+        """Name of the turtle."""
 
     @property
     def pose(self) -> Any:
@@ -77,26 +77,26 @@ class SimulatedTurtle(Protocol):
 
     @property
     def wall_hits(self) -> int:
-        """Return how often the turtle hit the wall."""
+        """Number of times that the turtle hit the wall."""
 
 
 class Simulator(Protocol):
-    """Source of turtles: the simulator, or another process's as observed."""
+    """Protocol of a source of turtles: the simulator, or the view of a remote one."""
 
     trail: Trail
     revision: int
 
     @property
     def turtles(self) -> Mapping[str, SimulatedTurtle]:
-        """Return every turtle by name."""
+        """All turtles by name."""
 
     @property
     def background(self) -> Color:
-        """The field's colour."""
+        """Colour of the turtles' field."""
 
 
 class _SeenTurtle(NamedTuple):
-    """A turtle's position on the field: metres, radians."""
+    """Pose of a turtle on the field: metres, radians."""
 
     name: str
     x: float
@@ -106,7 +106,7 @@ class _SeenTurtle(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """Facts known only to the simulator at `stamp`; a trail by its length."""
+    """Facts at `stamp` that only the simulator knows; the trail is given by its length."""
 
     stamp: Stamp
     turtles: tuple[_SeenTurtle, ...]
@@ -117,16 +117,16 @@ class _Seen:
 
 
 class Scene:
-    """Observer of a world, which keeps a history of what only a simulator knows.
+    """Observer of a world, which stores a history of the facts that only a simulator knows.
 
     Args:
-        world: The world to look at.
-        simulator: Simulator that draws its turtles, if there is one.
+        world: World to observe.
+        simulator: Simulator whose turtles are drawn; None if there is none.
 
     Attributes:
-        start: The moment from which seconds are counted on the screen.
-        solids: The shapes of a robot among the frames, once its description is known.
-        missed: A turtle that a key was for and that was not there; its coming is logged.
+        start: Time from which the screen counts seconds.
+        solids: Shapes of a robot among the frames, once its description is known.
+        missed: Name of a turtle that a key was for but that did not exist; its arrival is logged.
     """
 
     def __init__(self, world: ShownFrames, simulator: Simulator | None = None) -> None:
@@ -146,7 +146,7 @@ class Scene:
         self._field_frame = ""
 
     def look(self) -> None:
-        """Record the present state; called a few dozen times a second."""
+        """Store the simulator's present state; called a few dozen times a second."""
         now = self.world.clock.now()
         simulator = self.simulator
         if simulator is None or not (simulator.turtles or self._seen):
@@ -181,20 +181,20 @@ class Scene:
             del self._wiped[wipes]
 
     def oldest(self) -> Stamp:
-        """Return the earliest available time."""
+        """Return the earliest time that can be shown."""
         now = self.world.clock.now()
         snapshot = self.world.buffer.snapshot(now)
         held = [info.oldest for info in snapshot.frames if info.oldest and not info.is_static]
         return min(max(min(held, default=now), now - self.world.buffer.cache_time), now)
 
     def moment(self, at: Stamp | None, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return everything at one time.
+        """Return the state at one time.
 
         Args:
-            at: The moment; the present if None.
-            target: The frame the source is measured in.
-            source: The frame that is measured.
-            fixed: The frame the picture is drawn in; the root of the pair's tree if empty.
+            at: Time to show; None for the present.
+            target: Frame in which the pair's pose is expressed.
+            source: Frame whose pose is shown.
+            fixed: Frame in which the picture is drawn; "" for the root of the pair's tree.
         """
         now = self.world.clock.now()
         stamp = now if at is None else at
@@ -214,14 +214,14 @@ class Scene:
         )
 
     def newest(self, target: str, source: str) -> Stamp | None:
-        """Return the newest time at which a pair is known; None if never, or always."""
+        """Return the newest time at which a pair is known; None if never or if all is static."""
         try:
             return self.world.buffer.get_latest_common_time(target, source) or None
         except TransformException:
             return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return this moment with another pair; it may have left the buffer."""
+        """Return a state with another pair, without new frames: they may have left the buffer."""
         snapshot, pair = moment.snapshot, (target, source)
         wanted = self._fixed(snapshot, pair, fixed)
         if moment.picture.fixed != wanted:
@@ -251,7 +251,7 @@ class Scene:
         return Pair(target, source, found)
 
     def _as_of(self, info: FrameInfo, at: Stamp) -> FrameInfo:
-        """Return a link as it was known at an earlier time, without later samples."""
+        """Return a frame's facts as they were at an earlier time, without later samples."""
         if info.parent is None or info.is_static or info.newest <= at:
             return info
         stamps = self.world.buffer.samples(info.frame).stamps
@@ -269,9 +269,9 @@ class Scene:
         )
 
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
-        """Return every frame's age as in rviz: since its stamp last changed.
+        """Return every frame's age as in rviz: seconds since its stamp last changed.
 
-        For past moments the stamp itself decides: the time of arrival is not recorded.
+        For past times the stamp itself is used: the time of arrival is not recorded.
         """
         ages: dict[str, float] = {}
         for info in snapshot.frames:
@@ -320,7 +320,7 @@ class Scene:
         return picture if seen is None else self._with_field(picture, snapshot, lookup, seen, at)
 
     def _latest(self, snapshot: Snapshot, fixed: str) -> Lookup:
-        """Return a lookup of the latest, from the snapshot where possible."""
+        """Return a function that looks up latest poses, in the snapshot if possible."""
         inside = in_snapshot(snapshot)
         if fixed in snapshot and snapshot.frame(fixed).parent is None:
             return inside
@@ -341,7 +341,7 @@ class Scene:
         seen: _Seen,
         at: Stamp | None,
     ) -> PlanePicture:
-        """Place the turtles' field in the picture, at the parent of their frames."""
+        """Return the picture with the turtles' field, placed at the parent of their frames."""
         parents = [
             parent
             for turtle in seen.turtles
@@ -385,7 +385,7 @@ def _sides(x: float, y: float) -> list[str]:
 
 
 def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
-    """Return a turtle without a broadcast frame, at its simulator's position."""
+    """Return a turtle that has no frame, at its position in the simulator."""
     there = pose @ transform_from_pose(turtle.x, turtle.y, turtle.theta)
     ahead = there.rotate((1.0, 0.0, 0.0))[:2]
     return PlaneFrame(

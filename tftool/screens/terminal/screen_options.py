@@ -1,4 +1,4 @@
-"""Options of a screen, abilities of its terminal, and its layout."""
+"""Options of a screen, abilities of its terminal, and the layout of its panels."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -9,19 +9,19 @@ from tftool.drawing import theme
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """Abilities of the terminal, and options of the screen.
+    """Options of a screen, and abilities of its terminal.
 
     Attributes:
-        title: Title of the running session, for the top line.
-        pair: Target and source to begin with.
-        ascii_only: Draw with ASCII alone.
+        title: Title for the top line.
+        pair: First target and source.
+        ascii_only: Whether to draw with ASCII only.
         colors: Whether colours may be used.
-        light: Whether the terminal's ground is light.
-        drive_only: Whether the field has the screen to itself, as in teleop.
+        light: Whether the terminal's background is light.
+        drive_only: Whether only the field is shown, as in teleop.
         banner: Lines to show above the field.
-        at: The moment to begin with, at rest; the present if None.
-        scenarios: Returns the scenarios to choose from, name and subject; None where
-            there is no choice.
+        at: First time to show, standing still; None for the present.
+        scenarios: Function that returns name and description of the scenarios to choose from;
+            None if none can be chosen.
     """
 
     title: str = "tftool"
@@ -36,12 +36,12 @@ class Setting:
 
 
 def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting) -> Setting:
-    """Complete `wanted` with what the environment says about the terminal.
+    """Return the wanted options, restricted to what the terminal can show.
 
     Args:
-        environment: TERM, NO_COLOR, COLORFGBG and LC_ALL count.
+        environment: Environment variables; TERM, NO_COLOR, COLORFGBG and LC_ALL are used.
         encoding: Encoding of the terminal's text.
-        wanted: The wish; it is only ever restricted.
+        wanted: Wanted options.
     """
     terminal = environment.get("TERM", "")
     ascii_only = (
@@ -59,38 +59,38 @@ def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting)
 
 
 SMALLEST = (30, 10)
-"""Columns and rows below which there is nothing but a sentence."""
+"""Smallest columns and rows of a screen with panels; below, a sentence is shown."""
 
 WITH_PANELS = 56
-"""Columns from which the field gets company."""
+"""Smallest number of columns with panels beside the field."""
 
 PAIR_LINES = 6
-"""Lines the echo needs to say everything shortly."""
+"""Lines of the pair's panel in its short form."""
 
 BLOCK_LINES = 11
-"""Lines in which it says the rotation as radians and as a matrix, too."""
+"""Lines of the pair's panel with the rotation in radians and as a matrix."""
 
 LEAST_PLOT = 6
-"""Lines of the plots, with their border."""
+"""Smallest number of lines of the plots, with their border."""
 
 WITH_BANNER = 36
-"""Rows from which there is room for lines above the picture."""
+"""Smallest number of rows with a banner above the picture."""
 
 SCALE = 5
-"""Columns left of the picture for its metres."""
+"""Columns at the left of the picture for its scale in metres."""
 
 
 @dataclass(frozen=True, slots=True)
 class ScreenLayout:
-    """Sizes with borders, in cells; 0 for the remaining space.
+    """Sizes of the panels with borders, in cells; 0 for the remaining space.
 
     Attributes:
-        small: Whether there is room for nothing.
+        small: Whether the terminal is too small for any panel.
         alone: Whether the picture fills the screen, without panels.
         portrait: Whether the panels are below the picture.
-        field: The picture's width and height.
-        tree: The tree's height.
-        pair: The echo's height.
+        field: Width and height of the picture.
+        tree: Height of the tree.
+        pair: Height of the pair's panel.
         log: Height of the open log.
     """
 
@@ -107,10 +107,10 @@ def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
     """Divide a screen among its panels.
 
     Args:
-        width: Columns.
-        height: Rows.
-        banner: Number of rows of a banner.
-        frames: Number of lines the tree would like.
+        width: Columns of the terminal.
+        height: Rows of the terminal.
+        banner: Rows of the banner.
+        frames: Lines that the whole tree needs.
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:
         return ScreenLayout(small=True)

@@ -1,4 +1,4 @@
-"""A robot's joints as sliders: the chosen one, positions, and changes by keys."""
+"""Joints of a robot as sliders: the chosen one, positions, and changes by keys."""
 
 import math
 import random
@@ -11,31 +11,31 @@ from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot
 
 STEPS = 50
-"""Presses of an arrow from one limit to the other."""
+"""Number of steps from one limit of a joint to the other."""
 
 FINE = 10
-"""A fine step is so much smaller."""
+"""Number of fine steps in one step."""
 
 
 class Positions(Protocol):
-    """Positions of joints, and how to set them: `nodes.joints.JointStatePublisher`."""
+    """Protocol of a node with joint positions, such as `nodes.joints.JointStatePublisher`."""
 
     @property
     def positions(self) -> Mapping[str, float]:
-        """Positions by joint, including mimics."""
+        """Positions by joint, including mimic joints."""
 
     def move(self, joint: str, position: float) -> None:
-        """Move a joint."""
+        """Set the position of a joint."""
 
 
 @dataclass(frozen=True, slots=True)
 class Slider:
-    """One joint as shown.
+    """Slider of one joint as the screen shows it.
 
     Attributes:
         joint: The joint.
-        position: Radians or metres; None while nothing is known.
-        range: The least and greatest position it is slid to.
+        position: Position in radians or metres; None if unknown.
+        range: Smallest and largest position of the slider.
         is_chosen: Whether keys move the slider.
         follows: Whether the joint mimics another.
     """
@@ -48,7 +48,7 @@ class Slider:
 
     @property
     def share(self) -> float | None:
-        """Position of the slider between its limits, from 0 to 1; None without limits."""
+        """Position between the limits, from 0 to 1; None if unknown."""
         lower, upper = self.range
         if self.position is None or upper <= lower:
             return None
@@ -56,20 +56,20 @@ class Slider:
 
 
 class Sliders:
-    """A robot's movable joints, one of them chosen.
+    """Sliders of a robot's movable joints, one of which is chosen.
 
     Attributes:
         robot: The robot.
-        entry: The typed part of a position; empty while nothing is.
-        refusal: Why the last typed text is not a position; empty where it was one.
+        entry: Digits of a position typed so far; "" if none are.
+        refusal: Reason why the last typed text is not a position; "" if it was one.
     """
 
     def __init__(self, robot: Robot, mover: Positions | None, *, seed: int = 0) -> None:
-        """Choose the first joint.
+        """Create the sliders; the first joint is chosen.
 
         Args:
             robot: The robot.
-            mover: Node that moves its joints; None if others do.
+            mover: Node that moves the joints; None if other programs do.
             seed: Seed of random positions.
         """
         self.robot = robot
@@ -83,17 +83,17 @@ class Sliders:
 
     @property
     def can_move(self) -> bool:
-        """Whether keys move joints here."""
+        """Whether keys can move the joints."""
         return self._mover is not None
 
     @property
     def chosen(self) -> RobotJoint | None:
-        """The joint that keys move; None for a robot without joints."""
+        """Joint that keys move; None for a robot without joints."""
         return self._joints[self._chosen] if self._joints else None
 
     @property
     def sliders(self) -> Sequence[Slider]:
-        """Return all sliders, in the description's order."""
+        """All sliders, in the order of the description."""
         known = self._heard if self._mover is None else self._mover.positions
         return [
             Slider(
@@ -107,7 +107,7 @@ class Sliders:
         ]
 
     def hear(self, positions: Mapping[str, float]) -> None:
-        """Update positions from other publishers."""
+        """Store positions of joints that other programs publish."""
         for name, position in positions.items():
             if self.robot.takes(name) and math.isfinite(position):
                 self._heard[name] = position
@@ -115,7 +115,7 @@ class Sliders:
     # What keys do
 
     def choose(self, step: int) -> None:
-        """Choose the next or previous joint, without mimics."""
+        """Choose the next or previous joint, leaving out mimic joints."""
         self.entry = self.refusal = ""
         count = len(self._joints)
         place = self._chosen
@@ -126,7 +126,7 @@ class Sliders:
                 return
 
     def step(self, direction: int, *, fine: bool = False) -> None:
-        """Move the chosen joint a step towards a limit."""
+        """Move the chosen joint one step towards a limit."""
         joint = self.chosen
         if joint is None or self._mover is None:
             return
@@ -161,19 +161,19 @@ class Sliders:
         self._move(joint, position)
 
     def zero(self, *, all_of_them: bool = True) -> None:
-        """Set joints to zero, or to the nearest position within limits."""
+        """Set all joints, or the chosen one, to zero or the nearest position within limits."""
         for joint in self._meant(all_of_them):
             lower, upper = joint.limits or (0.0, 0.0)
             self._move(joint, min(upper, max(lower, 0.0)))
 
     def centre(self, *, all_of_them: bool = True) -> None:
-        """Set joints to the middle of their limits."""
+        """Set all joints, or the chosen one, to the middle of their limits."""
         for joint in self._meant(all_of_them):
             lower, upper = slide_range(joint)
             self._move(joint, (lower + upper) / 2.0)
 
     def scatter(self, *, all_of_them: bool = True) -> None:
-        """Set joints to random positions within their limits."""
+        """Set all joints, or the chosen one, to random positions within their limits."""
         for joint in self._meant(all_of_them):
             lower, upper = slide_range(joint)
             self._move(joint, self._random.uniform(lower, max(lower, upper)))
@@ -198,14 +198,14 @@ class Sliders:
 
 
 def slide_range(joint: RobotJoint) -> tuple[float, float]:
-    """Return a slider's minimum and maximum: the joint's limits, else a full turn."""
+    """Return a slider's smallest and largest position: the joint's limits, else a full turn."""
     return joint.limits or (-math.pi, math.pi)
 
 
 def tip_of(robot: Robot) -> str:
-    """Return the link farthest from the root, usually a hand; the first if there are several.
+    """Return the link farthest from the root, usually a hand; the first one if there are several.
 
-    Links below a floating joint have no frame here, and are ignored.
+    Links below a floating joint have no frame here, and are left out.
     """
     depth = {robot.root: 0}
     waiting = [robot.root]

@@ -1,4 +1,4 @@
-"""Panel with frames in 3-D, orbited with keys and mouse."""
+"""Panel that shows frames in 3-D, orbited with keys and mouse."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -28,7 +28,7 @@ _MOVES: Mapping[str, Callable[[OrbitCamera], None]] = {
     "w": OrbitCamera.next_view,
     "a": OrbitCamera.fit,
 }
-"""Keys of every screen that has this panel; none of them means anything else there."""
+"""Keys of this panel, which have no other meaning on a screen with it."""
 
 SPACE_KEYS = """\
  p            the picture, or as before
@@ -44,21 +44,21 @@ SPACE_BINDINGS = [
     for key in (*_MOVES, "y")
     if not key.startswith("shift")
 ]
-"""Bindings of a screen whose `action_space` hands keys to `SpacePanel.press`."""
+"""Key bindings of a screen whose `action_space` passes keys to `SpacePanel.press`."""
 
 ORBIT_BINDINGS = [
     Binding(key, f"space('{key}')", show=False, priority=True)
     for key in _MOVES
     if key.startswith("shift")
 ]
-"""Those of the arrows, for a screen that does not use them in another way."""
+"""Key bindings of the arrows, for a screen that does not use arrows otherwise."""
 
 
 class SpacePanel(Panel):
-    """Frames in 3-D.
+    """Panel that can show frames in 3-D.
 
     Attributes:
-        camera: From where they are seen.
+        camera: Camera that orbits the frames.
         in_space: Whether the panel shows frames in 3-D, in place of text.
     """
 
@@ -73,12 +73,12 @@ class SpacePanel(Panel):
         self._dragged: tuple[int, int] | None = None
 
     def draw(self, picture: SpacePicture, look: Look) -> None:
-        """Show a picture from now on."""
+        """Show a 3-D picture from now on."""
         self._picture, self._look = picture, look
         self._paint()
 
     def on_resize(self) -> None:
-        """Draw the picture in the new size."""
+        """Draw the picture in the panel's new size."""
         if self.in_space:
             self._paint()
 
@@ -113,17 +113,17 @@ class SpacePanel(Panel):
         return setting is None or bool(setting.colors)
 
     def frame_at(self, x: int, y: int) -> str | None:
-        """Return the frame nearest to a cell of the panel, at most three cells away."""
+        """Return the frame nearest to a cell of the panel; None if none is within three cells."""
         return None if self._canvas is None else self._canvas.frame_at(x, y)
 
     # Keys and the mouse
 
     def press(self, key: str, chosen: str = "") -> bool:
-        """Handle a key; return whether it has a meaning here.
+        """Handle a key; return whether it has a meaning in this panel.
 
         Args:
-            key: Name.
-            chosen: The frame that "y" keeps in the middle.
+            key: Name of the key.
+            chosen: Frame that the key "y" keeps in the middle.
         """
         if not self.in_space:
             return False
@@ -137,12 +137,12 @@ class SpacePanel(Panel):
         return True
 
     def on_mouse_down(self, event: events.MouseDown) -> None:
-        """Start a drag."""
+        """Start to drag the picture."""
         if self.in_space:
             self._dragged = event.screen_x, event.screen_y
 
     def on_mouse_move(self, event: events.MouseMove) -> None:
-        """Orbit with the left button, pan with another one."""
+        """Orbit while the left button is pressed, pan while another one is."""
         if self._dragged is None or not self.in_space:
             return
         event.stop()
@@ -158,15 +158,15 @@ class SpacePanel(Panel):
         self._paint()
 
     def on_mouse_up(self) -> None:
-        """End a drag."""
+        """End dragging the picture."""
         self._dragged = None
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Zoom in."""
+        """Zoom in by a step."""
         self._wheel(event, 1)
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Zoom out."""
+        """Zoom out by a step."""
         self._wheel(event, -1)
 
     def _wheel(self, event: events.MouseEvent, steps: int) -> None:
@@ -182,13 +182,13 @@ def frames_in_space(
     ages: Mapping[str, float] | None = None,
     lookup: Lookup | None = None,
 ) -> tuple[SpaceFrame, ...]:
-    """Return the frames of the tree of `fixed`, relative to it.
+    """Return the frames in the tree of `fixed`, with their poses in it.
 
     Args:
-        snapshot: The frames.
+        snapshot: Snapshot of the frames.
         fixed: Fixed frame of the picture.
-        ages: Seconds since there was news of each.
-        lookup: Gives their poses; the snapshot itself if None.
+        ages: Seconds since each frame's newest transform.
+        lookup: Function that returns the frames' poses; None to use the snapshot.
     """
     lookup = lookup or in_snapshot(snapshot)
     root = snapshot.frame(fixed).root if fixed in snapshot else None
@@ -202,7 +202,7 @@ def frames_in_space(
 
 
 def is_tall(frames: tuple[SpaceFrame, ...]) -> bool:
-    """Whether frames differ in height so much that a top view hides it."""
+    """Return whether frames differ so much in height that a view from above hides it."""
     if len(frames) < 2:
         return False
     across, along, up = (

@@ -1,4 +1,4 @@
-"""3-D pictures of a scene's moments."""
+"""3-D pictures of a scene's states."""
 
 import numpy as np
 
@@ -10,14 +10,14 @@ from tftool.screens.terminal.scene import SceneMoment
 from tftool.screens.terminal.space_panel import frames_in_space, is_tall
 
 MOST_STROKES = 3000
-"""Of a drawing, and of all trails, the newest strokes are drawn."""
+"""Most strokes drawn of a drawing, and of all trails: the newest ones."""
 
 FEW = 0xE0E0E0
-"""Bits of a colour that are kept as trails fade."""
+"""Mask of the bits of a trail's colour that are used, so that there are few colours."""
 
 
 def space_picture(moment: SceneMoment, solids: Solids | None = None) -> SpacePicture:
-    """Return a moment's frames in 3-D, with a robot's shapes, trails and the turtles' field."""
+    """Return a state's frames in 3-D, with a robot's shapes, trails and the turtles' field."""
     plane = moment.picture
     frames = frames_in_space(moment.snapshot, plane.fixed, moment.ages)
     ends, colors = [plane.trails.ends[-MOST_STROKES:]], [plane.trails.colors[-MOST_STROKES:]]
@@ -36,7 +36,7 @@ def space_picture(moment: SceneMoment, solids: Solids | None = None) -> SpacePic
 
 
 def opens_in_space(moment: SceneMoment) -> bool:
-    """Whether a top view would show static frames on top of each other."""
+    """Return whether a view from above would show static frames on top of each other."""
     moves = any(not info.is_static and info.parent for info in moment.snapshot.frames)
     if moves or moment.picture.field is not None:
         return False

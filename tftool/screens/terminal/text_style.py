@@ -1,4 +1,4 @@
-"""Styles of a screen's text, and wrapping."""
+"""Styles of a screen's text, and wrapping of sentences."""
 
 from typing import NamedTuple
 
@@ -19,28 +19,28 @@ class Look(NamedTuple):
 
     @property
     def more(self) -> str:
-        """Return the sign for omitted text."""
+        """Sign for text that is cut out."""
         return "~" if self.ascii_only else "…"
 
     def ink(self, color: Color, *, bold: bool = False) -> Style:
-        """Return a style with this colour."""
+        """Return the style of text in a colour."""
         return theme.ink(color, bold=bold)
 
     def of_name(self, name: str) -> Color:
-        """Return a name's colour, dark enough for a light panel."""
+        """Return the colour of a frame's name, dark enough for a light panel."""
         return theme.readable(theme.of_name(name), self.palette)
 
 
 def wrapped(
     words: str, width: int, style: Style | None = None, *, first: int | None = None
 ) -> list[Text]:
-    """Wrap a sentence into lines, at blanks where possible.
+    """Wrap a sentence into lines, at blanks if possible.
 
     Args:
-        words: The sentence; it may hold strangers' names.
-        width: Cells a line may take.
+        words: The sentence, in which control characters are replaced.
+        width: Longest line in cells.
         style: Style of the text.
-        first: Cells the first line may take, where that is another number.
+        first: Longest first line in cells, if different.
     """
     width = max(1, width)
     lines: list[str] = []

@@ -20,10 +20,10 @@ from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
 from tftool.world.world import World
 
 PERIOD = as_seconds(LONGEST) / LOOKS
-"""Seconds between two looks, so that the curves remember all they show."""
+"""Seconds between two updates, so that the stored values cover the whole curves."""
 
 RATED_OVER = round(2.0 / PERIOD)
-"""Looks over which a rate is counted: two seconds."""
+"""Number of updates over which a rate is counted, two seconds."""
 
 KEYS = """\
  Up, Down     scroll by a frame (also k, j, the wheel)
@@ -40,10 +40,10 @@ class TrafficWatch(PanelApp):
     """Screen of `tftool monitor`.
 
     Args:
-        world: Clock of the screen.
-        traffic: The received messages.
-        chain: Pair of the report; None for all frames.
-        setting: Abilities of the terminal.
+        world: World whose clock is used.
+        traffic: Statistics of the received messages.
+        chain: Pair to report; None for all frames.
+        setting: Options of the screen.
     """
 
     CSS = f"""{FRAME_CSS}
@@ -67,11 +67,11 @@ class TrafficWatch(PanelApp):
         self._first = 0
 
     def keys_told(self) -> str:
-        """Return the key help."""
+        """Return the help for the keys of this screen."""
         return KEYS
 
     def compose(self) -> ComposeResult:
-        """Create the panels."""
+        """Create the panels of this screen."""
         yield Panel("header", can_focus=False)
         yield Panel("frames", "Frames", can_focus=False)
         yield Panel("senders", "Broadcasters", can_focus=False)
@@ -79,21 +79,21 @@ class TrafficWatch(PanelApp):
         yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start the updates."""
+        """Start the regular updates of the screen."""
         self.set_interval(PERIOD, self.look_again)
         self.call_after_refresh(self.look_again)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Fit everything into the new size."""
+        """Draw everything in the new size of the terminal."""
         self.call_after_refresh(self.redraw)
 
     def look_again(self) -> None:
-        """Read the present rates, and draw them."""
+        """Store the present rates and delays, and draw them."""
         self._history.look(self.world.clock.now(), self._traffic, over=RATED_OVER)
         self.redraw()
 
     def redraw(self) -> None:
-        """Draw the present state."""
+        """Draw the present rates and delays."""
         if self.is_running and self.query("#footer"):
             self.guarded(self._draw)
 
@@ -148,25 +148,25 @@ class TrafficWatch(PanelApp):
     # Keys
 
     def action_scroll(self, by: int) -> None:
-        """Move the first row."""
+        """Scroll the links by some rows."""
         self._first = max(0, self._first + by)
         self.redraw()
 
     def action_sort(self) -> None:
-        """Change to the next order."""
+        """Sort the links by the next order."""
         orders = (*(["chain"] if self._chain is not None else []), *_ORDERS)
         self._order = orders[(orders.index(self._order) + 1) % len(orders)]
         self._first = 0
         self.redraw()
 
     def action_close(self) -> None:
-        """Close the key help."""
+        """Hide the key help."""
         self.panel("keys").display = False
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Scroll down."""
+        """Scroll the links down by a row."""
         self.action_scroll(1)
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Scroll up."""
+        """Scroll the links up by a row."""
         self.action_scroll(-1)

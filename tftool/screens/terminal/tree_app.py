@@ -1,4 +1,4 @@
-"""Screen of `tftool tree --watch`: a live tree, scrolled, sorted and filtered."""
+"""Screen of `tftool tree --watch`: a live tree that can be scrolled, sorted and filtered."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -29,22 +29,22 @@ from tftool.world.world import TransformMessage, World
 LOOKS_PER_SECOND = 2
 
 HEADINGS = 2
-"""Lines above the frames, at most."""
+"""Most lines above the frames."""
 
 WITH_SPACE, LEAST_SPACE = 60, 14
-"""Columns from which the picture stands below the tree, and the rows it needs there."""
+"""Smallest columns of a screen, and rows of the picture, for a picture below the tree."""
 
 Marks = Mapping[str, Sequence[str]]
 
 
 @dataclass(slots=True)
 class TreeWindow:
-    """Visible part of a tree: its root, order, and frames.
+    """Visible part of the tree: first row, order and filter.
 
     Attributes:
-        first: The row at the top.
-        order: Sorting key.
-        wanted: Letters that the shown frames have in their names.
+        first: Index of the row at the top.
+        order: Order of the rows.
+        wanted: Part of the names of the frames to show.
     """
 
     first: int = 0
@@ -93,7 +93,7 @@ class TreeWindow:
         return Text("   ".join(parts), style="bold")
 
     def sort(self) -> None:
-        """Change to the next order."""
+        """Sort the rows by the next order."""
         orders = list(TreeOrder)
         self.order = orders[(orders.index(self.order) + 1) % len(orders)]
         self.first = 0
@@ -117,12 +117,12 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     """Screen of `tftool tree --watch`.
 
     Args:
-        world: Source of the frames.
-        marks: Finds faults of frames.
-        setting: Abilities of the terminal.
+        world: World with the frames.
+        marks: Function that returns the doctor's findings about frames.
+        setting: Options of the screen.
 
     Attributes:
-        solids: The shapes of a robot among the frames, once its description is known.
+        solids: Shapes of a robot among the frames, once its description is known.
     """
 
     CSS = f"""{FRAME_CSS}
@@ -156,18 +156,18 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self._traffic.receive(now, message.transforms, message.authority, is_static=False)
 
     def tell(self, sentence: str) -> None:
-        """Show this in place of the keys from now on."""
+        """Show a sentence in place of the key help at the bottom, until the next key."""
         self.news = sentence
         self.redraw()
 
     # Building
 
     def keys_told(self) -> str:
-        """Return the key help."""
+        """Return the help for the keys of this screen."""
         return KEYS
 
     def compose(self) -> ComposeResult:
-        """Create the panels."""
+        """Create the panels of this screen."""
         yield Panel("header", can_focus=False)
         yield Panel("rows", "Frames", can_focus=False)
         yield SpacePanel("space", "In space", can_focus=False)
@@ -175,12 +175,12 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start the updates."""
+        """Start the regular updates of the screen."""
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
         self.call_after_refresh(self.look_again)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Fit everything into the new size."""
+        """Arrange the panels for the new size of the terminal."""
         is_tiny = event.size.height < 8 or event.size.width < 30
         self.screen.set_class(is_tiny, "tiny")
         self.panel("header").display = not is_tiny
@@ -199,17 +199,17 @@ class TreeWatch(PanelApp, inherit_bindings=False):
 
     @property
     def space(self) -> SpacePanel:
-        """Return the panel of the picture."""
+        """Panel of the 3-D picture."""
         return self.query_one(SpacePanel)
 
     # Looking
 
     def look_again(self) -> None:
-        """Read the present state, and draw it."""
+        """Take a snapshot of the frames, and draw it."""
         self._shown(self._look)
 
     def redraw(self) -> None:
-        """Draw the last state with the present options."""
+        """Draw the last snapshot with the present order and filter."""
         self._shown(self._draw)
 
     def _shown(self, work: Callable[[], None]) -> None:
@@ -306,7 +306,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.redraw()
 
     def _next_followed(self) -> str:
-        """Return the frame after the followed one; none after the last."""
+        """Return the frame after the one in the middle of the picture; "" after the last."""
         names = [info.frame for info in self._seen[0].frames] if self._seen else []
         names.append("")
         follows = self.space.camera.follows
@@ -332,11 +332,11 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.window.first = max(0, self.window.first + steps.get(key, 0))
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Scroll down."""
+        """Scroll the tree down by three rows."""
         self.window.first += 3
         self.redraw()
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Scroll up."""
+        """Scroll the tree up by three rows."""
         self.window.first = max(0, self.window.first - 3)
         self.redraw()

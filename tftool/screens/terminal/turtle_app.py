@@ -1,8 +1,8 @@
-"""Terminal app: field, tree, a pair of frames, log; keys drive turtle1.
+"""Terminal app of demo and teleop: field, tree, a pair of frames, log; keys drive a turtle.
 
-The screen watches a world and never changes it, except by the keys that it passes to `press`. Its
-time is the world's; pictures are drawn at a rate in real time, so that a world at 100 times real
-time is drawn no more often than one at 1.
+The screen observes a world and never changes it, except by the keys that it passes to `press`. It
+shows the world's time; pictures are drawn at a rate in real time, so that a world at 100 times real
+time is drawn no more often than one at real time.
 """
 
 import asyncio
@@ -34,14 +34,14 @@ from tftool.world.nodes.turtle_drivers import IdleDrawing
 
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
-"""At every how many looks the text beside the field is rewritten."""
+"""Number of pictures after which the text beside the field is drawn again."""
 
 WITH_WRAPPED_LOG = 36
-"""Rows from which the newest line of the log is wrapped rather than cut."""
+"""Smallest number of rows with the newest log message wrapped rather than cut."""
 
 REST = 6.0
-"""For how many times as long as a look took there is no other one: with the terminal's own
-painting of it, which takes 0.4 times as long again, the demo stays below a quarter of a core."""
+"""Pause after a picture, in multiples of the time that the picture took. With the terminal's own
+drawing, 0.4 times as long again, the demo stays below a quarter of a core."""
 
 STEP, LEAP = seconds(0.1), seconds(1.0)
 
@@ -52,14 +52,15 @@ class TurtleApp(PanelApp):
     """Screen of `tftool demo` and `tftool teleop`.
 
     Args:
-        scene: Scene to look at.
-        press: Takes a key that drives: "up", "g", ...; None where nothing can be driven.
+        scene: Scene to show.
+        press: Function called with a key that drives, such as "up" or "g"; None if no turtle
+            can be driven.
         setting: Options of the screen.
-        idle: Draws while no key is pressed, where something does.
+        idle: Node that draws while no key is pressed; None if there is none.
 
     Attributes:
-        chosen: The scenario to show instead, once one was chosen.
-        press_key: Takes a key that drives; None where nothing can be driven.
+        chosen: Scenario to show instead, once the user has chosen one.
+        press_key: Function called with a key that drives; None if no turtle can be driven.
     """
 
     CSS = f"""{FRAME_CSS}
@@ -144,14 +145,14 @@ class TurtleApp(PanelApp):
         scene.world.log.listen(self._journal.add, "screen")
 
     def begin(self, stamp: Stamp) -> None:
-        """Count time from now on, when the world starts. A complete source started before."""
+        """Count seconds from now on, when the world starts; not for a recording."""
         if self.setting.at is None:
             self.scene.start = stamp
 
     # Building
 
     def compose(self) -> ComposeResult:
-        """Create the panels; `_arrange` sets their sizes."""
+        """Create the panels of this screen; `_arrange` sets their sizes."""
         yield Panel("header", can_focus=False)
         yield Panel("banner", can_focus=False)
         with Container(id="body"):
@@ -167,13 +168,13 @@ class TurtleApp(PanelApp):
         yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start the updates."""
+        """Start the regular updates of the screen."""
         self.screen.set_class(not self.setting.colors, "mono")
         self.panel("field").focus()
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Fit the panels into the new size."""
+        """Arrange the panels for the new size of the terminal."""
         self._strip = 2 if event.size.height >= WITH_WRAPPED_LOG else 1
         self._arrange(event.size.width, event.size.height)
         self.call_after_refresh(self.redraw)
@@ -211,7 +212,7 @@ class TurtleApp(PanelApp):
     # Looking
 
     def look_again(self) -> None:
-        """Draw the present state, unless the last drawing was slow and has only just ended."""
+        """Draw the present state, unless a slow drawing has ended only just before."""
         loop = asyncio.get_running_loop()
         if loop.time() < self._rest_until:
             return
@@ -229,13 +230,13 @@ class TurtleApp(PanelApp):
         self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
 
     def keys_told(self) -> str:
-        """Return the help for keys that work here."""
+        """Return the help for the keys that work on this screen."""
         return keys.told(
             drives=self.press_key is not None, chooses=self.setting.scenarios is not None
         )
 
     def redraw(self) -> None:
-        """Redraw everything that changed."""
+        """Draw everything that has changed."""
         self._stale = True
         self.guarded(lambda: self._draw(panels_too=True))
 
@@ -295,7 +296,7 @@ class TurtleApp(PanelApp):
 
     @property
     def field(self) -> SpacePanel:
-        """Return the picture's panel."""
+        """Panel of the picture."""
         return self.query_one("#field", SpacePanel)
 
     def _draw_panels(self, moment: SceneMoment) -> None:
@@ -330,7 +331,7 @@ class TurtleApp(PanelApp):
         plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
 
     def _draw_log(self, moment: SceneMoment) -> None:
-        """Draw the newest log line; with the log focused, as many as fit."""
+        """Draw the newest log message; with the log focused, as many as fit."""
         log, look = self.panel("log"), self.look
         if log.has_focus:
             lines = self._journal.lines(
@@ -363,7 +364,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def on_mouse_down(self, event: events.MouseDown) -> None:
-        """Choose the frame under the pointer, or start dragging the picture."""
+        """Select the frame under the pointer, or start to drag the picture."""
         name, x, y = self._under(event)
         moment = self._question.moment
         if moment is None:
@@ -382,7 +383,7 @@ class TurtleApp(PanelApp):
             self.redraw()
 
     def on_mouse_move(self, event: events.MouseMove) -> None:
-        """Drag the picture."""
+        """Move the picture with the pointer while it is dragged."""
         if self._dragged is None:
             return
         if not event.button:
@@ -394,11 +395,11 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def on_mouse_up(self) -> None:
-        """End a drag."""
+        """End dragging the picture."""
         self._dragged = None
 
     def _under(self, event: events.MouseEvent) -> tuple[str, int, int]:
-        """Return the panel under the pointer, and the cell in it."""
+        """Return the name of the panel under the pointer, and the cell in it."""
         for name in ("field", "tree", "pair", "log"):
             panel = self.panel(name)
             inside = panel.content_region
@@ -409,13 +410,13 @@ class TurtleApp(PanelApp):
     # Keys
 
     async def on_event(self, event: events.Event) -> None:
-        """Record that a person is present."""
+        """Record that a person uses the screen, and handle the event."""
         if isinstance(event, events.Key | events.MouseDown) and self._idle is not None:
             self._idle.touch()
         await super().on_event(event)
 
     def _is_over(self) -> bool:
-        """Whether the key help or the scenarios cover the picture."""
+        """Return whether the key help or the list of scenarios covers the picture."""
         return bool(self.panel("keys").display or self.panel("scenarios").display)
 
     def _keys_go_to(self) -> str:
@@ -424,7 +425,7 @@ class TurtleApp(PanelApp):
         return (self.focused.id or "") if self.focused else ""
 
     def action_drive(self, key: str) -> None:
-        """Pass a key to the teleop node."""
+        """Pass a key to the function that drives a turtle."""
         if self.press_key is not None:
             try:
                 self.press_key(key)
@@ -432,7 +433,7 @@ class TurtleApp(PanelApp):
                 self.scene.world.log.warn("screen", str(refusal))
 
     def action_steer(self, key: str) -> None:
-        """Drive; in a text panel, move the cursor."""
+        """Drive with an arrow key, or move the cursor if a text panel has the focus."""
         focused = self._keys_go_to()
         step = {"up": -1, "down": 1}.get(key, 0)
         if focused == "scenarios":
@@ -448,11 +449,11 @@ class TurtleApp(PanelApp):
             self.action_drive(key)
 
     def _scroll(self, lines: int) -> None:
-        """Scroll the log."""
+        """Scroll the log by some lines."""
         self._back = max(0, min(self._back + lines, len(self.scene.world.log.records)))
 
     def action_panel(self, step: int) -> None:
-        """Focus the next panel."""
+        """Focus the next or the previous panel."""
         if step > 0:
             self.screen.focus_next()
         else:
@@ -465,7 +466,7 @@ class TurtleApp(PanelApp):
         (self.panel("field") if log.has_focus else log).focus()
 
     def on_descendant_focus(self) -> None:
-        """Arrange the panels: the log is open while focused."""
+        """Arrange the panels again: the log is open while it has the focus."""
         self._fit_panels()
 
     def _fit_panels(self) -> None:
@@ -474,12 +475,12 @@ class TurtleApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def action_pick(self, step: int) -> None:
-        """Move through the tree: the frame under the cursor is the pair's source."""
+        """Move the cursor through the tree; the frame under it is the pair's source."""
         if self._question.pick(step):
             self.redraw()
 
     def action_measure(self) -> None:
-        """Make the frame under the cursor the pair's target."""
+        """Make the frame under the cursor the target, or choose a listed scenario."""
         if self.panel("scenarios").display:
             self.chosen = self._offered[self._offer][0]
             self.exit()
@@ -497,12 +498,12 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_zoom(self, steps: int) -> None:
-        """Zoom in or out."""
+        """Zoom in or out by some steps."""
         (self.field.camera if self.field.in_space else self._plane.camera).zoom(steps)
         self.redraw()
 
     def action_pan(self, columns: int, rows: int) -> None:
-        """Pan the picture; orbit it in 3-D."""
+        """Move the picture; in 3-D, orbit it."""
         if self.field.in_space:
             self.field.camera.turn(-columns / 6, rows / 3)
         else:
@@ -510,32 +511,32 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_picture(self) -> None:
-        """Switch between 3-D and top view."""
+        """Switch between 3-D and the view from above."""
         if not self.setting.drive_only:
             self._is_decided, self.field.in_space = True, not self.field.in_space
             self.redraw()
 
     def action_space(self, key: str) -> None:
-        """Orbit the 3-D picture."""
+        """Orbit, zoom or pan the 3-D picture."""
         self.field.press(key, self._question.source)
 
     def action_fit(self) -> None:
-        """Fit everything again."""
+        """Show the whole picture again, after zooming and panning."""
         (self.field.camera if self.field.in_space else self._plane.camera).fit()
         self.redraw()
 
     def action_swap(self) -> None:
-        """Swap target and source."""
+        """Exchange the pair's target and source."""
         self._question.swap()
         self.redraw()
 
     def action_travel(self, step: Duration) -> None:
-        """Show an earlier or later time; past the present it is live."""
+        """Show an earlier or later time; beyond the present, the live state."""
         self._question.travel(step)
         self.redraw()
 
     def action_live(self) -> None:
-        """Show the present again, and hide the key help."""
+        """Close what covers the picture, else show the present again."""
         if self._is_over():
             self.panel("keys").display = self.panel("scenarios").display = False
             self.redraw()

@@ -1,4 +1,4 @@
-"""Base of all screens over a world: a textual app of panels with common keys and errors."""
+"""Base of all screens over a world: a Textual app of panels with common keys and errors."""
 
 import asyncio
 import os
@@ -27,10 +27,10 @@ from tftool.world.stopper import leave_screen
 
 
 def input_events(sent: str) -> Iterable[Message]:
-    """Return the keys and mouse moves that Textual parses from a terminal's input.
+    """Return the keys and mouse moves that Textual's parser finds in a terminal's input.
 
     Only this function uses Textual's parser, which is not part of its public interface: if a
-    version has moved it, nothing is made.
+    version has moved it, no events are returned.
     """
     try:
         from textual._xterm_parser import XTermParser
@@ -40,13 +40,13 @@ def input_events(sent: str) -> Iterable[Message]:
 
 
 def tolerant(driver: type[Driver]) -> type[Driver]:
-    """Return a driver that ignores bytes which are not UTF-8, if it reads bytes itself.
+    """Return a driver class that ignores input bytes which are not UTF-8.
 
-    Textual's own driver treats them as a failure of the app: a terminal of another encoding, or a
-    cat on the keyboard, would end it with a traceback.
+    Textual's own driver treats such bytes as a failure of the app: a terminal of another encoding,
+    or a cat on the keyboard, would end it with a traceback.
 
     Args:
-        driver: Textual's driver on this platform; that of Windows has no bytes to decode.
+        driver: Textual's driver class on this platform; that of Windows has no bytes to decode.
     """
     if not hasattr(driver, "run_input_thread"):
         return driver
@@ -68,7 +68,7 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
 
 
 class Panel(Widget):
-    """Text lines that repaint only where they changed."""
+    """Panel of text lines, of which only changed ones are drawn again."""
 
     def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
         super().__init__(id=name)
@@ -78,12 +78,12 @@ class Panel(Widget):
         self._strips: list[Strip] = []
 
     def on_mount(self) -> None:
-        """Set the title."""
+        """Set the panel's title."""
         if self._title:
             self.border_title = self._title
 
     def show(self, lines: list[Text] | list[list[Segment]]) -> None:
-        """Show these lines from now on."""
+        """Show some lines from now on."""
         self._lines = lines
         width, height = self.size
         strips = [
@@ -98,18 +98,18 @@ class Panel(Widget):
                 self.refresh(Region(0, y, width, 1))
 
     def on_resize(self) -> None:
-        """Cut the lines to the new size; they may be older than the panel's first size."""
+        """Cut the lines to the panel's new size; they may be older than its first size."""
         self.show(self._lines)
 
     def render_line(self, y: int) -> Strip:
-        """Return one line to textual."""
+        """Return one line of the panel to Textual."""
         if y < len(self._strips):
             return self._strips[y]
         return Strip.blank(self.size.width, self.rich_style)
 
 
 def themes() -> list[Theme]:
-    """Register `theme`'s two palettes with textual, as tftool-dark and tftool-light."""
+    """Return `theme`'s two palettes as Textual themes, tftool-dark and tftool-light."""
     return [
         Theme(
             name=name,
@@ -127,13 +127,13 @@ def themes() -> list[Theme]:
 
 
 class WorldApp(App[None]):
-    """Screen that shows a world until it is left, interrupted or fails.
+    """Screen that shows a world until the user leaves it, it is interrupted, or it fails.
 
     Attributes:
-        world: The world.
+        world: World to show.
         setting: Options of the screen.
-        ready: Set once it shows.
-        failure: Error, for the caller to report once the terminal is restored.
+        ready: Event that is set when the first picture is shown.
+        failure: Error of the screen, for the caller to report once the terminal is restored.
         interrupted: Whether Ctrl-C ended the app.
     """
 
@@ -147,10 +147,10 @@ class WorldApp(App[None]):
     def __init__(
         self, world: ShownFrames, setting: Setting | None, *, terminal_colors: bool = False
     ) -> None:
-        """Make the screen.
+        """Create the screen.
 
         Args:
-            world: Contents.
+            world: World to show.
             setting: Options of the screen.
             terminal_colors: Whether to draw in the terminal's own colours.
         """
@@ -163,14 +163,14 @@ class WorldApp(App[None]):
         self.interrupted = False
 
     def begin(self, stamp: Stamp) -> None:
-        """Note that the world starts; subclasses start their clocks here."""
+        """Do nothing when the world starts; subclasses start counting time here."""
 
     def get_driver_class(self) -> type[Driver]:
-        """Return the driver that reads keys."""
+        """Return the class of the driver that reads keys."""
         return tolerant(super().get_driver_class())
 
     def on_mount(self) -> None:
-        """Start the world's nodes, and report when the first picture is shown."""
+        """Prepare the event loop for the world's nodes; report when the first picture is shown."""
         # textual makes new tasks start eagerly where Python can; the nodes of the world on
         # this loop are to run in the order they always run in.
         asyncio.get_running_loop().set_task_factory(None)
@@ -179,7 +179,7 @@ class WorldApp(App[None]):
         self.call_after_refresh(self.ready.set)
 
     def guarded(self, work: Callable[[], None]) -> None:
-        """Run a drawing; if it raises, keep the error and end the screen."""
+        """Call a drawing function; if it raises, store the error and end the screen."""
         try:
             work()
         except Exception as error:
@@ -187,11 +187,11 @@ class WorldApp(App[None]):
             self.exit()
 
     def action_leave(self) -> None:
-        """End the screen."""
+        """End the screen, as the user asked."""
         self.exit()
 
     def action_interrupt(self) -> None:
-        """End as on an interrupt: in raw mode Ctrl-C arrives as a key."""
+        """End the screen as an interrupt: in raw mode, Ctrl-C arrives as a key."""
         self.interrupted = True
         self.exit()
 
@@ -208,14 +208,14 @@ Panel { background: $surface; border: round $secondary; border-title-color: $for
 #keys { layer: above; dock: top; display: none; border: round $accent; }
 .ascii #keys { border: ascii $accent; }
 """
-"""Style of the panels that all screens have."""
+"""CSS of the panels that all screens have."""
 
 
 class PanelApp(WorldApp):
     """Screen of panels in tftool's colours, light or dark, with a panel of key help."""
 
     KEYS_WIDTH: ClassVar[int] = 68
-    """Cells that the panel of the keys takes."""
+    """Width in cells of the panel with the key help."""
 
     CSS = FRAME_CSS
 
@@ -226,34 +226,34 @@ class PanelApp(WorldApp):
     ]
 
     def __init__(self, world: ShownFrames, setting: Setting | None) -> None:
-        """Make the screen; see `WorldApp`."""
+        """Create the screen; see `WorldApp`."""
         super().__init__(world, setting)
         self.title = self.setting.title
         self._light = self.setting.light
 
     def on_mount(self) -> None:
-        """Apply the colours."""
+        """Apply tftool's colours to the screen."""
         for one in themes():
             self.register_theme(one)
         self._shade()
         self.screen.set_class(self.setting.ascii_only, "ascii")
 
     def panel(self, name: str) -> Panel:
-        """Return a panel by its id."""
+        """Return the panel with an id."""
         return self.query_one(f"#{name}", Panel)
 
     @property
     def look(self) -> Look:
-        """Style of the panels."""
+        """Palette and characters of the panels."""
         palette = theme.LIGHT if self._light else theme.DARK
         return Look(palette, self.setting.ascii_only)
 
     def redraw(self) -> None:
-        """Redraw everything that changed."""
+        """Draw everything that has changed."""
         raise NotImplementedError
 
     def action_shade(self) -> None:
-        """Switch between light and dark."""
+        """Switch between light and dark colours."""
         self._light = not self._light
         self._shade()
         self.redraw()
@@ -265,7 +265,7 @@ class PanelApp(WorldApp):
         self._place_keys(self.size)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Keep the key help in the middle."""
+        """Move the key help to the middle of the screen."""
         self._place_keys(event.size)
 
     def keys_told(self) -> str:
@@ -291,17 +291,17 @@ class PanelApp(WorldApp):
 
 
 async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
-    """Run the app on the terminal beside its world, until one of them ends.
+    """Run a screen on the terminal beside its world, until one of them ends.
 
-    Whatever ends it, the terminal is restored before this returns or raises.
+    However it ends, the terminal is restored before this returns or raises.
 
     Args:
-        app: Contents to show.
-        life: Lives the app's world through; cancelled when the user quits.
-        headless: Do all of it but draw on a terminal.
+        app: Screen to run.
+        life: Coroutine that runs the app's world; cancelled when the user quits.
+        headless: Whether to do everything except drawing on a terminal.
 
     Raises:
-        NodeFailed: If a node raised.
+        NodeFailed: If a node raised an exception.
         TftoolError: If the screen itself failed.
         KeyboardInterrupt: If the user pressed Ctrl-C.
     """

@@ -1,1 +1,1 @@
-"""Displays of messages besides frames: points and lines, one file per type."""
+"""Displays of messages besides frames: points, lines and shapes, with one file per type."""

@@ -1,4 +1,4 @@
-"""`visualization_msgs/MarkerArray`: shapes that are added, replaced and deleted by their names.
+"""Display of `visualization_msgs/MarkerArray`: shapes that messages add, replace and delete.
 
 Messages of `visualization_msgs/Marker` are drawn as arrays of one marker.
 """
@@ -27,21 +27,21 @@ TYPES: Final = ("visualization_msgs/msg/MarkerArray", "visualization_msgs/msg/Ma
 DELETE, DELETE_ALL = 2, 3
 
 MOST_SHAPES: Final = 2000
-"""Shapes of one topic; a page draws more of them too slowly."""
+"""Most shapes of one topic; a page would draw more too slowly."""
 
 HEAD: Final = 0.23
-"""Share of an arrow that is its head, as rviz draws it."""
+"""Length of an arrow's head as a share of the arrow, as in rviz."""
 
 Floats = npt.NDArray[np.float64]
 Part = tuple[str, Floats, Quaternion, Vector3]
-"""Kind of a shape, its positions in the frame of the marker, and turn and size of each."""
+"""Kind of a shape, its positions in the marker's frame, and rotation and size of each."""
 
 _UPRIGHT_TO_FORWARD: Final = Quaternion(0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5))
 _UNIT: Final = Vector3(1.0, 1.0, 1.0)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
-    """Return all markers of the topic after this message.
+    """Return all markers of the topic after this message, for drawing.
 
     A marker with `frame_locked` moves with its frame.
     """
@@ -129,7 +129,7 @@ def _arrow_strip(marker: Any) -> Iterator[Part]:
 
 
 def _arrow_between(start: Floats, end: Floats, size: Vector3) -> Iterator[Part]:
-    """Yield shaft and head: `size` is their diameters and the length of the head."""
+    """Yield an arrow's shaft and head; `size` is both diameters and the length of the head."""
     along = end - start
     length = float(np.linalg.norm(along))
     if not 0.0 < length < math.inf:
@@ -164,13 +164,13 @@ _PARTS: Final[dict[int, Callable[[Any], Iterator[Part]]]] = {
     11: _at_points("triangles"),
     12: _arrow_strip,
 }
-"""By the number of the type: arrow, cube, sphere, cylinder, line strip, line list, cube list,
-sphere list, points, text, triangle list, arrow strip. Meshes are not drawn: their files may be
-anywhere."""
+"""Functions that draw each type of marker, by number: arrow, cube, sphere, cylinder, line strip,
+line list, cube list, sphere list, points, text, triangle list, arrow strip. Meshes are not drawn,
+because their files may be anywhere."""
 
 
 def _pose(marker: Any) -> tuple[Floats, Quaternion]:
-    """Return position and unit quaternion; the identity for an empty quaternion, as rviz does."""
+    """Return a marker's position and unit quaternion; the identity for all zeros, as in rviz."""
     place, turn = marker.pose.position, marker.pose.orientation
     norm = math.hypot(turn.x, turn.y, turn.z, turn.w)
     unit = Quaternion(0.0, 0.0, 0.0, 1.0)
@@ -192,7 +192,7 @@ def _size(marker: Any) -> Vector3:
 
 
 def _colors(marker: Any, count: int) -> npt.NDArray[np.uint8]:
-    """Return the colour of each position, shape (count, 4)."""
+    """Return a marker's colour at each of its positions, shape (count, 4)."""
     given = marker.colors if len(marker.colors) == count else [marker.color] * count
     parts = np.array([(one.r, one.g, one.b, one.a) for one in given], dtype=np.float64)
     shares = np.nan_to_num(parts.reshape(-1, 4))

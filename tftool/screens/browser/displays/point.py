@@ -1,4 +1,4 @@
-"""`geometry_msgs/PointStamped`: a position as a ball."""
+"""Display of `geometry_msgs/PointStamped`: a ball at the point's position."""
 
 from typing import Any, Final
 
@@ -10,6 +10,6 @@ TYPES: Final = ("geometry_msgs/msg/PointStamped",)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
-    """Return the position."""
+    """Return a ball at the point's position, for drawing."""
     point = message.point
     return drawn("ball", message.header, np.array([(point.x, point.y, point.z)]), arrival.most)

@@ -1,4 +1,4 @@
-"""Result of every display: shapes, each in a frame of its own."""
+"""Shapes, the result of every display, each in a frame of its own."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Final
@@ -10,10 +10,10 @@ from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.geometry.rigid import Quaternion, Vector3
 
 Places = npt.NDArray[np.float32]
-"""Metres in the frame of the shape, shape (n, 3)."""
+"""Positions in the frame of the shape, metres, shape (n, 3)."""
 
 MOST_POINTS: Final = 200_000
-"""Points of one shape that are drawn; of more, every second one, or every third."""
+"""Most points drawn of one shape; of more, every second or third is drawn."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,20 +22,19 @@ class Shape:
 
     Attributes:
         kind: Name of the function in `page/displays/` that draws the shape.
-        frame: Frame of its positions.
+        frame: Frame in which the positions are given.
         stamp: Time at which the frame is looked up, nanoseconds, 0 for the latest; None if the
-            shape moves
-            with its frame.
+            shape moves with its frame.
         places: Positions, all finite.
         colors: Red, green, blue and opacity of each position, 0 to 255, shape (n, 4); None for
             the colour of the topic.
-        turn: Orientation of what is drawn at each position.
-        size: Extent of what is drawn at each position, metres along its own axes.
-        text: Words.
+        turn: Rotation of what is drawn at each position.
+        size: Size of what is drawn at each position, metres along its own axes.
+        text: Text to draw.
         key: Name within the topic; a later shape of the same name replaces this one.
         until: Time at which the shape disappears, nanoseconds; None for never.
-        placement: Root above its frame at its stamp, and the frame's pose in it: translation and
-            rotation; None each if unknown. None before the lookup.
+        placement: Root above its frame at its stamp, and the frame's pose in the root
+            (translation and rotation); None each if unknown. None before the lookup.
     """
 
     kind: str
@@ -51,9 +50,9 @@ class Shape:
     placement: tuple[str | None, list[float] | None] | None = None
 
     def thinned(self, most: int) -> "Shape":
-        """Return the shape with at most `most` positions: every second one, or every third.
+        """Return the shape with at most `most` positions: every second, or every third, and so on.
 
-        Where several positions are one line or triangle, the first ones.
+        If several positions make one line or triangle, the first ones are returned.
         """
         if len(self.places) <= most:
             return self
@@ -68,11 +67,11 @@ class Shape:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnMessage:
-    """One message in drawable form.
+    """Message as the shapes to draw.
 
     Attributes:
-        stamp: Moment, nanoseconds.
-        shapes: Everything its topic shows from then on.
+        stamp: Time of the message, nanoseconds.
+        shapes: All shapes that its topic shows from then on.
         faults: Reasons why parts of the message are not drawn.
     """
 
@@ -92,12 +91,12 @@ class DrawnMessage:
 
 @dataclass(frozen=True, slots=True)
 class Arrival:
-    """Facts about a message that a display may use besides it.
+    """Facts besides the message that a display may use.
 
     Attributes:
-        stamp: Time of the message's arrival, nanoseconds.
-        most: Number of positions of a cloud of points are drawn.
-        before: The message that the topic showed until now; None before the first.
+        stamp: Time at which the message arrived, nanoseconds.
+        most: Most positions of a cloud of points that are drawn.
+        before: Message that the topic has shown so far; None before the first.
     """
 
     stamp: Stamp
@@ -106,7 +105,7 @@ class Arrival:
 
 
 def drawn(kind: str, header: Any, places: npt.NDArray[Any], most: int) -> DrawnMessage:
-    """Return a message of one shape: the finite positions, points thinned to at most `most`."""
+    """Return a message of one shape, with its finite positions thinned to at most `most`."""
     places = np.asarray(places, dtype=np.float32).reshape(-1, 3)
     places = places[np.isfinite(places).all(axis=1)]
     stamp = stamp_of(header)
@@ -114,12 +113,12 @@ def drawn(kind: str, header: Any, places: npt.NDArray[Any], most: int) -> DrawnM
 
 
 def stamp_of(header: Any) -> Stamp:
-    """Return the nanoseconds of a header."""
+    """Return the stamp of a message's header in nanoseconds."""
     stamp: Stamp = header.stamp.sec * NANOSECONDS + header.stamp.nanosec
     return stamp
 
 
 def frame_of(header: Any) -> str:
-    """Return the frame of a header, without the leading slash of tf 1."""
+    """Return the frame in a message's header, without the leading slash of ROS 1."""
     frame: str = header.frame_id
     return frame.removeprefix("/")
