@@ -198,7 +198,7 @@ def test_a_description_takes_no_other(tftool, robot):
     result = tftool("tree", robot, "--urdf", robot)
 
     assert result.status == 2
-    assert "--urdf goes with a recording" in result.err
+    assert "--urdf is for a recording" in result.err
 
 
 def test_info_of_a_text_file_and_of_a_scenario_by_its_name(tftool, tmp_path):

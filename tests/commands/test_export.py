@@ -392,7 +392,7 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
     [
         (["odom", "base", "RUN"], 2, "-o FILE"),
         (["odom", "base", "RUN", "-o", "a.doc"], 2, "has no known suffix"),
-        (["odom", "base", "RUN", "-o", "a.urdf"], 2, "holds links"),
+        (["odom", "base", "RUN", "-o", "a.urdf"], 2, "files contain links"),
         (["RUN", "-o", "a.tum"], 2, "TARGET SOURCE"),
         (["odom", "base", "RUN", "more", "-o", "a.tum"], 2, "TARGET SOURCE [FROM], not 4 words"),
         (["RUN", "--pair", "odom", "-o", "a.csv"], 2, "TARGET:SOURCE"),
@@ -495,7 +495,7 @@ def test_in_python_a_file_is_written_in_one_line(buffer, tmp_path):
     )
 
     assert (done.count, done.refused, done.paths) == (400, 0, (tmp_path / "a.csv",))
-    with pytest.raises(library.UsageError, match="'word' is no format"):
+    with pytest.raises(library.UsageError, match="'word' is not a format"):
         library.export(buffer, "odom", "base", path=tmp_path / "b.csv", format="word")
     with pytest.raises(library.UsageError, match="two frames"):
         library.export(buffer, "odom", path=tmp_path / "b.csv")

@@ -89,7 +89,7 @@ def test_a_span_without_a_moment_is_wrong_usage(buffer):
 
 
 def test_more_moments_than_fit_into_memory_are_wrong_usage(buffer):
-    with pytest.raises(UsageError, match=r"moments, and .* ask at a lower rate"):
+    with pytest.raises(UsageError, match=r"times, but .* use a lower rate"):
         sample(buffer, "map", "base", Moments(period=10))
 
 

@@ -1,7 +1,7 @@
-"""A check of the doctor: id, severity, thresholds, texts and links, declared with its function.
+"""Declaration of the doctor's checks: id, severity, thresholds, texts and links of each.
 
-An id never changes its meaning, and a retired one is never reused. Texts are filled with a
-finding's facts; `wording` defines the format of numbers.
+An id never changes its meaning, and is never used again for another check. Texts contain names of
+facts, which `wording` replaces by formatted numbers and names.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -28,7 +28,7 @@ NEEDS = {
     "valid description": "the robot description has mistakes",
     "joint states": "there are no joint states",
 }
-"""Inputs a check may need beside transforms, and the sentence where one is missing."""
+"""Inputs that a check may need in addition to transforms, and the sentence if one is missing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,26 +37,25 @@ class Check:
 
     Attributes:
         id: Name of the check, which never changes.
-        area: Subject.
-        severity: Severity of its findings; a hit may state another.
-        summary: The fault in general, in one line: the docstring of its function.
-        run: Function.
+        area: Subject of the check.
+        severity: Severity of the findings; a hit may have another.
+        summary: Description of the fault in one line: the docstring of the function.
+        run: Function that yields the hits.
         rule: Condition for a finding, with the thresholds as {names}.
-        headline: The fault with a finding's facts; `{where}` names all of them,
-            `{concerned:one|many}` chooses a word by their number, as for any number or list.
+        headline: Sentence about a finding. `{where}` becomes the names concerned, and
+            `{concerned:one|many}` a word that depends on a number or on the length of a list.
         detail: A line of evidence for each hit.
-        consequence: Consequence.
-        fixes: Remedies besides those of the hit itself.
+        consequence: What the fault leads to.
+        fixes: Remedies, in addition to those of a hit.
         causes: Causes that people found, the most frequent first.
-        links: Threads about it, and standards.
-        limits: Thresholds by name; seconds, metres, radians, shares, counts.
-        needs: Keys of `NEEDS` without which it cannot run.
-        why: Why the rule and its thresholds are as they are; empty where that is plain.
-        because_of: Findings that explain this one: what both must share, and the ids of the
-            causes. "edge", "child", "frame": at least one; "stream": an edge or a topic;
-            "path": an edge of the way to the sensor, or the topic; "gap": likewise, where all
-            that is late falls into gaps; "anything": nothing.
-            The first that fits counts.
+        links: Discussions of the fault, and standards.
+        limits: Thresholds by name; seconds, metres, radians, fractions, counts.
+        needs: Keys of `NEEDS` without which the check cannot run.
+        why: Reason for the rule and its thresholds; empty if obvious.
+        because_of: Findings that may explain a finding of this check: what both must share, and
+            the ids of the causes. "edge", "child", "frame": at least one of these; "stream": an
+            edge or a topic; "path": an edge on the path to the sensor, or the topic; "gap": the
+            same, if everything late is in gaps; "anything": nothing. The first that fits is used.
     """
 
     id: str
@@ -77,15 +76,15 @@ class Check:
     because_of: tuple[tuple[str, str], ...] = ()
 
     def __call__(self, model: Model, limits: Limits | None = None) -> Iterator[Hit]:
-        """Run the check, with its own thresholds unless others are given."""
+        """Yield the hits of the check, with its own thresholds unless others are given."""
         return self.run(model, self.limits if limits is None else limits)
 
 
 class checks_of:  # noqa: N801 - a decorator
-    """Make a decorator that declares functions as checks, and keeps those of one area in order.
+    """Decorator that declares functions as checks of one area.
 
     Attributes:
-        checks: All of them, as they are defined.
+        checks: All checks of the area, in the order of definition.
     """
 
     def __init__(self, area: Area) -> None:
@@ -93,7 +92,7 @@ class checks_of:  # noqa: N801 - a decorator
         self.checks: list[Check] = []
 
     def __call__(self, id: str, severity: Severity, **texts: Any) -> Callable[[Run], Check]:
-        """Declare a function as a check; `texts` are the other attributes of `Check`."""
+        """Return a decorator that declares a check; `texts` are the other attributes of `Check`."""
 
         def keep(run: Run) -> Check:
             check = Check(id, self._area, severity, _summary(run), run, **texts)
@@ -106,7 +105,7 @@ class checks_of:  # noqa: N801 - a decorator
 def _summary(run: Run) -> str:
     """Return a check's docstring as part of a sentence."""
     text = " ".join((run.__doc__ or "").split()).removesuffix(".")
-    # A name keeps its capitals: NaN.
+    # Names such as NaN keep their capitals.
     return text if any(letter.isupper() for letter in text.split()[0][1:]) else _lowered(text)
 
 
@@ -115,12 +114,12 @@ def _lowered(text: str) -> str:
 
 
 def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hit:
-    """Return a hit about one edge or topic, from its first item on.
+    """Return a hit about one edge or topic, for all of its time.
 
     Args:
-        stream: What it is about.
-        facts: Facts; the name of the edge or topic is added.
-        **given: Other attributes of `Hit`, in place of those that the stream gives.
+        stream: The edge, or the messages of the topic.
+        facts: Facts of the hit; the name of the edge or topic is added.
+        **given: Attributes of `Hit` that replace those of the stream.
     """
     if isinstance(stream, Track):
         own = {"edges": (stream.edge,), "publishers": stream.nodes}
@@ -133,6 +132,6 @@ def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hi
 
 
 def threads(*threads: str) -> tuple[str, ...]:
-    """Return the addresses of threads written as owner/repository#number."""
+    """Return the web addresses of GitHub threads, given as owner/repository#number."""
     pairs = (thread.split("#") for thread in threads)
     return tuple(f"https://github.com/{repository}/issues/{number}" for repository, number in pairs)

@@ -36,10 +36,10 @@ _COMPARE = (
 )
 
 _ONE_CLOCK = seconds(0.05)
-"""Within what two offsets are those of one clock."""
+"""Maximum difference between two offsets, nanoseconds, that belong to one clock."""
 
 CONSTANTS_AHEAD = seconds(1)
-"""How far ahead ROS 1 may date what never moves; its robot_state_publisher does so by 0.5 s."""
+"""Maximum time by which ROS 1 may stamp static frames ahead; robot_state_publisher uses 0.5 s."""
 
 
 @check(
@@ -96,9 +96,9 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _placed(model: Model) -> list[Heard]:
-    """Return messages with a position, and joint states, which become transforms.
+    """Return the messages with a position, which are looked up, and joint states.
 
-    Messages without one, such as diagnostics and logs, are never looked up.
+    Messages without a position, such as diagnostics and logs, are never looked up.
     """
     return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
 
@@ -199,14 +199,14 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_design(track: Track, ahead: int) -> bool:
-    """Whether a transform is dated ahead as in ROS 1: valid until the next one."""
+    """Whether a transform is stamped ahead on purpose: in ROS 1 it is valid until the next."""
     if ahead <= 1.2 * track.period:
         return True
     return not track.moves and ahead <= CONSTANTS_AHEAD
 
 
 def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
-    # Streams of one computer are ahead by the same amount; a tolerance is one publisher's own.
+    # If a computer's clock is wrong, all its streams are ahead by the same amount.
     others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
     others += [t for t in model.dynamic if t.nodes and not set(t.nodes) & set(track.nodes)]
     also = [
@@ -248,7 +248,7 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         places = np.flatnonzero(one.wild)
         if not len(places):
             continue
-        # How much further off than the one beside it, which is at home.
+        # Compare the latency with that of the neighbouring stamp, which is normal.
         beside = np.where(places > 0, places - 1, places + 1)
         off = one.latency[beside] - one.latency[places]
         worst = int(np.abs(off).argmax())
@@ -298,7 +298,7 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
             yield _late(track, track.name, severity)
     for heard in model.heard:
-        # A latched message is old by intention, and where nothing moves an old one is as good.
+        # A latched message may be old, and without motion an old message is as good as a new one.
         if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
@@ -366,11 +366,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         allowed = limits["seconds"] * NANOSECONDS
         if heard.type == "sensor_msgs/LaserScan":
-            # Some drivers stamp a scan with its end, some with its start.
+            # Some drivers stamp a scan with the time of its end, some with that of its start.
             steps = np.diff(np.sort(heard.stamps))
             allowed += float(np.median(steps)) if len(steps) else 0.0
         ahead = -heard.median_latency
-        # In a shifted recording a clock that is right is off all others.
+        # In a recording with a shift, a stream with the right clock differs from all others.
         is_off = model.shift is not None and 2 * abs(ahead) > abs(model.shift.by)
         if ahead > allowed or is_off:
             same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
@@ -401,15 +401,15 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Divide steady streams into groups of equal clock offset; groups differ by a constant."""
+    """Yield a hit if steady streams form groups whose clocks differ by a constant."""
     steady: list[tuple[int, str]] = []
     streams: list[Track | Heard] = [t for t in model.dynamic if not t.is_localisation]
     streams += [heard for heard in model.heard if heard.is_spatial]
     for one in streams:
         if len(one.stamps) < limits["samples"] or one.families[0]:
-            continue  # all of a simulation has one clock
+            continue  # a simulation has a single clock
         least, high = int(one.latency.min()), float(np.percentile(one.latency, 95))
-        # Dating ahead is a choice; a scan stamped with its start arrives one scan later.
+        # Stamping ahead is a choice; a scan stamped with its start arrives one period later.
         if least < -limits["spread"] * NANOSECONDS or _is_one_period(one):
             continue
         if high - least < limits["spread"] * NANOSECONDS:
@@ -450,7 +450,7 @@ def _is_one_period(stream: "Track | Heard") -> bool:
 
 
 def _offsets(model: Model) -> list[str]:
-    """Group streams by their latency, in steps of 20 ms."""
+    """Return sentences about groups of streams with similar latency, in steps of 20 ms."""
     grouped: dict[int, list[str]] = defaultdict(list)
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
     for one in streams:
@@ -528,15 +528,15 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 "each is placed where its frame was at that time, and refused once the cache has "
                 "forgotten it"
             )
-        # A localiser's remedy is not that of others.
+        # A localiser has another remedy.
         alone = isinstance(one, Heard) or one.is_localisation
         yield hit_of(one, facts, count=count, alone=alone, fixes=(_unfreeze(model, one),))
 
 
 def _unfreeze(model: Model, stream: "Track | Heard") -> Fix:
-    """Return the remedy for a stamp that stands still."""
+    """Return the remedy for a stamp that does not change."""
     if isinstance(stream, Track) and stream.is_localisation:
-        # Its stamp is that of the last scan it placed; a newer one would claim what nobody knows.
+        # A localiser's stamp is that of its last scan: a newer stamp would be wrong.
         return Fix(
             "look at the scan topic and its transforms: a localiser repeats the stamp of the last "
             "scan it could use, so find out why its scans stopped; do not stamp it anew"
@@ -546,12 +546,12 @@ def _unfreeze(model: Model, stream: "Track | Heard") -> Fix:
 
 
 def stands_still(stream: "Track | Heard") -> bool:
-    """Whether `frozen-stamp` is about a stream: advice about clocks and the cache is none then."""
+    """Whether `frozen-stamp` reports a stream, so that advice about clocks and caches is wrong."""
     return _frozen(stream, _FROZEN) is not None
 
 
 def _frozen(stream: "Track | Heard", limits: Limits) -> tuple[int, int, int] | None:
-    """Return a repeated stamp, its count, and its duration on the clock of the stamps."""
+    """Return a repeated stamp, its count, and its duration on the clock of the stamps; or None."""
     stamps = stream.stamps
     if limits["times"] > 1 and not (stamps[1:] == stamps[:-1]).any():
         return None
@@ -709,7 +709,7 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
         logs = np.concatenate([track.logs for track in tracks])
         stamps = stamps[np.argsort(logs, kind="stable")]
     is_sim = stamps < SIMULATED_BELOW
-    # A simulation's stamps are not old beside those of the wall clock: that is another fault.
+    # Compare stamps of each clock separately: a mixture of clocks is another fault.
     low = np.iinfo(np.int64).min // 2
     of_sim = np.maximum.accumulate(np.where(is_sim, stamps, low))
     of_wall = np.maximum.accumulate(np.where(is_sim, low, stamps))

@@ -26,15 +26,15 @@ def _least_gap(track: Track, limits: Limits) -> float:
 
 
 def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the gaps between an edge's samples in which samples were expected."""
-    # Between a stamp that is years off and the others nothing is missing.
+    """Return the gaps in an edge's samples, as pairs of stamps, too long for its period."""
+    # A stamp that is wrong by years does not make a gap.
     stamps = track.sorted_stamps
     if track.wild.any():
         stamps = stamps[~track.wild[track.by_stamp]]
     if len(stamps) < limits["samples"] or not track.period:
         return []
     if len(track.steps) < 0.5 * (len(stamps) - 1):
-        return []  # its stamps stand still: that is another fault
+        return []  # its stamps do not change, which is another fault
     wide = stamps[1:] - stamps[:-1] > _least_gap(track, limits)
     places = wide.nonzero()[0].tolist()
     return [(int(stamps[place]), int(stamps[place + 1])) for place in places]
@@ -80,7 +80,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         if _is_detection(model, track):
             continue
-        # What all ends at once, as a session does that its host leaves, is no link's own fault.
+        # If all links end at once, as when a session's host exits, it is not the fault of one link.
         if latest - last <= least:
             continue
         yield hit_of(
@@ -364,7 +364,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
     held: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
     for edge in transforms.edges:
         for message in np.unique(edge.messages).tolist() if edge.static else ():
-            # A player of ROS 1 latches one message for each publisher that was recorded.
+            # ROS 1's player latches one message for each recorded publisher.
             node = transforms.publishers[transforms.senders[message]].node
             held[node][message].add(edge.child)
     for node, messages in held.items():
@@ -388,13 +388,13 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Waits:
-    """Waiting times until each message of a topic can be placed in a frame.
+    """Waiting times of a topic's messages, until each can be placed in a frame.
 
     Attributes:
         stamps: The messages' stamps, shape (n,).
-        waits: Time from arrival until it can be placed, nanoseconds, shape (n,); or NEVER.
-        link: The edge that delays the lookup most.
-        links: The moving edges on the way.
+        waits: Time from arrival until the message can be placed, nanoseconds, shape (n,); or NEVER.
+        link: The edge that delays lookups most.
+        links: The moving edges on the path.
     """
 
     stamps: Stamps
@@ -409,16 +409,16 @@ class Waits:
         return served
 
     def serves(self, percent: float) -> int:
-        """Return the timeout, nanoseconds, that serves `percent` of the messages ever served."""
+        """Return the timeout, nanoseconds, that is enough for a percentage of `served`."""
         return int(np.percentile(self.served, percent, method="higher"))
 
 
 def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Waits | None:
-    """Return each message's wait until it can be placed in a frame; None if the chain is static.
+    """Return the waits of a topic's messages to be placed in a frame; None if the chain is static.
 
     Args:
-        model: The frames and their history.
-        heard: The messages.
+        model: The evidence, prepared.
+        heard: The headers of the messages.
         fixed: Frame in which messages are placed.
         warm: Whether the first and the last second of the recording are left out.
     """
@@ -428,7 +428,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         return None
     low, high = model.warm if warm else (model.start, model.end)
     begin = max(int(track.sorted_stamps[0]) for track in links)
-    # A question older than the first transform is no matter of waiting: see `late_start`.
+    # Waiting does not help a message older than the first transform: see `late_start`.
     inside = (heard.logs >= low) & (heard.logs <= high) & (heard.stamps >= begin)
     stamps, arrivals = heard.stamps[inside], heard.arrivals[inside]
     if not len(stamps):
@@ -499,7 +499,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
-    """Return the topics whose messages are placed one by one, with their waits."""
+    """Yield the topics whose messages are looked up one by one, with their waits."""
     fixed = model.sensor_frame
     around = {track.parent for track in model.above(fixed)}
     for heard in model.heard:
@@ -508,14 +508,14 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
         if last_part(heard.type) in _NOT_PLACED:
             continue
         if heard.frame in around or last_part(heard.frame) in _WORLDS:
-            continue  # where it is in the world is known without the robot
+            continue  # it is placed in the world without the robot's pose
         waits = waits_of(model, heard, fixed)
         if waits is not None:
             yield heard, waits
 
 
 def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
-    """Whether two topics of one frame wait for one link, as long and as often."""
+    """Whether two topics in one frame wait for the same link, for as long and as often."""
     (heard, waits), (also, its) = first, other
     if heard.frame != also.frame or waits.link is not its.link:
         return False
@@ -527,7 +527,7 @@ def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
 
 
 def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> Hit | None:
-    """Return the hit of topics that wait alike, by the one that waits longest; None if soon."""
+    """Return the hit about topics that wait alike, with the longest wait; None if all are short."""
     heard, waits = max(group, key=lambda one: int(one[1].served.max(initial=0)))
     served = waits.served
     never = 1.0 - len(served) / len(waits.waits)
@@ -573,7 +573,7 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
 
 
 _RELAYED = 5_000_000
-"""Nanoseconds by which waits of a relayed topic may differ from the first one's."""
+"""Maximum difference between the waits of a topic and of its relayed copy, nanoseconds."""
 
 _NOT_PLACED = frozenset({"Imu", "MagneticField", "NavSatFix"})
 """Messages that a filter takes in as they come; none is placed in odometry by its stamp."""
@@ -582,7 +582,7 @@ _WORLDS = frozenset({"map", "world", "earth"})
 
 
 def _only_in_holes(waits: Waits, wait: float) -> bool:
-    """Whether few messages wait too long but those stamped in a gap of a link."""
+    """Whether nearly all messages that wait too long are stamped in a gap of a link."""
     late = waits.waits > wait * NANOSECONDS
     for link in waits.links:
         for begin, end in holes(link, gap.limits):
@@ -591,7 +591,7 @@ def _only_in_holes(waits: Waits, wait: float) -> bool:
 
 
 def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
-    """Return the timeout that serves all messages ever served; None if waiting is no cure."""
+    """Return remedies: a timeout that is enough for all messages in `served`, if waiting helps."""
     worst = int(waits.served.max(initial=0))
     if worst < 10_000_000:
         return ()
@@ -616,18 +616,18 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
 
 
 def rounded_up(nanoseconds: int) -> int:
-    """Round up to the next 10 ms, the interval at which tf2 asks again."""
+    """Round nanoseconds up to a multiple of 10 ms, the interval at which tf2 tries again."""
     return math.ceil(nanoseconds / 10_000_000) * 10_000_000
 
 
 def least_rate(link: str, period: int, later: int, wait: float) -> str:
-    """Return the rate at which an edge is fast enough; empty if it already is.
+    """Return a sentence with the rate at which an edge is fast enough; empty if it already is.
 
     Args:
-        link: The link that holds up a lookup.
+        link: Name of the link that delays a lookup.
         period: Period of the edge, nanoseconds; 0 if unknown.
-        later: Extra latency of the edge relative to the message, nanoseconds.
-        wait: Time that the consumer waits, seconds.
+        later: Latency of the edge minus that of the message, nanoseconds.
+        wait: Time that the listener waits, seconds.
     """
     left = wait - later / NANOSECONDS
     told = f"a {wait * 1e3:g} ms wait"
@@ -637,7 +637,7 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
             "after its stamp than the message"
         )
     needed = math.ceil(10 / left) / 10
-    # A few percent more often change nothing.
+    # A rate that is only a few percent higher changes nothing.
     if 0 < needed * period < 1.2 * NANOSECONDS:
         return ""
     return f"publish {link} at {needed:g} Hz or more, enough for {told}"
@@ -733,7 +733,7 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
         begin = int(last.sorted_stamps[0])
         stamped = heard.stamps[heard.stamps != 0]
         lost = int(np.count_nonzero(stamped < begin))
-        # A localiser that dates its transforms ahead loses the first second of every recording.
+        # A localiser that stamps transforms ahead has none for the first second of a recording.
         usual = WARM_UP
         if last.is_localisation:
             usual = max(usual, min(-last.median_latency, 2 * WARM_UP))

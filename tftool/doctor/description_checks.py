@@ -71,7 +71,7 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
         if not joint.moves or joint.mimic is not None or joint.name in told:
             continue
         if child in model.parents:
-            continue  # something else publishes where it is
+            continue  # another node publishes its pose
         below = [model.prefix + link for link in links_below(robot, joint)]
         yield Hit(
             edges=((model.prefix + joint.parent, child),),
@@ -86,7 +86,7 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
-    """Return the links without a frame below a joint without state, mimics included."""
+    """Return the links below a joint, and below the joints that mimic it: all that it places."""
     joints_below: dict[str, list[RobotJoint]] = {}
     followers: dict[str, list[RobotJoint]] = {}
     for other in robot.joints.values():

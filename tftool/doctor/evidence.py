@@ -1,4 +1,4 @@
-"""Evidence for a diagnosis, taken from a recording, a buffer or a session."""
+"""Evidence for a diagnosis, collected from a recording, a buffer or a session."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 ODOMETRY = "nav_msgs/Odometry"
 
 LIVE = "live session"
-"""Kind of evidence from a running session."""
+"""Kind of evidence from a running session (processes that share frames)."""
 
 Records = npt.NDArray[np.int64]
 Places = npt.NDArray[np.int32]
@@ -42,26 +42,26 @@ Places = npt.NDArray[np.int32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
-    """Evidence about the frames: everything that a diagnosis reads.
+    """Evidence about frames: everything that the checks of a diagnosis read.
 
     Attributes:
         name: Name in messages.
         kind: Kind of source: "MCAP", "scenario".
-        transforms: In columns, with log times.
+        transforms: All transforms as columns, with log times.
         headers: Headers of messages, by topic.
-        clock: Times of `/clock` and of their reception, nanoseconds.
-        topics: Every topic.
-        publishers: Every stream of messages.
-        damage: Unreadable parts, as sentences.
-        start: Log time of the first message.
-        end: Log time of the last.
+        clock: Times in the messages on `/clock`, and their log times, nanoseconds.
+        topics: All topics.
+        publishers: All publishers (streams of messages).
+        damage: Sentences about parts that could not be read.
+        start: Log time of the first message, nanoseconds.
+        end: Log time of the last message, nanoseconds.
         timed: Whether log times are known; a buffer has none.
         recorded: Whether the evidence is a recording, which can be played.
-        joints: Names in all joint states; None where none was recorded.
-        robot: The robot's description, given or recorded; None without one that can be read.
+        joints: Joint names in all joint states; None if none were recorded.
+        robot: Robot of the given or recorded description; None if there is none, or unreadable.
         mistakes: Mistakes in the description, as sentences.
-        odometry: Odometry messages as transforms; None where there are none.
-        mounts: Mounts as the motion gives them; None where they were not asked for.
+        odometry: Odometry messages as transforms; None without any.
+        mounts: Mounts measured from motion; None if not requested.
     """
 
     name: str
@@ -85,16 +85,16 @@ class Evidence:
     mounts: "tuple[MeasuredMount, ...] | None" = None
 
 
-# From a recording
+# Evidence of a recording
 
 
 @dataclass(frozen=True, slots=True)
 class Described:
-    """Outcome of the search for a robot description.
+    """Result of the search for a robot description.
 
     Attributes:
         robot: The described robot; None if no description can be read.
-        mistakes: Mistakes in it, as sentences.
+        mistakes: Mistakes in the description, as sentences.
         namespace: Namespace of its topic, "/arm" for "/arm/robot_description".
     """
 
@@ -104,7 +104,7 @@ class Described:
 
 
 def described_by(path: str | Path) -> Described:
-    """Return the robot of a URDF or xacro file, or its mistakes.
+    """Return the robot of a URDF or xacro file, or the mistakes in the file.
 
     Raises:
         InputError: If the file cannot be read.
@@ -131,7 +131,7 @@ def _recorded_description(source: Recorded) -> Described:
 
 
 def _mistakes(error: DescriptionError) -> tuple[str, ...]:
-    """Return each mistake with its line number, without the line's text."""
+    """Return each mistake as text with line and column, without the source line."""
     return tuple(
         f"{mistake.file}:{mistake.line}:{mistake.column}: {mistake.text}"
         for mistake in error.mistakes[: error.MOST]
@@ -139,7 +139,7 @@ def _mistakes(error: DescriptionError) -> tuple[str, ...]:
 
 
 class Moment(Protocol):
-    """A time as the user gave it."""
+    """A time as given by the user: seconds since the start, or a stamp."""
 
     def stamp(self, epoch: Stamp) -> Stamp:
         """Return the stamp of the time, in a source that begins at `epoch`."""
@@ -151,9 +151,9 @@ class Scope:
 
     Attributes:
         described: The robot's description; None for the recorded one, if any.
-        tf_topics: Topics of transforms, in place of all; the static one beside each goes with it.
-        begin: Log time from which on; None for the recording's start.
-        end: Log time of the end; None for the recording's end.
+        tf_topics: Topics of transforms to read, each with its static topic; empty for all.
+        begin: Time at which the part begins; None for the recording's start.
+        end: Time at which the part ends; None for the recording's end.
     """
 
     described: Described | None = None
@@ -170,7 +170,7 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
         scope: Part of the recording, and a description; None for all of it.
 
     Raises:
-        InputError: If the file cannot be read, has none of the topics, or nothing in that time.
+        InputError: If the file cannot be read, a topic is missing, or the part is empty.
     """
     source, scope = recording.source, scope or Scope()
     if scope.tf_topics:
@@ -223,7 +223,7 @@ def _evidence_of_source(
 
 
 def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:
-    """Return the samples received between two log times, and all earlier statics."""
+    """Return the evidence received between two log times, with all earlier static transforms."""
     read_clock, received = evidence.clock
     ticks = (received >= begin) & (received <= end)
     return replace(
@@ -232,7 +232,7 @@ def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:
         headers={
             topic: _cut_headers(headers, begin, end) for topic, headers in evidence.headers.items()
         },
-        # One reading on each side still tells how the clock runs.
+        # If there are no readings in between, use all readings of the clock.
         clock=(read_clock[ticks], received[ticks]) if ticks.any() else evidence.clock,
         odometry=None if evidence.odometry is None else _cut(evidence.odometry, begin, end),
         start=begin,
@@ -269,11 +269,11 @@ def _cut_headers(headers: Headers, begin: Stamp, end: Stamp) -> Headers:
     )
 
 
-# From a buffer
+# Evidence of a buffer
 
 
 def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
-    """Return the evidence in a buffer; each sample counts as received at its stamp."""
+    """Return the evidence in a buffer, as if each sample was received at its stamp."""
     parts: dict[tuple[str, str, bool], list[tuple[Records, Places]]] = {}
     logs: list[Stamps] = []
     senders: list[npt.NDArray[np.int32]] = []
@@ -317,7 +317,7 @@ def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
 
 
 def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
-    """Return the rows of each name; fast if there is only one name."""
+    """Return the indices of each distinct name; fast if there is only one."""
     if not len(names) or bool((names == names[0]).all()):
         return [np.arange(len(names), dtype=np.int32)] if len(names) else []
     found: dict[str, list[int]] = {}
@@ -326,15 +326,15 @@ def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
     return [np.array(places, dtype=np.int32) for places in found.values()]
 
 
-# From a session
+# Evidence of a session
 
 
 def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: Stamp) -> Evidence:
-    """Return the evidence in transforms recorded as they arrived.
+    """Return the evidence in a log of received transforms.
 
     Args:
         log: The received transforms.
-        name: The name of the source, for people.
+        name: Name of the source, for messages.
         kind: Kind of the source.
         start: Time at which listening began, nanoseconds.
         end: Time at which listening ended, nanoseconds.
@@ -406,7 +406,7 @@ def evidence_of(
 
 
 def _beside(evidence: Evidence, described: Described | None) -> Evidence:
-    """Return the evidence with the given robot description."""
+    """Return the evidence with the robot of the given description, if any."""
     if described is None:
         return evidence
     return replace(evidence, robot=described.robot, mistakes=described.mistakes)

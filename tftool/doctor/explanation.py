@@ -1,8 +1,8 @@
-"""Exact trace of one lookup: which link fails, by how much, and what would help.
+"""Explanation of one lookup: which link fails, by how much, and what would help.
 
-The listener is imaginary: at the moment of the query it holds the samples that had arrived, pruned
-as in tf2. Its answer is looked up in a buffer with the same samples; reasons and remedies come from
-the links, never from the text of the error, which may name a link that the answer does not need.
+The lookup is made by an assumed listener, whose buffer contains the samples that had arrived,
+pruned as in tf2. The result is that of a real buffer with these samples. Reasons and remedies come
+from the links, not from tf2's error text, which may name a link that the lookup does not need.
 """
 
 import math
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from tftool.recordings.recording import Recording
 
 USUAL_WAIT = 0.1
-"""Seconds that most consumers wait for a transform."""
+"""Time that most programs wait for a transform, seconds."""
 
 
 class Cause(Enum):
@@ -61,10 +61,10 @@ class Remedy:
 
     Attributes:
         kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher", "clock".
-        text: A sentence.
-        command: The line to type; empty where there is none.
-        least: Sufficient amount, nanoseconds; None for a remedy without an amount.
-        advised: Advised amount, nanoseconds.
+        text: The remedy as a sentence.
+        command: Command to type; empty if there is none.
+        least: Smallest sufficient amount, nanoseconds; None for a remedy without an amount.
+        advised: Recommended amount, nanoseconds.
         possible: Whether the remedy can help at all.
     """
 
@@ -78,7 +78,7 @@ class Remedy:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TraceResult:
-    """Facts from which the reason is derived."""
+    """Result of a traced lookup, from which its reason is derived."""
 
     trace: LookupTrace
     way: list[Track] | None
@@ -91,7 +91,7 @@ class TraceResult:
 
 @dataclass(frozen=True, slots=True)
 class Reason:
-    """A reason and its remedies."""
+    """Reason for a lookup's result, with sentences and remedies."""
 
     cause: Cause
     why: tuple[str, ...]
@@ -100,7 +100,7 @@ class Reason:
 
 
 def misnamed(trace: LookupTrace) -> Reason | None:
-    """Return the fault of an unknown frame name; None if both names are known."""
+    """Return the reason for an unknown frame name; None if both names are known."""
     model = trace.model
     for name in (trace.question.target, trace.question.source):
         if name.startswith("/") or not name:
@@ -116,7 +116,7 @@ def misnamed(trace: LookupTrace) -> Reason | None:
 
 
 def _described(model: Model, name: str) -> str | None:
-    """Return why tf lacks a link of the description; None if the description has no such link."""
+    """Return a sentence on why tf lacks a described link; None if there is no such link."""
     robot, states = model.evidence.robot, model.evidence.joints
     if robot is None or name not in robot.links or name == robot.root:
         return None
@@ -157,7 +157,7 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
 
 
 def no_join(known: TraceResult) -> Reason:
-    """Return why two known frames are not connected."""
+    """Return the reason why two known frames are not connected."""
     model, question = known.trace.model, known.trace.question
     ours, theirs = model.tree_of[question.source], model.tree_of[question.target]
     lesser, main = (ours, theirs) if len(ours.frames) <= len(theirs.frames) else (theirs, ours)
@@ -175,7 +175,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return notes on a successful lookup: reasons for which it could fail elsewhere."""
+    """Return notes on a successful lookup: reasons why it may fail in other places."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)
@@ -198,7 +198,7 @@ def works(known: TraceResult) -> Reason:
 
 
 def refusing_link(known: TraceResult) -> Reason:
-    """Return why a link of the chain fails; each reason has its own function."""
+    """Return the reason why a link of the chain has no data at the time."""
     trace = known.trace
     if known.refusing is None or known.way is None:
         return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
@@ -260,7 +260,7 @@ def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     trace = known.trace
     newest = int(track.stamps[trace.arrived(track)].max())
     needed = newest - trace.moment
-    # The sample at or before the moment must be kept. ROS 2 prunes before it adds the newest
+    # The sample at or before the time must not be pruned. ROS 2 prunes before it inserts the newest
     # sample, ROS 1 after: this cache time is enough for both.
     before = track.sorted_stamps[track.sorted_stamps <= trace.moment]
     least = newest - int(before[-1]) if len(before) else needed
@@ -311,7 +311,7 @@ def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Sta
 
 
 def _goes_on(trace: LookupTrace, track: Track) -> bool:
-    """Whether the link continues to the end of the source, by the rule of `edge-stopped`."""
+    """Whether a link's samples continue to the end of the source, by the rule of `edge-stopped`."""
     evidence, limits = trace.model.evidence, edge_stopped.limits
     least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
     ends = evidence.recorded or evidence.kind == "scenario"
@@ -393,7 +393,7 @@ def _waits(trace: LookupTrace, heard: Heard) -> Waits | None:
 
 
 def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
-    """Return the timeout needed for this lookup, and for the others of its topic."""
+    """Return the remedy to wait: the timeout for this lookup, and for all messages of its topic."""
     trace = known.trace
     if known.begin is None:
         text = "a timeout does not help: by the time the one end comes, the other is pruned"
@@ -425,7 +425,7 @@ CHECK_OF = {
     Cause.NAME: "slash-twins",
     Cause.LOOP: "loop",
 }
-"""The check that looks for each cause."""
+"""Id of the check that looks for each cause."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -433,27 +433,28 @@ class Explanation:
     """Explanation of a lookup's result or failure.
 
     Attributes:
-        target: The frame asked for.
-        source: The frame asked about.
-        stamp: The moment asked about; 0 for the latest.
-        asked: Log time of the lookup.
-        because: Why then: "when /scan of that stamp arrived"; empty where it was said.
-        after: Time between the stamp and the lookup, on the clock of the stamps, nanoseconds.
+        target: Target frame of the lookup.
+        source: Source frame of the lookup.
+        stamp: Time of the lookup; 0 for the latest.
+        asked: Log time at which the lookup is made.
+        because: Reason for this log time: "when /scan of that stamp arrived"; empty if the user
+            gave it.
+        after: Time from the stamp to the lookup, on the clock of the stamps, nanoseconds.
         available: Whether the lookup succeeds.
         exception: Name of tf2's exception; empty if the lookup succeeds.
-        text: Text of that error.
+        text: Text of tf2's error.
         epoch: The first stamp of moving links.
-        links: The way from source to target, in this order.
-        refusing: The edge that refuses; None where none does, or there is no way.
-        answerable_from: Log time from which on it answers; None where it never does.
+        links: Links of the path from source to target, in this order.
+        refusing: Edge without data at the time; None if there is none, or no path.
+        answerable_from: Log time from which the lookup succeeds; None for never.
         answerable_until: Log time at which the needed samples are pruned; None for never.
-        cause: Why.
-        why: The same in sentences.
+        cause: Cause of the result.
+        why: The cause in sentences.
         remedies: Remedies, the smallest first.
-        useless: Common attempts that do not help, as sentences.
-        failed: In a session: share of the time of listening in which the same
-            question would have been refused; None elsewhere.
-        in_whole: Whether the lookup succeeds with the whole recording, as in `echo`.
+        useless: Sentences about common attempts that do not help.
+        failed: In a session, the fraction of the listening time in which the same lookup would
+            have failed; else None.
+        in_whole: Whether the lookup succeeds with the whole recording, as in `tftool echo`.
     """
 
     target: str
@@ -479,16 +480,16 @@ class Explanation:
 
     @property
     def check(self) -> str | None:
-        """Return the id of the check for this cause; None if the lookup works."""
+        """Return the id of the check that looks for this cause; None if the lookup succeeds."""
         return CHECK_OF.get(self.cause)
 
 
 def traced(model: Model, question: Question) -> Explanation:
-    """Trace one lookup in the buffer that a listener would have.
+    """Return the explanation of one lookup in the buffer that a listener would have.
 
     Args:
-        model: The frames and their history.
-        question: Pair, moment and listener.
+        model: The evidence, prepared.
+        question: The lookup, and the listener that makes it.
     """
     trace = LookupTrace(model, question)
     exception, text, quoted = "", "", None
@@ -552,20 +553,20 @@ def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLi
 
 
 MOMENTS = 1000
-"""At how many moments of a session's last seconds a question is asked again."""
+"""Number of times, in a session's last seconds, at which a lookup is repeated."""
 
 
 def over_time(model: Model, question: Question, found: Explanation) -> Explanation:
-    """Add for which share of the time the lookup would have failed.
+    """Return an explanation with the fraction of time in which the lookup would have failed.
 
     Args:
-        model: The session as heard.
-        question: The lookup at the session's end.
-        found: The answer.
+        model: The evidence of a session.
+        question: The lookup at the end of the session.
+        found: Explanation of this lookup.
     """
     trace = LookupTrace(model, question)
     way = None if misnamed(trace) is not None else trace.way()
-    # Who begins to listen has heard of each link after a period of it, at the latest two.
+    # A new listener has a sample of each link after one or two of the link's periods.
     grace = 2 * max((track.period for track in way or ()), default=0)
     begin = min(model.start + grace, (model.start + model.end) // 2)
     asks = np.linspace(begin, model.end, MOMENTS).astype(np.int64)
@@ -582,7 +583,7 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
 def _holds(
     way: Sequence[Track], asks: Stamps, question: Question
 ) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
-    """Return a mask of the log times at which a lookup succeeds."""
+    """Return a mask of the log times at which the lookup succeeds, for a path of edges."""
     holds = np.ones(len(asks), dtype=bool)
     newest, oldest = [], []
     for track in way:
@@ -608,7 +609,7 @@ def _holds(
 def _misleading(
     links: tuple[TracedLink, ...], quoted: tuple[str | None, Stamp] | None
 ) -> tuple[str, ...]:
-    """Return a note if tf2 names a link outside the path: it reports the first failure it meets."""
+    """Return a note if tf2's error is about a link outside the path, else nothing."""
     if quoted is None or not links or quoted[0] in {link.child for link in links}:
         return ()
     frame, stamp = quoted
@@ -632,13 +633,13 @@ def explain(
 
     Args:
         recording: A recording, a buffer, or opened frames.
-        target_frame: The frame to express things in.
-        source_frame: Frame of the given points.
-        time: The moment, nanoseconds; 0 for the latest.
-        asked_at: Log time of the lookup; None for the arrival of the message of
-            that stamp in the source frame, else the moment itself (of a buffer: now).
+        target_frame: Frame in which the result would be expressed.
+        source_frame: Frame to look up.
+        time: Time of the lookup, nanoseconds; 0 for the latest.
+        asked_at: Log time at which the lookup is made. None for the arrival of the message with
+            that stamp in the source frame; without one, `time` itself, or for a buffer its end.
         cache_time: Cache time of the listener, nanoseconds.
-        timeout: Time to wait, nanoseconds.
+        timeout: Time that the listener waits, nanoseconds.
 
     Raises:
         InputError: If nothing of the recording can be read.

@@ -1,4 +1,4 @@
-"""Findings of a diagnosis as immutable values, for people and programs."""
+"""Findings of a diagnosis, as immutable values."""
 
 import hashlib
 import json
@@ -10,20 +10,20 @@ from typing import TypeAlias
 from tftool.base.stamps import Stamp
 
 Edge: TypeAlias = tuple[str, str]
-"""A parent and its child."""
+"""Names of parent and child."""
 
 Fact: TypeAlias = object
-"""A number, a text, or a list of them; stamps and durations in whole nanoseconds."""
+"""A number, a text, or a list of either; stamps and durations are whole nanoseconds."""
 
 
 STOPPED_PERIODS = 10
-"""After so many of its periods without a sample a transform has stopped."""
+"""Number of its periods without a sample after which a transform may have stopped."""
 
 STOPPED_AFTER = 1.0
-"""After so many seconds, too; both have to have passed."""
+"""Seconds without a sample after which a transform may have stopped; both limits must be passed."""
 
 STALE_AFTER = 0.5
-"""Seconds from which on a transform arrives long after its stamp."""
+"""Delay from stamp to arrival, seconds, from which a transform arrives late."""
 
 
 class Severity(Enum):
@@ -35,7 +35,7 @@ class Severity(Enum):
 
     @property
     def rank(self) -> int:
-        """Return 0 for the worst severity, more for lesser ones."""
+        """Return 0 for the worst severity, and larger numbers for lesser severities."""
         return list(Severity).index(self)
 
 
@@ -61,11 +61,11 @@ class Area(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """One remedy of a finding.
+    """One remedy for a finding.
 
     Attributes:
-        text: A sentence.
-        command: The line to type; empty where there is none.
+        text: The remedy as a sentence.
+        command: Command to type; empty if there is none.
     """
 
     text: str
@@ -74,27 +74,27 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One fault of the frames. Names in it are exactly as recorded.
+    """One fault of the frames, found by a check. Names are exactly as recorded.
 
     Attributes:
-        id: Id of its check; `tftool doctor --explain ID` describes it.
+        id: Id of the check; `tftool doctor --explain ID` describes it.
         severity: Error, warning or note.
         area: Subject of the check.
         message: The fault, in one line.
         confidence: Certain, likely or possible.
         edges: Parent and child of each transform concerned.
-        frames: Frames concerned.
-        topics: Topics concerned.
-        publishers: Nodes concerned, where they are known.
-        since: Log time of the first evidence, else its stamp; None where it is not a moment.
-        until: The same of the last.
+        frames: Names of the frames concerned.
+        topics: Names of the topics concerned.
+        publishers: Names of the nodes concerned, if known.
+        since: Log time of the first evidence, or its stamp; None if it has no time.
+        until: Log time of the last evidence, or its stamp; None if it has no time.
         count: Number of occurrences.
         facts: Numbers behind the finding; stamps and durations in whole nanoseconds.
-        evidence: Observations, a line each.
-        consequence: Consequence.
-        fixes: Remedies, the likeliest first.
-        because_of: The id of the finding that explains this one; None where none does.
-        known: Whether a report that was given as the baseline has it already.
+        evidence: Observations, one line each.
+        consequence: What the fault leads to.
+        fixes: Remedies, the most likely first.
+        because_of: Id of the finding that explains this one; None if there is none.
+        known: Whether the report given as the baseline already has this finding.
     """
 
     id: str
@@ -118,11 +118,11 @@ class Finding:
 
     @property
     def fingerprint(self) -> str:
-        """Return the identity of a finding in all recordings: check and names, no numbers."""
+        """Return a key that a finding has in all recordings: from check and names, not numbers."""
         return fingerprint(self.id, self.frames, self.edges, self.topics)
 
     def __repr__(self) -> str:
-        # Its facts may be those of a hundred edges.
+        # Short, because the facts may be those of a hundred edges.
         return f"<Finding: {self.severity.value} {self.id}, {self.message!r}>"
 
 
@@ -140,7 +140,7 @@ class Skipped:
 
     Attributes:
         id: Id of the check.
-        reason: Why.
+        reason: Reason why it could not run.
     """
 
     id: str
@@ -166,5 +166,6 @@ class Hit:
     confidence: Confidence = Confidence.CERTAIN
     fixes: tuple[Fix, ...] = ()
     alone: bool | str = False
-    """Whether it makes a finding of its own, however many alike there are; or a word that it shares
-    with those it makes one with. Of these, the fact `named` is the name in the headline."""
+    """Whether the hit becomes a separate finding, even if there are similar hits. A word instead
+    merges the hits with this word; the fact `named` is then the name in the headline.
+    """

@@ -1,7 +1,7 @@
-"""Marks of frames with findings, for screens.
+"""Marks of frames that have findings, for screens.
 
-For a buffer without possible faults this needs neither numpy nor the checks, whose import takes as
-long as the rest of showing a tree.
+For a buffer without possible faults this module imports neither numpy nor the checks, whose import
+takes as long as everything else that is needed to show a tree.
 """
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
@@ -11,13 +11,13 @@ from tftool.doctor.findings import STOPPED_AFTER
 
 
 def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
-    """Return a buffer's frames with findings, and the checks' ids.
+    """Return the names of a buffer's frames with findings, each with the ids of the checks.
 
     A frame is marked `two-parents`, `clock-mixture` or `edge-stopped`.
 
     Args:
         buffer: The buffer.
-        snapshot: All its frames, as they are now.
+        snapshot: Snapshot of the buffer's frames.
     """
     if _is_calm(buffer, snapshot):
         return {}
@@ -25,7 +25,7 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
 
 
 def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
-    """Whether no check can match: one parent each, one clock, and no delayed link."""
+    """Whether no check can match: one parent per frame, one clock, and no late link."""
     moving = [info for info in snapshot.frames if info.samples and not info.is_static]
     if not moving:
         return True
@@ -37,7 +37,7 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
 
 
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
-    """Return the marks of a buffer that may contain faults.
+    """Return the marks of the frames in a buffer that may contain faults; see `marks`.
 
     A frame is marked `edge-stopped` if its newest sample is older than the newest of all, on the
     same clock, by more than ten of its periods and a second.
@@ -56,7 +56,7 @@ def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
                 found.setdefault(child, []).append(check.id)
     limits = edge_stopped.limits
     newest: dict[bool, int] = {}
-    # A localiser dates its transforms ahead: what it is ahead of is not old.
+    # Localisers stamp transforms in the future, so they must not make other links look old.
     usual = [track for track in model.dynamic if not track.is_localisation]
     for track in usual:
         last = int(track.stamps.max())

@@ -1,7 +1,7 @@
-"""Joints between two links of a robot description, and what a lookup between them lacks.
+"""Joints between two links of a robot description, and what a lookup between the links lacks.
 
-A description publishes nothing and is valid at all times; a lookup can lack only a name, or the
-position of a joint, which only a publisher knows.
+A description is valid at all times. So a lookup can lack only a frame name, or the position of a
+joint, which comes from a publisher.
 """
 
 import shlex
@@ -24,9 +24,9 @@ class ChainLink:
     Attributes:
         joint: The joint.
         position: Joint position, radians or metres; None if the joint is fixed.
-        is_given: Whether that was said, of itself or of the joint it follows.
-        leader: The joint whose position decides; its own name where it follows none.
-        is_known: Whether the joint gives a frame: a floating joint gives none.
+        is_given: Whether the position was given, for the joint or for its leader.
+        leader: Name of the joint that determines the position: the joint itself, or its leader.
+        is_known: Whether the pose of the child is known; it is not for a floating joint.
     """
 
     joint: RobotJoint
@@ -41,14 +41,14 @@ class ChainExplanation:
     """Explanation of a lookup between two links of a description.
 
     Attributes:
-        target: The link asked for.
-        source: The link asked about.
+        target: Target of the lookup.
+        source: Source of the lookup.
         exception: Name of tf2's exception; empty if the lookup succeeds.
-        text: Text of that error.
+        text: Text of tf2's error.
         cause: "works", "unknown-frame" or "split".
         links: The joints from source to target, in this order.
-        why: The same in sentences.
-        remedies: Remedies, each a sentence and a line to type, which may be empty.
+        why: The cause in sentences.
+        remedies: Remedies, each a sentence and a command to type, which may be empty.
     """
 
     target: str
@@ -62,20 +62,20 @@ class ChainExplanation:
 
     @property
     def available(self) -> bool:
-        """Whether a lookup would succeed."""
+        """Whether the lookup would succeed."""
         return not self.exception
 
 
 def chained(
     robot: Robot, given: Mapping[str, float], target: str, source: str, name: str
 ) -> ChainExplanation:
-    """Return the joints between two links of a description, with their states.
+    """Return the explanation of a lookup between two links of a description.
 
     Args:
         robot: The description.
         given: Positions by joint.
-        target: The link asked for.
-        source: The link asked about.
+        target: Target of the lookup.
+        source: Source of the lookup.
         name: Name of the description on the command line.
 
     Raises:
@@ -100,7 +100,7 @@ def chained(
 
 
 def _way(robot: Robot, target: str, source: str) -> list[RobotJoint]:
-    """Return the joints from source to target; a description has one root, so there is a path."""
+    """Return the joints from source to target; there is always a path, as there is one root."""
     joints = {joint.child: joint for joint in robot.joints.values()}
     legs = up_to_join(source, target, lambda link: climbed(link, joints.get))
     ups, downs = legs or ([], [])

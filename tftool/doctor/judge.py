@@ -1,4 +1,4 @@
-"""Runs every check on the evidence, and groups consequences under their causes."""
+"""Judge that runs all checks on the evidence, and groups consequences under their causes."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -37,18 +37,18 @@ CHECKS: Mapping[str, Check] = {
     for room in (publishers, shape, names, clocks, coverage, values, mounts, description)
     for check in room.check.checks
 }
-"""Every check by its id, in the order of the report: by area, then as they are defined."""
+"""All checks by id, in the order of the report: by area, then by definition."""
 
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """Outcome of all checks.
+    """Result of all checks on some evidence.
 
     Attributes:
         findings: Findings by area, errors first; consequences directly after their cause.
-        skipped: Checks that could not run, and why.
+        skipped: Checks that could not run, with the reasons.
         ran: Number of checks that ran.
-        model: Model that was judged.
+        model: Model of the evidence that was checked.
     """
 
     findings: tuple[Finding, ...]
@@ -57,12 +57,12 @@ class Diagnosis:
     model: Model
 
     def count(self, severity: Severity) -> int:
-        """Return the number of findings of a severity, without consequences."""
+        """Return the number of findings of a severity, without consequences of other findings."""
         return sum(f.severity is severity and f.because_of is None for f in self.findings)
 
     @property
     def worst(self) -> Severity | None:
-        """Return the worst severity of new findings without consequences; None if none."""
+        """Return the worst severity of new findings, without consequences; None without one."""
         found = [f.severity for f in self.findings if f.because_of is None and not f.known]
         return min(found, key=lambda severity: severity.rank, default=None)
 
@@ -74,12 +74,12 @@ def judge(
     select: Sequence[str] = (),
     ignore: Sequence[str] = (),
 ) -> Diagnosis:
-    """Run the checks.
+    """Run the checks on the evidence; return all findings.
 
     Args:
-        evidence: The frames and their history.
-        settings: Settings of the listener, and thresholds.
-        select: Ids or areas to run; all where empty.
+        evidence: Evidence about the frames.
+        settings: Settings of the assumed listener, and thresholds.
+        select: Ids or areas of the checks to run; empty for all.
         ignore: Ids or areas to leave out.
 
     Raises:
@@ -105,7 +105,7 @@ def judge(
             skipped.append(Skipped(name, NEEDS[missing[0]]))
             continue
         ran += 1
-        # Numbers in a recording may be of any size; what overflows is no number, and is told.
+        # Recorded numbers may have any size: an overflow becomes NaN or infinity without a warning.
         with np.errstate(all="ignore"):
             hits += [(check, hit) for hit in check(model, limits[name])]
     return Diagnosis(_findings(hits, limits, model.words), tuple(skipped), ran, model)
@@ -132,7 +132,7 @@ def _has(evidence: Evidence, need: str) -> bool:
 
 
 def _named(words: Sequence[str]) -> list[str]:
-    """Return the ids named by ids and areas."""
+    """Return the ids of the checks that words name, by id or area."""
     areas = {area.value.replace(" ", "-"): area for area in Area}
     found: list[str] = []
     for word in words:
@@ -147,7 +147,7 @@ def _named(words: Sequence[str]) -> list[str]:
 
 
 def unknown(word: str, known: Sequence[str], what: str) -> str:
-    """Return the error for an unknown word, with the nearest known one."""
+    """Return the error text for an unknown word, with the most similar known word."""
     near = near_names(word, known)
     hint = f"did you mean {near[0]}?" if near else "'tftool doctor --list' shows all."
     return f"There is no {what} '{word}': {hint}"
@@ -158,10 +158,10 @@ def _limits(check: Check, settings: Settings) -> Limits:
 
 
 def refuse_unknown(settings: Settings, select: Sequence[str], ignore: Sequence[str]) -> None:
-    """Refuse unknown checks, areas and thresholds.
+    """Raise an error for unknown checks, areas and thresholds.
 
     Raises:
-        UsageError: If there is one.
+        UsageError: If a check, an area or a threshold is unknown.
     """
     _named(select)
     _named(ignore)
@@ -186,7 +186,7 @@ def _findings(
     for number, ((check, hit), cause) in enumerate(zip(hits, causes, strict=True)):
         severity = hit.severity or check.severity
         if severity is Severity.ERROR and hit.confidence is Confidence.POSSIBLE:
-            severity = Severity.WARNING  # an error is what the data shows
+            severity = Severity.WARNING  # only evidence in the data is an error
         key = (check.id, severity, cause, number if hit.alone is True else str(hit.alone))
         grouped.setdefault(key, []).append(hit)
     findings = [
@@ -221,9 +221,9 @@ def _cause_of(
     """Return the id of the finding that explains a hit: the first that is itself unexplained.
 
     Args:
-        number: The hit's.
-        hits: All of them.
-        of_check: Indices of the findings of each check.
+        number: Index of the hit.
+        hits: All hits, with their checks.
+        of_check: Indices of the hits of each check.
     """
     check, hit = hits[number]
     for common, causes in check.because_of:
@@ -232,7 +232,7 @@ def _cause_of(
             if not _share(hit, cause, common):
                 continue
             if common not in ("edge", "frame") and _is_calm(other, cause) > _is_calm(check, hit):
-                # A note hides an error or a warning only where both are about the same thing.
+                # A note explains an error or a warning only if both are about the same names.
                 continue
             if _cause_of(other_number, hits, of_check) is None:
                 return other.id
@@ -252,7 +252,7 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
         case "child":
             children = {child for _, child in cause.edges}
             mine = {child for _, child in hit.edges} | set(hit.frames)
-            # A tree that one of two parents is left in is their doing, too.
+            # Two alternating parents also cause the tree below the unused parent.
             parents = {parent for parent, _ in cause.edges}
             return bool(children & mine) or bool(parents & set(hit.frames))
         case "frame":
@@ -269,7 +269,7 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
 
 
 def _joined(check: Check, hits: list[Hit], limits: Limits, words: Mapping[str, str]) -> Finding:
-    """Merge similar hits of one check into a finding."""
+    """Merge similar hits of one check into one finding."""
     first = hits[0]
     concerned = _concerned(hits)
     named = list(dict.fromkeys(str(hit.facts["named"]) for hit in hits if "named" in hit.facts))
@@ -316,7 +316,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits, words: Mapping[str, s
 
 
 def _concerned(hits: list[Hit]) -> list[str]:
-    """Return the names for a headline: edges, else topics, else frames."""
+    """Return the names for a headline: of the edges, else of the topics, else of the frames."""
     edges = dict.fromkeys(f"{child} in {parent}" for hit in hits for parent, child in hit.edges)
     topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
     frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)
@@ -331,16 +331,16 @@ def diagnose(
     cache_time: Duration = CACHE_TIME,
     urdf: str | Path | None = None,
 ) -> list[Finding]:
-    """Return a report about the mistake that kept the frames from being read.
+    """Return the doctor's findings about a recording, a buffer or opened frames.
 
     A buffer keeps neither log times nor messages: checks that need them are skipped.
 
     Args:
         recording: A recording, a buffer, or opened frames.
-        select: Ids or areas of checks to run; all where empty.
+        select: Ids or areas of the checks to run; empty for all.
         ignore: Ids or areas to leave out.
         cache_time: Cache time of the assumed listener, nanoseconds.
-        urdf: A file with the robot's description; None for the one recorded, if any.
+        urdf: File with the robot's description; None for the recorded description, if any.
 
     Returns:
         The findings, by area, errors first. Findings with `because_of` are consequences.

@@ -1,4 +1,4 @@
-"""Jumps of a chain of frames that its own motion before and after does not explain."""
+"""Jumps of frames (localisation steps) that the motion before and after does not explain."""
 
 from dataclasses import dataclass
 
@@ -20,16 +20,16 @@ from tftool.geometry.rigid_arrays import (
 )
 
 SIGMAS = 5.0
-"""A change beyond what the velocity explains is a step from so many times the edge's noise on."""
+"""Number of standard deviations of an edge's noise from which an unexplained change is a step."""
 
 LEAST_MOVED = 0.005
-"""Metres that a step has at least, unless it turns."""
+"""Minimum length of a step that does not turn, metres."""
 
 LEAST_TURNED = float(np.radians(0.3))
-"""Radians that a step has at least, unless it moves."""
+"""Minimum angle of a step that does not move, radians."""
 
 FEWEST = 6
-"""Samples from which on an edge has a velocity before and after a change, and a noise."""
+"""Minimum number of samples to determine velocities around a change, and the noise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,11 +39,11 @@ class LocalisationStep:
     Attributes:
         edge: Parent and child of the edge.
         stamp: First stamp after the step.
-        within: The time from the sample before, nanoseconds.
-        moved: Metres that the velocity does not explain.
-        turned: Radians that the velocity does not explain.
-        drift_moved: Metres that the edge moved between the step before (or its start) and this.
-        drift_turned: Radians likewise.
+        within: Time since the previous sample, nanoseconds.
+        moved: Displacement that the velocity does not explain, metres.
+        turned: Rotation that the velocity does not explain, radians.
+        drift_moved: Displacement since the previous step (or the start), metres.
+        drift_turned: Rotation since the previous step (or the start), radians.
     """
 
     edge: Edge
@@ -56,23 +56,23 @@ class LocalisationStep:
 
 
 def steps_of(model: Model, target: str = "", source: str = "") -> tuple[LocalisationStep, ...]:
-    """Find the jumps of every moving edge between two frames, in the order of their stamps.
+    """Return the jumps of all moving edges between two frames, in the order of stamps.
 
     Args:
-        model: Knowledge of the frames.
-        target: One end of the chain; without both, the edges that place odometry in a map are
-            looked at, else those from the robot's base up.
-        source: The other end.
+        model: The evidence, prepared.
+        target: One end of the chain. If both ends are empty, the edges from map to odometry are
+            used, or those from the robot's base up.
+        source: The other end of the chain.
 
     Raises:
-        LookupException: If a frame is unknown, or nothing joins the two.
+        LookupException: If a frame is unknown, or no edges join the frames.
     """
     found = [step for track in _chain(model, target, source) for step in _steps(track)]
     return tuple(sorted(found, key=lambda step: (step.stamp, step.edge)))
 
 
 def _chain(model: Model, target: str, source: str) -> list[Track]:
-    """Return the moving edges of the chain."""
+    """Return the moving edges between two frames; see `steps_of`."""
     localisation = [track for track in model.dynamic if track.is_localisation]
     if not target and not source and localisation:
         return localisation
@@ -124,15 +124,15 @@ def _steps(track: Track) -> list[LocalisationStep]:
 
 
 def _unexplained(changes: Floats, gaps: Floats) -> tuple[Floats, float]:
-    """Return how far each change is from what the motion before and after explains, and the noise.
+    """Return the part of each change that the velocities around it do not explain, and the noise.
 
-    Whatever lies between the velocities before and after is acceleration. Since stamps may be less
-    regular than the motion, the same is tried with the change for each sample, and the better of
-    the two counts.
+    A change between the velocities before and after is acceleration, not a step. Since stamps may
+    be less regular than the motion, this is computed per second and per sample; the smaller part
+    is returned.
 
     Args:
-        changes: From sample to sample, shape (n, 3).
-        gaps: Seconds they take, shape (n,).
+        changes: Change from each sample to the next, shape (n, 3).
+        gaps: Time between the samples, seconds, shape (n,).
     """
     lengths, apart = [], []
     for scale in (gaps[:, None], np.ones((len(gaps), 1))):
@@ -147,6 +147,6 @@ def _unexplained(changes: Floats, gaps: Floats) -> tuple[Floats, float]:
         share = np.clip(share / np.where(squares > 0.0, squares, 1.0), 0.0, 1.0)
         lengths.append(np.linalg.norm(changes - before - share[:, None] * between, axis=1))
         apart.append(np.linalg.norm(changes - usual, axis=1))
-    # Up to a quarter may be steps: the rest of a normal distribution is within 1.15 deviations.
+    # Up to a quarter may be steps. 75 % of a normal distribution are within 1.15 deviations.
     noise = float(np.percentile(np.minimum(*apart), 75)) / 1.15
     return np.minimum(*lengths), noise

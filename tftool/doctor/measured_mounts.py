@@ -1,4 +1,4 @@
-"""Mounts measured from recorded motion, over one recording or in windows of it."""
+"""Mounts of sensors measured from recorded motion, over a recording or in parts of it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -20,21 +20,21 @@ if TYPE_CHECKING:
     from tftool.frames.calibration.calibrate import Calibration
 
 _LEAST: Final = 100
-"""Poses of a chain below which its motion is not compared."""
+"""Minimum number of poses of a chain whose motion is compared."""
 
 _WINDOW: Final = 20.0
 _MOST_WINDOWS: Final = 6
-"""Shortest window that shows a mount well, seconds; most windows of a recording."""
+"""Maximum number of parts of a recording that are measured separately."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MountWindow:
-    """A mount measured over a part of a recording.
+    """A mount measured over a part (window) of a recording.
 
     Attributes:
         begin: First stamp of the part.
-        shift: Mount less the published one, metres and degrees, shape (6,).
-        widths: Half-widths of its 95 % interval, shape (6,); NaN along unseen axes.
+        shift: Measured minus published mount, metres and degrees, shape (6,).
+        widths: Half-widths of the shift's 95 % interval, shape (6,); NaN if undetermined.
     """
 
     begin: Stamp
@@ -44,18 +44,18 @@ class MountWindow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeasuredMount:
-    """A frame's mount measured from motion.
+    """A frame's mount measured from motion, compared with the published mount.
 
     Attributes:
         parent: Frame on which the sensor is mounted.
         child: The mounted frame.
-        name: The recording.
+        name: Name of the recording.
         begin: First stamp of the measurement.
-        mount: The mount by the motion.
-        shift: Difference from the published mount, metres and degrees, shape (6,).
-        widths: Half-widths of its 95 % interval, shape (6,); NaN along unseen axes.
-        windows: The same in parts of the recording, in the order of time.
-        earlier: The same frame's mount in the recording before; None without one.
+        mount: The measured mount.
+        shift: Measured minus published mount, metres and degrees, shape (6,).
+        widths: Half-widths of the shift's 95 % interval, shape (6,); NaN if undetermined.
+        windows: Measurements of parts of the recording, in the order of time.
+        earlier: The frame's mount in the previous recording; None without one.
     """
 
     parent: str
@@ -72,11 +72,11 @@ class MeasuredMount:
 def measured_mounts(
     model: "Model", before: Sequence[MeasuredMount] = ()
 ) -> tuple[MeasuredMount, ...]:
-    """Measure every mount between two independently recorded chains of one body.
+    """Return all mounts that two independently recorded chains of one body determine.
 
     Args:
-        model: The recording.
-        before: Mounts of recordings before this one, oldest first, to compare with.
+        model: The evidence of a recording.
+        before: Mounts in earlier recordings, oldest first, to compare with.
     """
     found = []
     for first, second, published in _pairs(model):
@@ -119,7 +119,7 @@ def _measured(
 def _calibrated(
     first: TransformArray, second: TransformArray, published: Transform
 ) -> "Calibration | None":
-    # Here, as the solver is loaded only where mounts are asked for.
+    # Imported here because the solver is needed only if mounts are requested.
     from tftool.frames.calibration.calibrate import calibrate
 
     try:
@@ -165,7 +165,7 @@ def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Tra
 
 
 def _climbed(frame: str, static: dict[str, Edge]) -> tuple[str, Transform]:
-    """Follow static links up; return the topmost frame and the first frame's pose in it."""
+    """Follow static links up from a frame; return the last frame, and the frame's pose in it."""
     mount = Transform.identity()
     seen = {frame}
     while frame in static and static[frame].parent not in seen:
@@ -178,7 +178,7 @@ def _climbed(frame: str, static: dict[str, Edge]) -> tuple[str, Transform]:
 
 
 def _above(frame: str, edges: tuple[Edge, ...]) -> set[str]:
-    """Return all frames above one."""
+    """Return all ancestors of a frame."""
     parents = {one.child: one.parent for one in edges}
     above: set[str] = set()
     while frame in parents and parents[frame] not in above:

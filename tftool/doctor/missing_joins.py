@@ -1,4 +1,4 @@
-"""Proposals for missing transforms, based on the data or the description."""
+"""Proposals for missing transforms, from the data or the robot description."""
 
 import shlex
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ from tftool.doctor.stamp_stream import Track, last_part
 from tftool.geometry.rigid import Transform
 
 BASES = ("base_link", "base_footprint", "base")
-"""Names of the frame on which a robot's sensors are mounted."""
+"""Usual names of the frame on which a robot's sensors are mounted."""
 
 _PLAIN = frozenset({"base", "link", "frame", "footprint", "body", ""})
 
@@ -26,10 +26,10 @@ class Join:
     """A missing transform, with the evidence for it.
 
     Attributes:
-        edge: Parent and child to publish; None if the evidence names none.
-        why: The evidence: part of a sentence.
+        edge: Parent and child to publish; None if unknown.
+        why: The evidence, as a part of a sentence.
         fix: The remedy.
-        guess: Whether only names or customs say so.
+        guess: Whether the evidence is only a name or a convention.
     """
 
     edge: Edge | None
@@ -39,12 +39,12 @@ class Join:
 
 
 def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
-    """Propose a transform that joins two trees; None without evidence.
+    """Return a proposal for a transform that joins two trees; None without evidence.
 
     Args:
-        model: Knowledge of the frames.
-        main: A tree.
-        lesser: Another.
+        model: The evidence, prepared.
+        main: The larger tree.
+        lesser: The smaller tree.
     """
     for tree, other in ((lesser, main), (main, lesser)):
         found = _described(model, tree.root, other.frames) or _in_odometry(model, tree, other)
@@ -66,12 +66,12 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
 
 
 def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join | None:
-    """Propose a publisher for a frame that no transform names; None without evidence.
+    """Return a proposal to publish a frame that no transform names; None without evidence.
 
     Args:
-        model: Knowledge of the frames.
-        name: The frame.
-        kinds: Types of the messages that are in it.
+        model: The evidence, prepared.
+        name: Name of the frame.
+        kinds: Types of the messages in this frame.
     """
     alone = Tree(name, frozenset({name}))
     for tree in model.trees:
@@ -86,7 +86,7 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
 
 
 def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
-    """Return the description's joint above a root, if it leads to other frames."""
+    """Return a proposal from the description's joint above a root, if it leads to other frames."""
     joint = model.joint_above.get(root)
     if joint is None or model.prefix + joint.parent not in others:
         return None
@@ -117,7 +117,7 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
 
 
 def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
-    """Return how a transform that joins two trees lost its child to another parent."""
+    """Return a proposal if the child of a transform between the trees later got another parent."""
     for track in model.tracks:
         ends = {model.tree_of[name].root for name in track.edge}
         if ends == {main.root, lesser.root}:
@@ -128,7 +128,7 @@ def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
 
 
 def _localised(tree: Tree, other: Tree) -> Join | None:
-    """Propose map to odom, by REP-105, if one tree has a map and the other's root is odometry."""
+    """Return a proposal for odom in map (REP-105) if one tree has a map, and the other odom."""
     if not last_part(tree.root).startswith(("odom", "camera_init")):
         return None
     maps = sorted(frame for frame in other.frames if last_part(frame) == "map")
@@ -140,7 +140,7 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
 
 
 def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
-    """Propose a join if another tree has a similar name for the root: base_footprint."""
+    """Return a proposal if another tree has a similar name for the root, such as base_footprint."""
     root = tree.root
     for name in sorted(other.frames):
         if _prefix(name) != _prefix(root) or _core(name) != _core(root):
@@ -152,10 +152,10 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
 
 
 def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | None = None) -> Fix:
-    """Return the remedy for a missing mount: its publisher, unless no statics were recorded."""
+    """Return the remedy for a missing mount: publish it, unless no statics were recorded."""
     if not model.lacks_statics or not model.evidence.recorded:
         return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
-    # The robot sends it already: a second publisher would contradict the first one.
+    # The robot probably sends it: a second publisher would contradict the first one.
     return Fix(
         f"the statics are missing from the recording, {child} in {parent} probably among them: "
         "record /tf_static too, or take it from another recording or the robot description:",
@@ -164,12 +164,12 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
 
 
 def _core(name: str) -> frozenset[str]:
-    """Return the distinctive words of a name: "laser" of base_laser_link."""
+    """Return the distinctive words in a frame name: "laser" in base_laser_link."""
     return frozenset(last_part(name).lower().split("_")) - _PLAIN
 
 
 def _are_two_robots(main: Tree, lesser: Tree) -> bool:
-    """Whether each tree has a base, and the bases are not one robot's under two names."""
+    """Whether each tree has a base frame, and the bases belong to two robots."""
     ours, theirs = _bases(main), _bases(lesser)
     if not ours or not theirs:
         return False
@@ -187,7 +187,7 @@ def _prefix(name: str) -> str:
 
 
 def base_of(tree: Tree) -> str:
-    """Return the frame on which a robot's sensors are mounted; empty if there is none."""
+    """Return the name of a tree's base frame (with the sensors); empty if there is none."""
     for name in (*BASES, "body"):
         found = sorted(frame for frame in tree.frames if last_part(frame) == name)
         if found:
@@ -198,7 +198,7 @@ def base_of(tree: Tree) -> str:
 def static_publisher(
     parent: str, child: str, pose: Transform | None = None, *, ros1: bool = False
 ) -> str:
-    """Return the command that publishes a mount, with letters in place of unknown numbers."""
+    """Return the command that publishes a static transform; letters replace an unknown pose."""
     if ros1:
         known = () if pose is None else (*pose.translation, *pose.rotation)
         numbers = " ".join(f"{one:.9g}" for one in known) or "X Y Z YAW PITCH ROLL"

@@ -1,6 +1,6 @@
-"""Model of the evidence that the checks read: columns and headers on one clock, laps, trees.
+"""Model of the evidence that the checks read: streams on one clock, laps, trees.
 
-Nothing here reads a file; see `evidence` for the input.
+This module reads no files; see `evidence`.
 """
 
 from collections.abc import Mapping
@@ -22,17 +22,17 @@ from tftool.recordings.timeline import through_clock
 from tftool.robots.description import RobotJoint
 
 Limits = Mapping[str, float]
-"""The thresholds of one check, by name."""
+"""Thresholds of one check, by name."""
 
 
 _DRIFT = seconds(0.5)
-"""How far a simulation without `/clock` falls behind the wall clock before its rate counts."""
+"""Delay of a simulation without `/clock` from which its rate is estimated."""
 
 LAP = seconds(1)
-"""How far a stream's stamps step back where a lap begins, and within which time all do."""
+"""Minimum backward step of stamps at a new lap (a restart); all streams step within this time."""
 
 WARM_UP = seconds(1)
-"""The start and the end of a recording, which checks of coverage leave out."""
+"""Time at the start and the end of a recording that checks of coverage ignore."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +42,8 @@ class Settings:
     Attributes:
         cache_time: Cache time of the listener's buffer, nanoseconds.
         fixed_frame: Frame in which to place sensors; empty for the usual one.
-        limits: Thresholds by check and name, in place of the catalogue's.
-        tf_topics: Topics it listens to for transforms; empty for the usual ones.
+        limits: Thresholds by check and name, instead of the defaults.
+        tf_topics: Topics of transforms to which the listener subscribes; empty for the usual ones.
     """
 
     cache_time: Duration = CACHE_TIME
@@ -53,7 +53,7 @@ class Settings:
 
 
 SHIFT = seconds(2)
-"""How far all stamps lie from their reception where the whole recording is shifted."""
+"""Minimum constant difference between stamps and reception that counts as a shift of the clock."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class Shift:
         by: Time from stamp to reception of most messages, nanoseconds; negative if stamped later.
         spread: Deviation of `by`: the median of the streams, nanoseconds.
         streams: Number of streams with this shift.
-        of: Number of streams there are.
+        of: Number of all streams.
     """
 
     by: Duration
@@ -75,12 +75,12 @@ class Shift:
 
 @dataclass(frozen=True, slots=True)
 class Lap:
-    """A time at which the clock jumped back.
+    """A time at which the clock jumped back, so that a new lap begins.
 
     Attributes:
-        log: Log time of the jump back.
-        before: The last stamp before.
-        after: The first stamp after.
+        log: Log time of the jump.
+        before: The last stamp before the jump.
+        after: The first stamp after the jump.
         streams: Number of streams that jumped.
     """
 
@@ -92,11 +92,11 @@ class Lap:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """Connected frames.
+    """Frames that are connected by the newest links.
 
     Attributes:
-        root: The frame without a parent; some frame of the circle where there is none.
-        frames: All of them, the root included.
+        root: The frame without a parent; if there is none, some frame of the loop.
+        frames: All frames, including the root.
         is_circle: Whether the frames form a loop, without a root.
     """
 
@@ -106,17 +106,17 @@ class Tree:
 
 
 class Model:
-    """The evidence, prepared once for all checks.
+    """The evidence, prepared for all checks.
 
     Attributes:
-        evidence: Evidence it was made from.
+        evidence: The evidence.
         settings: Settings of the listener.
         tracks: One track for each edge that a listener can use (see `nameless`).
         nameless: Edges with an empty name, or whose ends are the same frame.
-        heard: One for each topic and frame of its messages.
-        laps: Points where time went back; all else is about the data before the first.
-        reference: Sentence about the reference of latencies; empty if it is the usual one.
-        shift: Constant by which all stamps differ from their reception; None for none.
+        heard: Headers of messages, one stream for each topic and frame.
+        laps: Times at which the clock jumped back. All other data is from before the first jump.
+        reference: Sentence about the clock from which latencies are measured; empty if usual.
+        shift: Constant by which all stamps differ from their reception; None if there is none.
     """
 
     def __init__(self, evidence: Evidence, settings: Settings | None = None) -> None:
@@ -136,29 +136,29 @@ class Model:
         if evidence.timed:
             self._find_laps()
         self._put_on_one_clock()
-        # What only came after the first lap is not looked at.
+        # Streams that begin only after the first lap are left out.
         self.tracks = tuple(track for track in self.tracks if len(track.stamps))
         self.nameless = tuple(track for track in self.nameless if len(track.stamps))
         self.heard = tuple(heard for heard in self.heard if len(heard.stamps))
 
     @cached_property
     def dynamic(self) -> tuple[Track, ...]:
-        """Edges recorded on a non-static topic."""
+        """Edges whose transforms came on a topic for moving transforms."""
         return tuple(track for track in self.tracks if not track.static)
 
     @cached_property
     def statics(self) -> tuple[Track, ...]:
-        """Edges recorded on a static topic."""
+        """Edges whose transforms came on a static topic."""
         return tuple(track for track in self.tracks if track.static)
 
     @cached_property
     def words(self) -> Mapping[str, str]:
-        """Commands and settings in the words of the recording's ROS."""
+        """Commands and settings for texts, for ROS 1 or ROS 2, whichever made the recording."""
         return ros_words(self.evidence)
 
     @cached_property
     def lacks_statics(self) -> bool:
-        """Whether there are no statics, and no constants on /tf in their place (early ROS 1)."""
+        """Whether there are no static transforms, and no constant ones on /tf (early ROS 1)."""
         if self.statics or not self.tracks:
             return False
         if any(topic.static for topic in self.evidence.topics):
@@ -183,7 +183,7 @@ class Model:
 
     @cached_property
     def edges_above(self) -> dict[str, list[Track]]:
-        """Edges above each child, in the order of `tracks`."""
+        """Edges above each child, by the child's name, in the order of `tracks`."""
         edges: dict[str, list[Track]] = {}
         for track in self.tracks:
             edges.setdefault(track.child, []).append(track)
@@ -191,7 +191,7 @@ class Model:
 
     @cached_property
     def parents(self) -> dict[str, Track]:
-        """The newest edge above each child."""
+        """Newest edge above each child, by the child's name."""
         latest: dict[str, tuple[int, Track]] = {}
         for track in self.tracks:
             if not len(track.stamps):
@@ -204,12 +204,12 @@ class Model:
 
     @cached_property
     def frames(self) -> frozenset[str]:
-        """All frames named by a transform."""
+        """Names of all frames in transforms."""
         return frozenset(name for track in self.tracks for name in track.edge)
 
     @cached_property
     def prefix(self) -> str:
-        """Return the prefix that frames have before the description's link names; often empty."""
+        """Return the prefix of frame names before the description's link names; usually empty."""
         robot = self.evidence.robot
         if robot is None:
             return ""
@@ -217,20 +217,20 @@ class Model:
 
     @cached_property
     def joint_above(self) -> Mapping[str, RobotJoint]:
-        """The description's joint above each frame; empty without a description."""
+        """Joint above each frame in the robot description, by name; empty without a description."""
         robot = self.evidence.robot
         joints = () if robot is None else robot.joints.values()
         return {self.prefix + joint.child: joint for joint in joints}
 
     @cached_property
     def described(self) -> frozenset[str]:
-        """Frames that the description defines; empty without one."""
+        """Names of the frames that the robot description defines; empty without a description."""
         robot = self.evidence.robot
         return frozenset(() if robot is None else (self.prefix + link for link in robot.links))
 
     @cached_property
     def trees(self) -> tuple[Tree, ...]:
-        """Trees by the newest parents, the largest first."""
+        """All trees, by the newest parents, the largest first."""
         root_of: dict[str, tuple[str, bool]] = {}
         for frame in sorted(self.frames):
             walked: dict[str, None] = {}
@@ -258,7 +258,7 @@ class Model:
 
     @cached_property
     def tree_of(self) -> dict[str, Tree]:
-        """The tree of each frame."""
+        """Tree of each frame, by the frame's name."""
         return {frame: tree for tree in self.trees for frame in tree.frames}
 
     def above(self, frame: str) -> list[Track]:
@@ -273,7 +273,7 @@ class Model:
         return None if legs is None else legs[0] + legs[1]
 
     def rests(self, frame: str) -> bool:
-        """Whether no transform that moves lies between a frame and the fixed one."""
+        """Whether all edges between a frame and the fixed frame are static."""
         path = self.path(frame, self.fixed_frame)
         return path is not None and all(track.static for track in path)
 
@@ -297,12 +297,12 @@ class Model:
 
     @cached_property
     def sensor_frame(self) -> str:
-        """Return the frame to place sensors in: the requested one, odom, or the usual root."""
+        """Return the frame to place sensor data in: as requested, else odom, map, world, a root."""
         return self._fixed("odom", "map", "world")
 
     @cached_property
     def fixed_frame(self) -> str:
-        """Return the frame to place all in: the requested one, else map, odom, world, a root."""
+        """Return the fixed frame: as requested, else map, odom, world, a root."""
         return self._fixed("map", "odom", "world")
 
     def _fixed(self, *usual: str) -> str:
@@ -322,7 +322,7 @@ class Model:
 
     @cached_property
     def warm(self) -> tuple[Stamp, Stamp]:
-        """Return the log times between which coverage is judged."""
+        """Return the log times between which coverage is checked: without `WARM_UP` at the ends."""
         return self.start + WARM_UP, self.end - WARM_UP
 
     def log_of(self, stamp: Stamp) -> Stamp:
@@ -336,7 +336,7 @@ class Model:
         return int(through_clock(np.array([stamp]), received, read)[0])
 
     def _streams(self) -> list[Stream]:
-        """Return the streams that may step back: neither statics nor single samples."""
+        """Return the streams whose stamps can step back: moving, with several items."""
         streams: list[Stream] = [
             track for track in self.tracks if not track.static and len(track.stamps) > 1
         ]
@@ -379,7 +379,7 @@ class Model:
                 every.lap = int(np.searchsorted(every.all_logs, laps[0].log, side="left"))
 
     def _put_on_one_clock(self) -> None:
-        """Convert arrivals to the stamps' clock: 2.1 of the specification's latency."""
+        """Convert the arrival times of all streams to the clock of the stamps."""
         streams: list[Stream] = [*self.tracks, *self.nameless, *self.heard]
         simulated = [one for one in streams if one.families[0]]
         read, received = self.evidence.clock
@@ -425,10 +425,10 @@ class Model:
             if is_moving:
                 moving.append(int(middle))
         by = sorted(late)[len(late) // 2] if late else 0
-        # One stream alone may be late by seconds of its own fault, and by hours hardly.
+        # A single stream may be late by seconds for its own reasons, but not by hours.
         if abs(by) <= (SHIFT if len(late) > 1 else WILD):
             return
-        # Beside days, seconds are the delay of a network; what it delays least tells the clock.
+        # Compared with days, seconds are network delay; the smallest delay shows the clock.
         near = max(LAP, abs(by) // 10_000)
         alike = [spread for one, spread in zip(late, spreads, strict=True) if abs(one - by) < near]
         spread = sorted(alike)[len(alike) // 2]
@@ -442,7 +442,7 @@ class Model:
 
     @cached_property
     def _clock(self) -> tuple[Stamps, Stamps]:
-        """Return a simulation clock's readings and their log times; estimated without `/clock`."""
+        """Return times of the simulation's clock (estimated without `/clock`), and log times."""
         kept: list[tuple[Stamps, Stamps]] = []
         offset, steady = 0, True
         streams = [
@@ -465,7 +465,7 @@ class Model:
             kept.append((stamps[near], logs[near]))
         if steady or not any(len(stamps) for stamps, _ in kept):
             return np.array([0], np.int64), np.array([offset], np.int64)
-        # It does not run at the rate of the wall clock: it is at least where the newest stamp is.
+        # The clock's rate differs from the wall clock's: its time is at least the newest stamp.
         stamps, logs = (np.concatenate(columns) for columns in zip(*kept, strict=True))
         order = np.argsort(logs, kind="stable")
         return np.maximum.accumulate(stamps[order]), logs[order]
@@ -476,12 +476,12 @@ def _is_nameless(track: Track) -> bool:
 
 
 def _steps_back(stamps: Stamps) -> list[int]:
-    """Return where stamps of one clock step back by more than a lap's minimum."""
+    """Return the stamps after a backward step larger than `LAP`, for stamps of one clock."""
     stamped = np.flatnonzero(stamps != 0)
     kept = stamps[stamped]
     back = np.flatnonzero(
         (kept[1:] < kept[:-1] - LAP)
         & ((kept[1:] < SIMULATED_BELOW) == (kept[:-1] < SIMULATED_BELOW))
     )
-    # A stream that goes to and fro all the time tells of no lap.
+    # Limited, because a stream that jumps back and forth all the time shows no laps.
     return [int(stamped[place + 1]) for place in back[:1000]]

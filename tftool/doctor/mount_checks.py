@@ -88,7 +88,7 @@ def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
-    """Return the step of the mount at a window, and its interval's half-width, shape (6,)."""
+    """Return the change of the mount at a window, and its 95 % half-widths, shape (6,) each."""
     shifts = np.array([window.shift for window in one.windows])
     weights = np.array([window.widths for window in one.windows]) ** -2.0
     means, spreads = [], []
@@ -102,7 +102,7 @@ def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
 
 
 def _outside(shift: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
-    """Name the axes on which a difference exceeds the limit; NaN (unseen) never does."""
+    """Return the axes on which a difference exceeds the limit; NaN (undetermined) never does."""
     said = []
     for place, name in enumerate((*AXES, *ANGLES)):
         is_length = place < len(AXES)

@@ -21,7 +21,7 @@ _YAML = re.compile(
 )
 _USUAL_TOPICS = ("/tf", "/tf_static", "tf", "tf_static")
 MOST_COMPARED = 300_000
-"""Pairs of names that are compared; more would take seconds."""
+"""Maximum number of pairs of names that are compared; more would take seconds."""
 
 
 @check(
@@ -84,25 +84,25 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_scoped(model: Model, name: str) -> bool:
-    """Whether a simulator composed a name: robot/base_link/gpu_lidar."""
+    """Whether a frame name was composed by a simulator: robot/base_link/gpu_lidar."""
     simulated = len(model.evidence.clock[0]) or any(one.families[0] for one in model.heard)
     return bool(simulated) and name.strip("/").count("/") >= 2
 
 
 def _slashed(heard: Heard, model: Model) -> Iterable[str]:
-    """Return the frames that `slash-twins` reports."""
+    """Return the known frames if a topic's frame has a slash, which `slash-twins` reports."""
     return model.frames if heard.frame.startswith("/") else ()
 
 
 def alike_frames(model: Model, name: str) -> list[str]:
-    """Return known frames that were probably meant by an unknown one."""
+    """Return known frames that were probably meant by an unknown name."""
     kinds = [heard.type for heard in model.heard if heard.frame == name]
     near = near_names(last_part(name), sorted(model.frames), 3)
     return list(dict.fromkeys((*(f for kind in kinds for f in _fitting(model, kind)), *near)))
 
 
 def _fitting(model: Model, kind: str) -> list[str]:
-    """Return leaf frames that no message uses, with a name that fits this kind of sensor."""
+    """Return leaf frames that no message uses, whose name fits a type of sensor message."""
     used = {heard.frame for heard in model.heard}
     parents = {track.parent for track in model.tracks}
     words = _KINDS.get(last_part(kind), ())
@@ -126,7 +126,7 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
         fixes.append(Fix("{scoped}"))
     join = proposed_frame(model, name.removeprefix("/"), kinds)
     if join is not None:
-        # Evidence for the frame itself comes before a name that is near.
+        # Evidence for the frame itself comes before similar names.
         fixes = [join.fix, *fixes] if join.why else [*fixes, join.fix]
     if not fixes:
         source = "a localiser" if last_part(name) == "map" else "a driver, robot_state_publisher"
@@ -267,7 +267,7 @@ def typo_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 class _Spelled:
-    """A name in its spelling for comparison, and what else distinguishes it."""
+    """A frame name, with its normalised spelling and its parts for comparisons."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -277,7 +277,7 @@ class _Spelled:
 
 
 def _bare(name: str) -> str:
-    """Return a name in lower case without hyphens, underscores and blanks."""
+    """Return a name in lower case, without hyphens, underscores and spaces."""
     return re.sub(r"[-_\s]", "", name).casefold()
 
 
@@ -292,18 +292,18 @@ def _is_typo(one: _Spelled, other: _Spelled, limits: Limits) -> bool:
 
 
 def distance(one: str, other: str, most: int) -> int:
-    """Return the number of letters to insert, drop, replace or swap to get the other word.
+    """Return the number of letters to insert, delete, replace or swap between two words.
 
     Args:
-        one: A word.
-        other: Another.
-        most: Beyond it, some larger number is returned.
+        one: The first word.
+        other: The second word.
+        most: Largest distance of interest; for larger ones, any larger number is returned.
 
     Source:
         Damerau, "A technique for computer detection and correction of spelling errors",
         1964; here in its restricted form (optimal string alignment).
     """
-    # What both begin and end with decides nothing, and is most of two names of one robot.
+    # Skip the common beginning and end, which are most of two names of one robot.
     begin = _shared(one, other)
     one, other = one[begin:], other[begin:]
     end = _shared(one[::-1], other[::-1])
@@ -311,7 +311,7 @@ def distance(one: str, other: str, most: int) -> int:
     before: list[int] = []
     last = list(range(len(other) + 1))
     for row, letter in enumerate(one, start=1):
-        # A cell further from the diagonal than that has a larger distance anyway.
+        # A cell further from the diagonal than `most` has a larger distance anyway.
         here = [row, *[most + 1] * len(other)]
         for column in range(max(1, row - most), min(len(other), row + most) + 1):
             wanted = other[column - 1]
@@ -322,14 +322,14 @@ def distance(one: str, other: str, most: int) -> int:
                 cost = min(cost, before[column - 2] + 1)
             here[column] = cost
         before, last = last, here
-        # A swap goes on from the row before; else no number below is less than the least here.
+        # Later rows cannot be less than the minimum of this row, or for a swap of the row before.
         if min(last) > most and min(before) >= most:
             return most + 1
     return last[-1]
 
 
 def _shared(one: str, other: str) -> int:
-    """Return the length of the common prefix."""
+    """Return the length of the common prefix of two words."""
     for place, (letter, its) in enumerate(zip(one, other, strict=False)):
         if letter != its:
             return place
@@ -442,7 +442,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Return for each frame a representative of its connected frames."""
+    """Return for each frame one frame that stands for all frames connected with it."""
     above: dict[str, str] = {}
 
     def top(name: str) -> str:
@@ -490,7 +490,7 @@ def _awkward(name: str, limits: Limits) -> str:
 
 
 def _names(model: Model) -> list[str]:
-    """Return all frame names in transforms and messages, the latter without leading slash."""
+    """Return all frame names in transforms and messages, without leading slashes."""
     heard = {h.frame.removeprefix("/") for h in model.heard if h.is_spatial}
     return sorted((model.frames | heard) - {""})
 

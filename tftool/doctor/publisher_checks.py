@@ -27,10 +27,10 @@ from tftool.geometry.rigid_arrays import (
 check = checks_of(Area.PUBLISHERS)
 
 MOST_FOLLOWED = 20_000
-"""Samples of one edge that are followed one by one; more are a beginning that tells enough."""
+"""Maximum number of an edge's samples that are followed one by one; these are enough evidence."""
 
 _RADIAN = 0.5
-"""Metres that a radian counts for where one number stands for a distance and an angle."""
+"""Length in metres that equals a radian, where one number combines a distance and an angle."""
 
 
 @check(
@@ -142,7 +142,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
 )
 def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
-    # Where fewer than two are known by name, no edge has two that are.
+    # With fewer than two named publishers, no edge can have two.
     named = len({one.node for one in model.evidence.transforms.publishers if one.node}) > 1
     told_of: dict[tuple[str, str], Hit] = {}
     apart: list[Track] = []
@@ -176,7 +176,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Find two known publishers that disagree at the same time."""
+    """Return a hit if two publishers with known names disagree at the same time."""
     places = track.by_stamp
     senders = track.senders[places]
     numbers, counts = np.unique(senders, return_counts=True)
@@ -213,10 +213,10 @@ def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 
 def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
-    """Find stamps that occur twice with different values."""
+    """Return a hit if stamps occur twice with different poses."""
     if len(track.steps) == len(track.by_stamp) - 1:
         return None
-    # A stamp that comes more than twice stands still: that is another fault.
+    # A stamp that occurs more than twice does not change, which is another fault.
     _, firsts, counts = np.unique(track.sorted_stamps, return_index=True, return_counts=True)
     again = firsts[counts == 2]
     mine, theirs = track.by_stamp[again], track.by_stamp[again + 1]
@@ -237,24 +237,24 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
 
 
 def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
-    """Find two tracks by their values alone: each is continuous, and they alternate."""
+    """Return a hit if an edge's poses form two alternating continuous motions."""
     places = track.by_stamp[:MOST_FOLLOWED]
     if len(places) < max(2 * limits["samples"], 2):
         return None
     apart = track.strides[: len(places) - 1]
-    # Nor does one leave its own track that moves and turns so little, whatever the time it takes.
+    # If the edge hardly moves and turns, there cannot be two motions.
     if apart.max() < 0.5 * limits["reach"] and not track.has_turns(
         places[1:], places[:-1], 0.5 * limits["reach"]
     ):
         return None
     times = track.stamps[places] / NANOSECONDS
     jumps = apart + _RADIAN * track.turned(places[1:], places[:-1])
-    # Who never leaves its own track needs no following.
+    # If no sample jumps, there cannot be two motions.
     leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
     if np.count_nonzero(leaves) < limits["changes"]:
         return None
     together = _motion_errors(track, places)
-    # Two publishers of one rate alternate strictly, however far each turns in a period.
+    # Two publishers with equal rates alternate strictly, even if each turns a lot in a period.
     for owners in (_follow(track, places, limits), np.arange(len(places)) % 2):
         owned = _alternating(track, places, owners, together, limits)
         if owned is not None:
@@ -265,13 +265,13 @@ def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
 def _alternating(
     track: Track, places: Places, owners: Places, together: Floats, limits: Limits
 ) -> tuple[Places, Places] | None:
-    """Return two alternating tracks of samples; None if one motion explains both.
+    """Return the samples of two alternating motions; None if a single motion explains all.
 
     Args:
-        track: The samples.
-        places: Rows of the track by stamp, shape (n,).
-        owners: The number of the track that each belongs to, shape (n,).
-        together: Errors of all samples as one motion, shape (n,).
+        track: The edge's samples.
+        places: Rows of the samples in the order of their stamps, shape (n,).
+        owners: Number of the motion to which each sample is assigned, shape (n,).
+        together: Error of each sample if there is a single motion, shape (n,).
         limits: The thresholds.
     """
     turns = np.flatnonzero(np.diff(owners)) + 1
@@ -299,18 +299,18 @@ def _alternating(
 
 
 def _motion_errors(track: Track, places: Places) -> Floats:
-    """Return each sample's distance from its prediction by the two before it.
+    """Return the distance of each sample from its prediction by the two samples before.
 
-    The rotation between two samples may be a whole turn more or less, as for a fast wheel: the best
-    of the three values is used.
+    The rotation between two samples may be a full turn more or less, as for a fast wheel: the best
+    of the three predictions is used.
 
     Args:
-        track: The samples.
-        places: Rows of the track in the order of their stamps, shape (n,).
+        track: The edge's samples.
+        places: Rows of the samples in the order of their stamps, shape (n,).
 
     Returns:
-        Metres, a radian as `_RADIAN` of them, shape (n,); NaN for the first two, and where two
-        stamps are equal.
+        Metres, with a radian counted as `_RADIAN` metres, shape (n,); NaN for the first two
+        samples, and where two stamps are equal.
     """
     errors = np.full(len(places), np.nan)
     if len(places) < 3:
@@ -329,7 +329,7 @@ def _motion_errors(track: Track, places: Places) -> Floats:
     for turns in (-1, 0, 1):
         half = 0.5 * (angles + 2.0 * np.pi * turns) * ratio
         led_turn = np.column_stack((axes * np.sin(half)[:, None], np.cos(half)))
-        # What does not turn at all has no axis for a whole turn.
+        # Without rotation there is no axis for a full turn.
         led_turn = np.where((angles > 0.0)[:, None], led_turn, (0.0, 0.0, 0.0, 1.0))
         best = np.fmin(best, angles_between(multiply(turned[1:-1], led_turn), turned[2:]))
     errors[2:] = missed + _RADIAN * best
@@ -337,7 +337,7 @@ def _motion_errors(track: Track, places: Places) -> Floats:
 
 
 def _follow(track: Track, places: Places, limits: Limits) -> Places:
-    """Assign each sample to one of at most three tracks, by its best prediction."""
+    """Return the number of the motion (at most three) that best predicts each sample."""
     stamps = (track.stamps[places] / NANOSECONDS).tolist()
     poses = np.hstack((track.translations[places], unit(track.rotations[places]))).tolist()
     reach, speed = limits["reach"], limits["speed"]
@@ -366,12 +366,12 @@ def _pose_distance(a: list[float], b: list[float]) -> float:
 def _conflict(
     track: Track, names: tuple[str, str], owned: tuple[Places, Places], confidence: Confidence
 ) -> Hit:
-    """Return the finding about two publishers.
+    """Return the hit about two publishers of one edge.
 
     Args:
         track: The edge that both publish.
-        names: Names of the two.
-        owned: Rows of the one, and for each the row of the other to compare it with, shape (n,).
+        names: Names of the publishers.
+        owned: Rows of the first one's samples, and of the second one's to compare, shape (n,).
         confidence: Confidence that there are two publishers.
     """
     rates, late = [], []
@@ -462,10 +462,10 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
 def _ends_at_the_root(
     model: Model, moving: Sequence[Track], statics: Sequence[Track]
 ) -> tuple[Fix, ...]:
-    """Propose the mounts' root as a child of the moving frame, if that has two parents."""
+    """Return the remedy to end the moving transform at the root of the mounts, if that applies."""
     if {track.parent for track in moving} & {track.parent for track in statics}:
         return ()
-    # The latest parent of the frame may be either; what the mount hangs from is above it.
+    # Either parent may be the latest; use the parent in the mount's static transform.
     parent = statics[-1].parent
     above = [track.parent for track in model.above(parent)]
     root = above[-1] if above else parent
@@ -526,7 +526,7 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]
         places = np.flatnonzero(track.usable)
         if len(places) < 2:
             continue
-        # Poses that differ by less than the limit fall together.
+        # Poses that differ by less than the limit count as one.
         kept = [int(places[0])]
         changes: list[int] = []
         last = kept[0]
@@ -599,13 +599,13 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
         if track.sorted_stamps[-1] - track.sorted_stamps[0] < limits["seconds"] * NANOSECONDS:
             continue
         if track.child in carried or family(track.child) in families:
-            continue  # it changes its parent, or its like moves
+            continue  # it changes its parent, or similar frames move
         if any(np.isin(track.messages, other.messages).any() for other in may_move):
-            continue  # it comes with what moves
+            continue  # it is sent in the same messages as moving frames
         if _could_move(model, track):
             continue
         if not any(above.moves for above in model.above(track.parent)):
-            continue  # it stood still with all that carries it
+            continue  # it may have stood still because the robot did
         so = "it is sent again and again for nothing; its stamps are ahead, and no message waited"
         if waits := _is_waited_for(model, track):
             so = "lookups through it wait needlessly for its next sample, up to one period"
@@ -624,7 +624,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_waited_for(model: Model, track: Track) -> bool:
-    """Whether an edge is not dated ahead, or a message on it still arrived before its sample."""
+    """Whether messages must wait for an edge: they often arrive before its sample."""
     if track.median_latency >= 0:
         return True
     below = model.below(track.child)
@@ -633,12 +633,12 @@ def _is_waited_for(model: Model, track: Track) -> bool:
         for heard in model.heard
         if heard.is_spatial and heard.frame in below
     ]
-    # A recording's first and last messages are older and newer than any sample.
+    # The first and last messages may be outside of the samples.
     return any(float(late.mean()) > 0.05 for late in waits)
 
 
 def _could_move(model: Model, track: Track) -> bool:
-    """Whether anything besides the values shows that an edge may move."""
+    """Whether other evidence than the poses shows that an edge may move."""
     joint = model.joint_above.get(track.child)
     if joint is not None:
         return joint.moves
@@ -647,7 +647,7 @@ def _could_move(model: Model, track: Track) -> bool:
         return True
     if any(name in track.child for name in model.evidence.joints or ()):
         return True
-    # robot_state_publisher gives the frames of joints the stamps of the joint states.
+    # robot_state_publisher uses the stamps of joint states for the frames of movable joints.
     return any(
         bool(np.isin(track.stamps, headers.stamps).mean() > 0.5)
         for headers in model.evidence.headers.values()
@@ -656,7 +656,7 @@ def _could_move(model: Model, track: Track) -> bool:
 
 
 def _joints_by_statics(model: Model) -> list[Track]:
-    """Return the dynamic edges among mounts that one message of all fixed joints carries.
+    """Return the moving edges whose child is the parent in a message with several fixed joints.
 
     robot_state_publisher sends all fixed joints in one message, and movable ones on /tf.
     """
@@ -703,7 +703,7 @@ def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
-    """Yield the edges of each child that has at least `least` of them."""
+    """Return the edges of each child that has at least `least` edges, by the child's name."""
     grouped: dict[str, list[Track]] = defaultdict(list)
     for track in tracks:
         if len(track.by_stamp):
@@ -712,7 +712,7 @@ def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]
 
 
 def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
-    """Return the number of parent changes, the mean time between them, and the first."""
+    """Return the number of parent changes, seconds between them, and log time of the first."""
     stamps = np.concatenate([track.sorted_stamps for track in tracks])
     logs = np.concatenate([track.logs[track.by_stamp] for track in tracks])
     owner = np.repeat(np.arange(len(tracks)), [len(track.by_stamp) for track in tracks])
@@ -724,7 +724,7 @@ def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
 
 
 def _root(model: Model, frame: str, without: str) -> str:
-    """Return the topmost frame above one, if the path avoids another."""
+    """Return the topmost frame above `frame`, on the path up to but not including `without`."""
     for track in model.above(frame):
         if track.parent == without:
             break
@@ -742,7 +742,7 @@ def _is_odometry(track: Track) -> bool:
 
 
 def _switches_off(track: Track) -> Fix:
-    """Return how to switch off one of an edge's two publishers, by the edge's kind."""
+    """Return the remedy to switch off one of an edge's two publishers, by the edge's names."""
     if track.is_localisation:
         return Fix(
             "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "

@@ -1,4 +1,4 @@
-"""Commands and settings of remedies in the words of the recording's ROS: 1 or 2."""
+"""Commands and settings for the texts of remedies, for ROS 1 or ROS 2."""
 
 from collections.abc import Mapping
 
@@ -56,17 +56,17 @@ _BOTH = {name: f"{text} (ROS 1: {_ROS1[name]})" for name, text in _ROS2.items()}
 
 
 def is_ros1(evidence: Evidence) -> bool:
-    """Whether a recording is of ROS 1: a bag, or messages in ROS 1's encoding."""
+    """Whether evidence comes from ROS 1: a bag, or messages in ROS 1's encoding."""
     return evidence.kind == "ROS 1 bag" or any(one.encoding == "ros1" for one in evidence.topics)
 
 
 def ros_words(evidence: Evidence) -> Mapping[str, str]:
-    """Return the words of the ROS of a recording; those of ROS 2 where it is not known."""
+    """Return the words for the ROS version of a recording; ROS 2's if unknown."""
     return _ROS1 if is_ros1(evidence) else _ROS2
 
 
 def in_words(text: str, words: Mapping[str, str] = _BOTH) -> str:
-    """Return a check's text with these words; by default with those of both ROS."""
+    """Return a check's text with placeholders replaced by words; by default those of both ROS."""
     for name, word in words.items():
         text = text.replace(f"{{{name}}}", word)
     return text

@@ -12,7 +12,7 @@ from tftool.doctor.wording import several
 
 check = checks_of(Area.SHAPE)
 
-_LARGE = 64  # frames of a circle, from which on no other is looked for from each of them
+_LARGE = 64  # frames in a loop; in larger loops no further loops are searched
 
 JUDGED_EMPTY = frozenset(
     {
@@ -24,7 +24,7 @@ JUDGED_EMPTY = frozenset(
         "sensor_msgs/Range",
     }
 )
-"""Types whose messages are useless without a frame; others of sensor_msgs may do without."""
+"""Types whose messages are useless without a frame; other sensor_msgs types need none."""
 
 
 @check(
@@ -51,7 +51,7 @@ def loop(model: Model, limits: Limits) -> Iterator[Hit]:
     for start in sorted(above):
         if start in done:
             continue
-        # The shortest way up that comes back to where it began.
+        # Search for the shortest path up that returns to its start.
         waiting = deque(above[start])
         came: dict[str, Track] = {}
         while waiting:
@@ -81,13 +81,13 @@ def loop(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
-    """Return the links, from child to parent, in a loop or between two loops."""
+    """Return the links (child, parent) that are in a loop, or between two loops."""
     for _ in range(2):
         parents, children = defaultdict(set), defaultdict(set)
         for child, parent in links:
             parents[child].add(parent)
             children[parent].add(child)
-        # A frame below one root alone is in no other tree; and the other way round.
+        # A frame below only one root is not in another tree.
         roots = [name for name in children if name not in parents]
         while roots:
             root = roots.pop()
@@ -165,7 +165,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def nothing_says(model: Model, root: str) -> Fix:
-    """Return the remedy when nothing shows to what a root belongs: where to look."""
+    """Return the remedy if there is no evidence for a root's parent: where to look."""
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
     return Fix(
@@ -175,13 +175,13 @@ def nothing_says(model: Model, root: str) -> Fix:
 
 
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
-    """Whether a tree without messages repeats a name in another convention: odom and odom_ned."""
+    """Whether a tree without messages only repeats a frame with other axes: odom, odom_ned."""
     others = {f"{tree.root}_{axes}" for axes in ("ned", "enu", "frd", "flu")}
     return not topics and len(tree.frames) > 1 and tree.frames <= {tree.root, *others}
 
 
 def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
-    """Return the topics with messages in a tree's frames, and their counts."""
+    """Return the number of messages in a tree's frames, by topic."""
     counts: dict[str, int] = defaultdict(int)
     for heard in model.heard:
         if heard.is_spatial and heard.frame in tree.frames:
@@ -190,7 +190,7 @@ def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
 
 
 def _is_complete(tree: Tree) -> bool:
-    """Whether a tree is a complete robot: its own odometry and base."""
+    """Whether a tree is a complete robot: it has an odometry frame and a base frame."""
     parts = {last_part(frame) for frame in tree.frames}
     return any(part.startswith("odom") for part in parts) and not parts.isdisjoint(BASES)
 
@@ -246,7 +246,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     kinds = {topic.name: last_part(topic.type) for topic in model.evidence.topics}
     for track in model.nameless:
         if not track.parent or not track.child:
-            # A single TransformStamped is a message like others: tf2 does not listen to it.
+            # tf2 does not subscribe to topics of single TransformStamped messages.
             is_tf = any(kinds.get(topic) != "TransformStamped" for topic in track.topics)
             which = "parent" if not track.parent else "child"
             yield hit_of(

@@ -1,4 +1,4 @@
-"""Stamps and arrivals of one stream: a link's samples, or a topic's headers."""
+"""Streams of stamps with arrival times: samples of a link, or headers of a topic."""
 
 import math
 import re
@@ -18,34 +18,34 @@ Number = TypeVar("Number", bound=np.generic)
 Mask = npt.NDArray[np.bool_]
 
 Places = npt.NDArray[np.intp]
-"""Rows of a track, shape (n,)."""
+"""Indices of rows of a track, shape (n,)."""
 
 Places32 = npt.NDArray[np.int32]
 """Numbers of messages or of senders, shape (n,)."""
 
 NEVER = np.iinfo(np.int64).max
-"""Arrival of a sample that never arrives."""
+"""Arrival time of a sample that never arrives."""
 
 FAR = 2**61
-"""Nanoseconds from 1970 beyond which no moment is looked for."""
+"""Largest distance of a stamp from 1970, nanoseconds, for which differences fit into 64 bits."""
 
 WILD = seconds(3600)
-"""How far from where it belongs a single stamp is no late message and no slow clock."""
+"""Deviation of a single stamp, nanoseconds, too large for a late message or a slow clock."""
 
 FEW = 0.01
-"""What share of the stamps may be such."""
+"""Maximum fraction of a stream's stamps that may deviate so far."""
 
 ZERO_QUATERNION = 1e-12
-"""A rotation whose squared length is below this has no direction: tf2 drops it."""
+"""Squared length of a rotation below which tf2 drops the sample."""
 
 
 class Stream:
-    """Stamped items in order of their log times.
+    """Stamped items (samples or headers) in the order of their log times.
 
     Attributes:
-        stamps: Nanoseconds, shape (n,).
-        logs: Log times, shape (n,).
-        lap: Number of items in the first lap.
+        stamps: Stamps of the first lap, nanoseconds, shape (n,).
+        logs: Log times of the first lap, nanoseconds, shape (n,).
+        lap: Number of items in the first lap, before the clock jumped back.
         arrivals: Log times on the clock of the stamps; set once the clocks are known.
     """
 
@@ -58,7 +58,7 @@ class Stream:
         self.arrivals: Stamps = self.all_logs
 
     def in_order(self, column: npt.NDArray[Number]) -> npt.NDArray[Number]:
-        """Return the rows in order of log times."""
+        """Return the rows of a column in the order of log times."""
         return column if self.order is None else column[self.order]
 
     @property
@@ -84,9 +84,9 @@ class Stream:
 
     @cached_property
     def wild(self) -> Mask:
-        """Return a mask of stamps far from the arrivals around them, shape (n,).
+        """Return a mask of single stamps far from the arrivals around them, shape (n,).
 
-        None does if they are many: alternating clocks are not accident.
+        If there are many such stamps, the mask is empty: they are no accident, but another clock.
         """
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:
@@ -96,11 +96,11 @@ class Stream:
             return far
         up, down = steps > WILD, steps < -WILD
         far[1:-1] = (up[:-1] & down[1:]) | (down[:-1] & up[1:])
-        # At the ends there is one neighbour alone, which has to be at home itself.
-        # A first message that was latched is old by intention.
+        # The first and the last stamp have one neighbour only, which must be normal itself.
+        # A first stamp in the past is normal for a latched message.
         far[0] = up[0] and not far[1]
         far[-1] = (up[-1] or down[-1]) and not far[-2]
-        # Where the stamp is none, or of the other clock, that is another fault.
+        # Stamps of 0, or on the other clock, are other faults.
         is_sim = self.stamps < SIMULATED_BELOW
         far &= (self.stamps != 0) & (is_sim == (2 * np.count_nonzero(is_sim) > len(is_sim)))
         few = max(1.0, FEW * len(far))
@@ -108,17 +108,17 @@ class Stream:
 
     @cached_property
     def families(self) -> tuple[int, int]:
-        """Count the stamps on a simulation's clock and on the calendar clock, without zeros."""
+        """Return the numbers of stamps on simulation's and on wall clock; zeros are not counted."""
         zero = int(np.count_nonzero(self.stamps == 0))
         wall = int(np.count_nonzero(self.stamps >= SIMULATED_BELOW))
         return len(self.stamps) - wall - zero, wall
 
 
 class Track(Stream):
-    """All transforms of one edge in order of arrival.
+    """All transforms of one edge, in order of arrival.
 
     Attributes:
-        parent: Name without its one leading slash.
+        parent: Parent frame of the edge, without a leading slash.
         child: Child frame of the edge.
         static: Whether the samples came on a static topic.
         slashed: Number of samples whose names had a leading slash.
@@ -135,38 +135,38 @@ class Track(Stream):
 
     @property
     def edge(self) -> tuple[str, str]:
-        """Parent and child."""
+        """Names of parent and child."""
         return self.parent, self.child
 
     @property
     def name(self) -> str:
-        """Name for messages."""
+        """Name of the edge for messages: "child in parent"."""
         return f"{self.child} in {self.parent}"
 
     @cached_property
     def translations(self) -> Floats:
-        """Translations in metres, shape (n, 3), of the first lap."""
+        """Translations of the first lap, metres, shape (n, 3)."""
         return self.in_order(self._edge.translations)[: self.lap]
 
     @cached_property
     def rotations(self) -> Floats:
-        """Rotations as recorded, shape (n, 4), of the first lap."""
+        """Rotations of the first lap as recorded, x y z w, shape (n, 4)."""
         return self.in_order(self._edge.rotations)[: self.lap]
 
     @cached_property
     def senders(self) -> npt.NDArray[np.int32]:
-        """Indices into the publishers, shape (n,), of the first lap."""
+        """Index of each sample's publisher, shape (n,), in the first lap."""
         senders: npt.NDArray[np.int32] = self.in_order(self._transforms.senders_of(self._edge))
         return senders[: self.lap]
 
     @cached_property
     def messages(self) -> Places32:
-        """Numbers of the messages that contained the samples, shape (n,), of the first lap."""
+        """Number of each sample's message, shape (n,), in the first lap."""
         return self.in_order(self._edge.messages)[: self.lap]
 
     @cached_property
     def publishers(self) -> list[Publisher]:
-        """Return the publishers, with or without known names."""
+        """Return the publishers of the edge, with or without known node names."""
         senders = self.senders
         if len(senders) and senders.min() == senders.max():
             return [self._transforms.publishers[senders[0]]]
@@ -174,12 +174,12 @@ class Track(Stream):
 
     @cached_property
     def nodes(self) -> tuple[str, ...]:
-        """Return the publishing nodes, as far as known."""
+        """Return the names of the publishing nodes, as far as known."""
         return tuple(sorted({one.node for one in self.publishers if one.node}))
 
     @cached_property
     def topics(self) -> tuple[str, ...]:
-        """Return the topics."""
+        """Return the names of the topics with the edge's transforms."""
         return tuple(sorted({one.topic for one in self.publishers}))
 
     @cached_property
@@ -211,8 +211,9 @@ class Track(Stream):
 
     @cached_property
     def usable(self) -> Mask:
-        """Return a mask of the samples tf2 would store: finite, with a rotation, a stamp unless
-        static.
+        """Return a mask of the samples that tf2 would store.
+
+        Their numbers are finite, their quaternions not zero, and their stamps not 0 unless static.
         """
         if self.is_orderly:
             return self.finite
@@ -221,7 +222,7 @@ class Track(Stream):
 
     @cached_property
     def by_stamp(self) -> npt.NDArray[np.intp]:
-        """Indices of usable samples in order of stamps; equal ones in order of arrival."""
+        """Indices of usable samples in the order of stamps; for equal stamps, of arrival."""
         if self.is_orderly:
             return np.arange(self.lap)
         places = np.flatnonzero(self.usable)
@@ -230,40 +231,40 @@ class Track(Stream):
 
     @property
     def last(self) -> int:
-        """Return the index of the last valid sample; for statics the last to arrive, as in tf2.
+        """Return the index of the newest usable sample; if static, of the last to arrive.
 
         Raises:
-            IndexError: If none is usable.
+            IndexError: If no sample is usable.
         """
         return int(np.flatnonzero(self.usable)[-1] if self.static else self.by_stamp[-1])
 
     @cached_property
     def sorted_stamps(self) -> Stamps:
-        """Stamps of usable samples, ascending."""
+        """Stamps of usable samples, ascending, nanoseconds, shape (k,)."""
         stamps: Stamps = self.stamps if self.is_orderly else self.stamps[self.by_stamp]
         return stamps
 
     @cached_property
     def steps(self) -> Stamps:
-        """Differences between neighbouring sorted stamps, without zeros."""
+        """Differences between neighbouring sorted stamps, nanoseconds, without zeros."""
         steps = self.sorted_stamps[1:] - self.sorted_stamps[:-1]
         positive: Stamps = steps[steps > 0]
         return positive
 
     @cached_property
     def period(self) -> int:
-        """Median step, nanoseconds; 0 if there is none."""
+        """Median of `steps`, nanoseconds; 0 without steps."""
         return int(median(self.steps)) if len(self.steps) else 0
 
     @cached_property
     def first_arrivals(self) -> Stamps:
-        """Return when the first sample with each sorted stamp or a later one arrived, (k,)."""
+        """Return for each sorted stamp when a sample at or after it first arrived, shape (k,)."""
         arrivals = self.arrivals[self.by_stamp]
         earliest: Stamps = np.minimum.accumulate(arrivals[::-1])[::-1]
         return earliest
 
     def served_from(self, stamps: Stamps) -> Stamps:
-        """Return for each stamp when data up to it is available; NEVER if it is not."""
+        """Return for each stamp the time from which the edge has data for it, or NEVER."""
         if self.static:
             return np.full(len(stamps), np.iinfo(np.int64).min)
         places = np.searchsorted(self.sorted_stamps, stamps, side="left")
@@ -272,31 +273,31 @@ class Track(Stream):
         return served
 
     def apart(self, some: Places, others: Places) -> Floats:
-        """Return the distance between poses in metres, row by row."""
+        """Return the distances between samples `some` and `others`, metres, row by row."""
         away = self.translations[some] - self.translations[others]
         apart: Floats = np.sqrt(np.einsum("ij,ij->i", away, away))
         return apart
 
     @cached_property
     def strides(self) -> Floats:
-        """Distances in metres between neighbours by stamp, shape (k - 1,)."""
+        """Distances between samples neighbouring by stamp, metres, shape (k - 1,)."""
         return self.apart(self.by_stamp[1:], self.by_stamp[:-1])
 
     def turned(self, some: Places, others: Places) -> Floats:
-        """Return the angle between poses in radians, row by row."""
+        """Return the angles between samples `some` and `others`, radians, row by row."""
         return angles_between(unit(self.rotations[some]), unit(self.rotations[others]))
 
     def has_turns(self, some: Places, others: Places, radians: float) -> bool:
-        """Whether two poses of a row differ by more than `radians`; faster than `turned`."""
+        """Whether an angle between `some` and `others` exceeds `radians`; faster than `turned`."""
         dots = np.einsum("ij,ij->i", self.rotations[some], self.rotations[others])
         lengths = np.sqrt(self.squares[some] * self.squares[others])
         return bool((np.abs(dots) < math.cos(radians / 2.0) * lengths).any())
 
     @cached_property
     def is_localisation(self) -> bool:
-        """Whether REP-105 lets the edge jump: it places odometry or a map in a larger frame.
+        """Whether REP-105 permits jumps of the edge: the pose of odom or map in a larger frame.
 
-        Some localisers publish the inverse, the map in odometry.
+        Some localisers publish the inverse: map in odom.
         """
         parent, child = last_part(self.parent), last_part(self.child)
         if parent.startswith("odom"):
@@ -305,12 +306,12 @@ class Track(Stream):
 
     @cached_property
     def moves(self) -> bool:
-        """Whether the poses of the track differ."""
+        """Whether the poses of the edge's samples differ."""
         usable = np.flatnonzero(self.usable)
         if len(usable) < 2:
             return False
         first = usable[0]
-        # Most that move do so soon.
+        # Most moving edges move soon, so compare the first samples first.
         if len(usable) > 4096 and self._differs(usable[:2048], first):
             return True
         return self._differs(usable, first)
@@ -322,12 +323,12 @@ class Track(Stream):
 
 
 class Heard(Stream):
-    """Messages of one topic in one frame.
+    """Headers of the messages of one topic in one frame.
 
     Attributes:
         topic: Name of the topic.
         type: Type of the messages.
-        frame: The name in the headers, slash included.
+        frame: Frame name in the headers, including a leading slash.
     """
 
     def __init__(self, headers: Headers, number: int) -> None:
@@ -342,19 +343,19 @@ class Heard(Stream):
 
     @property
     def is_spatial(self) -> bool:
-        """Whether the topic's data has a position."""
+        """Whether the topic's messages contain positions."""
         return is_spatial(self.type)
 
 
 def bounded(stamps: Stamps) -> Stamps:
-    """Return stamps limited so that differences fit into 64 bits; ROS's own always do."""
+    """Return stamps clipped so that differences fit into 64 bits; ROS's stamps always do."""
     if len(stamps) and (stamps.max() > FAR or stamps.min() < -FAR):
         return np.clip(stamps, -FAR, FAR)
     return stamps
 
 
 JOINT_STATES = "sensor_msgs/JointState"
-"""Messages that robot_state_publisher makes transforms of."""
+"""Type of messages from which robot_state_publisher computes transforms."""
 
 NOT_SPATIAL = frozenset(
     {
@@ -387,7 +388,7 @@ _SPATIAL = frozenset(
 
 
 def is_spatial(kind: str) -> bool:
-    """Whether messages of a type contain data with a position."""
+    """Whether messages of a type contain positions."""
     if kind in NOT_SPATIAL:
         return False
     package, _, name = kind.partition("/")
@@ -399,14 +400,14 @@ def is_spatial(kind: str) -> bool:
 
 
 def unsorted_share(stamps: Stamps) -> int:
-    """Return the number of stamps older than one received before."""
+    """Return the number of stamps that are older than a stamp received before them."""
     if len(stamps) < 2:
         return 0
     return int(np.count_nonzero(stamps[1:] < np.maximum.accumulate(stamps)[:-1]))
 
 
 def rate(track: Stream) -> float:
-    """Return samples per second; 0.0 if unknown."""
+    """Return the rate of a track, samples per second; 0.0 if unknown."""
     if len(track.stamps) < 2:
         return 0.0
     span = int(track.stamps.max()) - int(track.stamps.min())
@@ -414,7 +415,7 @@ def rate(track: Stream) -> float:
 
 
 def overlap(tracks: Sequence[Track]) -> bool:
-    """Whether all of them exist at one common time; statics always do."""
+    """Whether there is a time at which all tracks have data; static tracks always do."""
     spans = [(int(t.sorted_stamps[0]), int(t.sorted_stamps[-1])) for t in tracks if _lives(t)]
     return not spans or max(low for low, _ in spans) <= min(high for _, high in spans)
 
@@ -433,10 +434,10 @@ _FAMILY = re.compile(
 
 
 def family(name: str) -> str:
-    """Return a name without its number, left or right, front or back."""
+    """Return a frame name without numbers and words for a side, to find families of frames."""
     return _FAMILY.sub("#", name.lower())
 
 
 def last_part(name: str) -> str:
-    """Return the last part of a name, after any namespace."""
+    """Return the last part of a frame name, after any namespace."""
     return name.rsplit("/", 1)[-1]

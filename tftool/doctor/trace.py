@@ -1,4 +1,4 @@
-"""State of one listener at one time, and each link's answer to its lookup."""
+"""State of an assumed listener's buffer at one time, and each link's outcome for its lookup."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -20,11 +20,11 @@ from tftool.recordings.contract import Stamps
 from tftool.recordings.recording import MOST_FRAMES
 
 MOST_SET = 200_000
-"""Samples of one link that the imagined buffer is given: the newest ones."""
+"""Maximum number of samples of one link in the assumed buffer; the newest are used."""
 
 
 class LinkVerdict(Enum):
-    """Outcome of a link for a lookup."""
+    """Outcome of a lookup at one link."""
 
     ANSWERS = "answers"
     FORWARD = "forward"
@@ -38,17 +38,17 @@ class TracedLink:
     """One link of the path, with the samples of the assumed listener.
 
     Attributes:
-        parent: Parent.
-        child: Child.
+        parent: Parent frame.
+        child: Child frame.
         is_static: Whether the link is static.
         publisher: Sender of the link; None if unknown.
-        count: Samples held.
-        oldest: Stamp of the oldest one held, of a static its arrival; None where none is.
-        newest: Stamp of the newest one held.
-        period: Median step of its stamps, nanoseconds; 0 where there is none.
-        latency: Median of arrival minus stamp, nanoseconds.
-        verdict: Result of the lookup at this link.
-        short_by: Distance of the question from the data, nanoseconds.
+        count: Number of samples in the buffer.
+        oldest: Stamp of the oldest sample in the buffer, or arrival if static; None without one.
+        newest: Stamp of the newest sample in the buffer, or arrival if static; None without one.
+        period: Median period, nanoseconds; 0 if unknown.
+        latency: Median time from stamp to arrival, nanoseconds.
+        verdict: Outcome of the lookup at this link.
+        short_by: Time between the lookup and the nearest data, nanoseconds.
     """
 
     parent: str
@@ -65,12 +65,12 @@ class TracedLink:
 
     @property
     def edge(self) -> Edge:
-        """Parent and child."""
+        """Names of parent and child."""
         return self.parent, self.child
 
     @property
     def name(self) -> str:
-        """Name for messages."""
+        """Name of the link for messages: "child in parent"."""
         return f"{self.child} in {self.parent}"
 
 
@@ -79,14 +79,14 @@ class Question:
     """A lookup, and the listener that makes it.
 
     Attributes:
-        target: The frame to express things in.
-        source: Frame of the given points.
-        stamp: The moment; 0 for the latest.
-        asked: Log time of the lookup; None for the arrival of the message of that
-            stamp in the source frame, else the moment itself.
+        target: Target frame.
+        source: Source frame.
+        stamp: Time of the lookup; 0 for the latest.
+        asked: Log time at which the lookup is made; None for the arrival of the message with that
+            stamp in the source frame, or without one the stamp itself.
         settings: Settings of the listener.
-        timeout: Time to wait, nanoseconds.
-        topic: The topic whose message asks; empty where none does.
+        timeout: Time that the listener waits, nanoseconds.
+        topic: Topic of the message that is looked up; empty if there is none.
     """
 
     target: str
@@ -99,10 +99,10 @@ class Question:
 
 
 def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Stamp]:
-    """Return a topic's message stamped nearest to a time; without a time the first.
+    """Return the message of a topic with the stamp nearest to a time; for None the first message.
 
     Returns:
-        The messages of its frame, and its stamp.
+        The stream with the message, and the message's stamp.
 
     Raises:
         InputError: If there is no message with a header on the topic.
@@ -126,7 +126,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
 
 
 class LookupTrace:
-    """Trace of one lookup."""
+    """Trace of one lookup of an assumed listener through its links."""
 
     def __init__(self, model: Model, question: Question) -> None:
         self.model = model
@@ -138,7 +138,7 @@ class LookupTrace:
         self.asked, self.because, self.after = self._asked()
 
     def _message(self) -> Heard | None:
-        """Return the messages asked about: of the named topic, else in the source frame."""
+        """Return the stream of the message to look up: of the given topic, or source frame."""
         for heard in self.model.heard:
             if heard.frame != self.question.source or not len(heard.stamps):
                 continue
@@ -162,26 +162,26 @@ class LookupTrace:
                 return int(self.heard.logs[place]) + self.question.timeout, told, after
         return self.model.log_of(self.stamp) + self.question.timeout, "at that moment", 0
 
-    # Held samples
+    # Samples in the buffer
 
     def arrived(self, track: Track) -> "np.ndarray[tuple[int], np.dtype[np.intp]]":
-        """Return the indices of usable samples that had arrived."""
+        """Return the indices of an edge's usable samples that had arrived."""
         places: np.ndarray[tuple[int], np.dtype[np.intp]] = np.flatnonzero(
             track.usable & (track.logs <= self.asked)
         )
         return places
 
     def held(self, track: Track) -> Stamps:
-        """Return the stamps in the buffer, sorted: arrived and not pruned."""
+        """Return the sorted stamps of an edge in the buffer: arrived and not pruned."""
         stamps = track.stamps[self.arrived(track)]
         if not track.static and len(stamps) > 1:
-            # tf2 prunes before it inserts: by the newest stamp without the last one.
+            # tf2 prunes before it inserts: by the newest stamp before the last sample.
             stamps = stamps[stamps >= self.newest_before(stamps) - self.cache]
         return np.sort(stamps)
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """Return the newest stamp before the last; the only one if there is one."""
+        """Return the newest of the stamps without the last one; of one stamp, this stamp."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:
@@ -194,7 +194,7 @@ class LookupTrace:
         return None if legs is None else [*legs[0], *reversed(legs[1])]
 
     def _parent(self, frame: str) -> Track | None:
-        """Return the edge above a frame at the lookup's time; of several, the nearest in time."""
+        """Return the edge above a frame at the lookup's time; of several the nearest in time."""
         tracks = [t for t in self.model.edges_above.get(frame, ()) if len(t.by_stamp)]
         if len(tracks) < 2:
             return tracks[0] if tracks else None
@@ -203,11 +203,11 @@ class LookupTrace:
         return min(tracks, key=lambda track: int(np.abs(track.sorted_stamps - self.stamp).min()))
 
     def link(self, track: Track) -> TracedLink:
-        """Return one edge's samples in the buffer, and its outcome for the lookup."""
+        """Return an edge with its samples in the buffer, and the lookup's outcome at this edge."""
         held = self.held(track)
         verdict, short_by = self._verdict(track, held)
         if track.static and len(held):
-            # It holds since it is known, whatever its stamp says.
+            # A static link is valid since its arrival, whatever its stamp.
             since = int(track.arrivals[self.arrived(track)[0]])
             held = np.full(len(held), since)
         return TracedLink(
@@ -241,12 +241,12 @@ class LookupTrace:
         return LinkVerdict.ANSWERS, 0
 
     def buffer(self) -> Buffer:
-        """Return a buffer with the samples that had arrived."""
-        # As many as the recording may have: where a frame is missing must be the robot's fault.
+        """Return a buffer with all samples that had arrived."""
+        # Allow as many frames as a recording: no frame may be missing because of a limit.
         buffer = Buffer(self.cache, log=_silent, max_frames=MOST_FRAMES)
         sent = [(track, self.arrived(track)[-MOST_SET:]) for track in self.model.tracks]
         sent = [(track, places) for track, places in sent if len(places)]
-        # Of a frame that is sent as static and as moving, the kind that came last is kept.
+        # If a frame is sent as static and as moving, the kind received last is kept.
         for track, places in sorted(sent, key=lambda one: int(one[0].logs[one[1][-1]])):
             if not track.static:
                 buffer.set_transforms(
@@ -268,12 +268,12 @@ class LookupTrace:
         return buffer
 
     def settle(self, way: Sequence[Track]) -> None:
-        """For a lookup of the latest, determine its time: the newest common one."""
+        """Set the time of a lookup of the latest: the newest time with data for all edges."""
         if self.stamp == LATEST:
             newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
             self.moment = min(newest, default=LATEST)
 
-    # When it answers
+    # Times at which the lookup succeeds
 
     def answerable(self, tracks: Sequence[Track]) -> tuple[Stamp | None, Stamp | None]:
         """Return the log times between which the lookup can succeed."""
@@ -296,7 +296,7 @@ class LookupTrace:
             begins.append(max(first, int(logs[before])))
             pruned = int(np.searchsorted(stamps, int(stamps[before]) + self.cache, side="right"))
             if pruned + 1 < len(stamps):
-                # The next insert prunes, by the newest sample before it.
+                # The next insertion prunes, by the newest sample before it.
                 ends.append(int(np.partition(logs[pruned:], 1)[1]))
         begin = max(begins, default=self.asked)
         end = min(ends, default=None)
@@ -304,4 +304,4 @@ class LookupTrace:
 
 
 def _silent(_level: str, _text: str) -> None:
-    """Log nothing: the checks report the failures of the assumed buffer."""
+    """Ignore log lines of the assumed buffer: the checks report its failures."""

@@ -255,7 +255,7 @@ def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _stem(name: str) -> str | None:
-    """Return an optical frame's name without its optical suffix."""
+    """Return an optical frame's name without its optical suffix; None for other frames."""
     part = last_part(name)
     for ending in _ENDINGS:
         if part.endswith(ending):
@@ -285,7 +285,7 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         axes = _axes_on_robot(model, heard.frame)
         if axes is not None and axes[0][2] < -_UPRIGHT:
-            continue  # its y looks down: an optical frame by another name
+            continue  # its y axis points down: an optical frame with another name
         is_body = axes is not None and axes[1][2] > _UPRIGHT
         joint = 'add a fixed joint with rpy="-1.5708 0 -1.5708", and name its frame in the driver'
         yield hit_of(
@@ -307,11 +307,11 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 _UPRIGHT = 0.7
-"""How far up an axis looks that is upright: 45° or less from it."""
+"""Minimum vertical component of a unit axis that points up: at most 45° from vertical."""
 
 
 def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
-    """Return the directions of a frame's y and z on the robot; None if unknown."""
+    """Return the directions of a frame's y and z axes on the robot; None if unknown."""
     if frame not in model.frames:
         return None
     turn = IDENTITY
@@ -366,7 +366,7 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_same_base(model: Model, told: Track) -> bool:
-    """Whether tf has another frame of the robot's base where a message names one."""
+    """Whether tf only has other frames of the robot's base between a message's child and parent."""
     above = model.above(told.child)
     parents = [track.parent for track in above]
     if told.parent not in parents:
@@ -402,7 +402,7 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
 def _disagreement(
     track: Track, told: Track, topic: str, end: Stamp, limits: Limits
 ) -> "Hit | None":
-    """Return how far the two differ at equal stamps, if that is too much too often."""
+    """Return a hit if tf and a message's poses differ too much, too often, at equal stamps."""
     if track.static:
         return None
     places = told.by_stamp[told.logs[told.by_stamp] <= end]

@@ -1,6 +1,6 @@
-"""Numbers of a finding formatted for the sentences of the checks, and its lines of evidence.
+"""Formatting of facts for the sentences of the checks, and of lines of evidence.
 
-One line tells what many frames have in common.
+Similar observations about many frames are merged into one line.
 """
 
 import string
@@ -13,7 +13,7 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
 from tftool.doctor.findings import Fact, Hit
 
 MOST_NAMED = 5
-"""How many of a list are written out."""
+"""Maximum number of items of a list that are printed."""
 
 
 def span(nanoseconds: float) -> str:
@@ -38,7 +38,7 @@ def span(nanoseconds: float) -> str:
 
 
 def arrival(latency: float) -> str:
-    """Format the time from stamp to arrival: "20 ms after its stamp", or before."""
+    """Format the time from stamp to arrival: "20 ms after its stamp", "20 ms before its stamp"."""
     if abs(latency) < 1e5:
         return "as soon as it is stamped"
     return f"{span(abs(latency))} {'after' if latency > 0 else 'before'} its stamp"
@@ -52,7 +52,7 @@ def moment(stamp: int) -> str:
 
 
 def dated(stamp: int) -> str:
-    """Format a stamp with its date, or as a simulation's."""
+    """Format a stamp with its date, or marked as a simulation's."""
     if stamp < SIMULATED_BELOW:
         return f"{moment(stamp)} (simulation)"
     day = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=stamp // 1000)
@@ -68,7 +68,7 @@ def metres(length: float) -> str:
 
 
 def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
-    """Format a list, cut after its first items: "a, b and 12 more"."""
+    """Format a list with its first items: "a, b and 12 more"."""
     shown = [str(name) for name in names[:most]]
     rest = len(names) - len(shown)
     return f"{', '.join(shown)} and {rest} more" if rest else ", ".join(shown)
@@ -76,20 +76,22 @@ def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
 
 @dataclass(frozen=True, slots=True)
 class NearNumbers:
-    """Numbers that are nearly the same, by their ends."""
+    """Range of nearly equal numbers: the smallest and the largest."""
 
     low: float
     high: float
 
 
 def filled(template: str, facts: Mapping[str, Fact]) -> str:
-    """Fill a sentence of a check with its facts."""
+    """Return a check's sentence with its placeholders replaced by formatted facts."""
     return _FORMATTER.vformat(template, (), facts)
 
 
 class _Words(string.Formatter):
-    """`{wait:span}`, `{at:moment}`, `{at:dated}`, `{jump:m}`, `{turn:deg}`, `{share:%}`, and words
-    for one or for many: `{concerned:is|are}`.
+    """Formatter of placeholders in the sentences of checks.
+
+    The formats are `{wait:span}`, `{at:moment}`, `{at:dated}`, `{jump:m}`, `{turn:deg}`,
+    `{share:%}`, and `{concerned:is|are}` for words that depend on a number.
     """
 
     def format_field(self, value: Any, format_spec: str) -> Any:
@@ -131,20 +133,20 @@ _FORMATTER = _Words()
 
 
 ALIKE = 0.1
-"""Share by which numbers may differ that are told in one line."""
+"""Maximum relative difference of numbers that are printed in one line."""
 
 MOST_IN_LINE = 3
-"""Frames or topics of one line that are named; of more, the publisher is."""
+"""Maximum number of frames or topics named in one line; for more, the publisher is named."""
 
 _SUBJECTS = ("edge", "what", "frame", "topic", "child")
 _MOMENTS = ("moment", "dated")
 
 
 def evidence_lines(detail: str, hits: Sequence[Hit]) -> list[str]:
-    """Return a check's line for each hit, and one line for hits that say the same of many frames.
+    """Return a line of evidence for each hit; similar hits about many frames share one line.
 
     Args:
-        detail: The check's line, with the names of facts.
+        detail: The check's line, with placeholders for facts.
         hits: Hits of one finding.
     """
     subject, colon, rest = detail.partition(": ")
@@ -168,7 +170,7 @@ def _facts(hit: Hit) -> dict[str, Fact]:
 
 
 def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
-    """Whether two hits of the same publishers and kind say the same, but for small differences."""
+    """Whether two hits have the same publishers and kind, and nearly equal facts."""
     kinds = [(bool(one.edges), bool(one.topics), one.publishers) for one in (first, other)]
     if kinds[0] != kinds[1]:
         return False
@@ -185,7 +187,7 @@ def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
 
 
 def _line(name: str, rest: str, hits: Sequence[Hit], told: Sequence[tuple[str, str]]) -> str:
-    """Return the line of hits that say the same."""
+    """Return the common line of similar hits."""
     facts = _facts(hits[0])
     for key, _ in told:
         values = [_facts(hit).get(key) for hit in hits]

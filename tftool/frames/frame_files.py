@@ -1,4 +1,4 @@
-"""Reading frames from files: recordings, robot descriptions, static transforms."""
+"""Reader of frames from files: recordings, robot descriptions, static transforms."""
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
@@ -16,7 +16,7 @@ from tftool.robots.robot_model import Robot, load_urdf
 def read_frames(
     found: Found, robot: DescriptionOptions, recording: RecordingOptions, progress: Progress | None
 ) -> Frames:
-    """Read a recording, a robot description or a file of static transforms."""
+    """Return the frames of a recording, a robot description or a file of static transforms."""
     if found.kind.is_recording:
         return _read_recording(found, robot, recording, progress)
     recording.refuse(f"'{found.name}' is a {found.kind.value}")
@@ -46,7 +46,7 @@ def _read_recording(
 
 
 def _robot_beside(options: DescriptionOptions) -> Robot | None:
-    """Read a recording's robot description."""
+    """Return the robot of the description given for a recording; None without one."""
     if options.joints:
         options.refuse("The joints of a recording cannot be set")
     if options.urdf is None and not options.arguments:
@@ -72,7 +72,7 @@ def _described(found: Found, options: DescriptionOptions) -> Frames:
 
 
 def load_described(found: Found, options: DescriptionOptions) -> Robot:
-    """Read the description named by FROM.
+    """Read the robot description that the user named.
 
     Raises:
         InputError: If the description cannot be read or has mistakes.
@@ -80,7 +80,7 @@ def load_described(found: Found, options: DescriptionOptions) -> Robot:
     """
     if options.urdf is not None:
         raise UsageError(
-            f"--urdf goes with a recording, and '{visible(found.name)}' is a robot description."
+            f"--urdf is for a recording, but '{visible(found.name)}' is a robot description."
         )
     return load_urdf(found.paths[0], options.arguments)
 

@@ -1,4 +1,4 @@
-"""Frames over their whole time span: the value that an opened FROM is."""
+"""Frames over their whole time span, as returned by `tftool.open`."""
 
 from typing import TYPE_CHECKING, Literal, Self, TypeAlias
 
@@ -19,10 +19,10 @@ FramesKind: TypeAlias = Literal[
 
 
 class Frames:
-    """The frames of a recording, a robot description, a statics file, a scenario or a session.
+    """Frames of a recording, a robot description, a file of statics, a scenario or a session.
 
-    `tftool.open` makes one. Nothing is pruned: every moment can be looked up. It works in a `with`,
-    whose end closes the files; data already read stays.
+    `tftool.open` returns it. Nothing is pruned: lookups work at every recorded time. At the end of
+    a `with` block the files are closed; data already read stays.
 
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
@@ -31,7 +31,7 @@ class Frames:
         kind: Kind of the source.
         name: Name of the source: "run.mcap", "turtles".
         found: Files that were read; None for a session.
-        log: Every transform as it arrived, of a scenario or a session; else None.
+        log: Log of all transforms as they arrived, for a scenario or a session; else None.
     """
 
     def __init__(
@@ -47,18 +47,18 @@ class Frames:
         found: "Found | None" = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        """Make frames from opened files; a recording provides its buffer, span, robot and notes.
+        """Wrap opened frames; a recording provides its buffer, span, robot and notes.
 
         Args:
             kind: Kind of the source.
-            name: Name.
-            buffer: All that is known of the frames.
+            name: Name of the source.
+            buffer: Buffer with all frames; None for a recording.
             span: First and last stamp; None for static transforms.
-            recording: Recording that was read.
-            robot: The robot.
-            log: Every transform as it arrived.
-            found: Files that were read.
-            notes: Notes on them, as sentences.
+            recording: Recording that was read, if any.
+            robot: Robot of the description, if any.
+            log: Log of all transforms as they arrived, if any.
+            found: Files that were read, if any.
+            notes: Sentences about the files.
         """
         self.kind: FramesKind = kind
         self.name = name
@@ -88,31 +88,31 @@ class Frames:
 
     @property
     def title(self) -> str:
-        """Kind and name for a sentence: "recording 'run.mcap'"."""
+        """Kind and name of the source, for a sentence: "recording 'run.mcap'"."""
         if self.kind == "session":
             return self.name
         return f"{self.kind} '{visible(self.name)}'"
 
     @property
     def label(self) -> str:
-        """Name of a file as it was given, else the title."""
+        """Name of the file as the user gave it; without a file, the title."""
         return self.title if self.kind in ("scenario", "session") else self.name
 
     @property
     def buffer(self) -> Buffer:
-        """Buffer of all frames; nothing is pruned."""
+        """Buffer with all frames, in which nothing is pruned."""
         if self._buffer is None:
             self._buffer = Buffer() if self._recording is None else self._recording.buffer
         return self._buffer
 
     @property
     def recording(self) -> "Recording | None":
-        """Recording that the frames were read from."""
+        """Recording that the frames were read from; None for other sources."""
         return self._recording
 
     @property
     def robot(self) -> "Robot | None":
-        """Robot of the description or recording."""
+        """Robot of the description or recording; None without one."""
         return self._robot if self._recording is None else self._recording.robot
 
     @property
@@ -136,14 +136,14 @@ class Frames:
 
     @property
     def moving(self) -> frozenset[str] | None:
-        """Links of a description with a movable joint; None for other frames."""
+        """Links of a robot description with a movable joint; None for other sources."""
         if self.kind != "robot description" or self._robot is None:
             return None
         return frozenset(one.child for one in self._robot.joints.values() if one.moves)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Return notes as sentences: damage, gaps, joints without a position."""
+        """Return sentences about damage, gaps and joints without a position."""
         if self._recording is None:
             return self._notes
         from tftool.frames.notes import recording_notes
@@ -151,15 +151,15 @@ class Frames:
         return tuple(recording_notes(self._recording))
 
     def at(self, time: float) -> Stamp:
-        """Return the stamp this many seconds after the start; 0 for static transforms."""
+        """Return the stamp at some seconds after the start; 0 (latest) for static transforms."""
         start = self.start
         return LATEST if start is None else start + seconds(time)
 
     def moment(self, at: At) -> Stamp:
-        """Return the stamp of a time given as for `--at`.
+        """Return the stamp of a time as given for `--at`.
 
         Raises:
-            UsageError: If the moment is before the beginning or after the end.
+            UsageError: If the time is before the beginning or after the end.
         """
         start, end = self.span
         received = 0

@@ -1,4 +1,4 @@
-"""Notes about frames that were read: damage, gaps, joints without a position."""
+"""Sentences about frames that were read: damage, gaps, joints without a position."""
 
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def recording_notes(recording: "Recording") -> list[str]:
-    """Return notes on damage and oddities of a recording, and on links a description adds."""
+    """Return sentences about a recording's damage, unusual facts, and added links."""
     return [
         *recording.damage,
         *odometry_notes(recording),
@@ -24,7 +24,7 @@ def recording_notes(recording: "Recording") -> list[str]:
 
 
 def odometry_notes(recording: "Recording") -> Iterator[str]:
-    """Return notes on messages that count as transforms, or could."""
+    """Yield sentences about odometry and poses that are used, or could be used, as transforms."""
     for topic in recording.odometry:
         messages = count(topic.count, "message")
         yield f"'{topic.name}' ({topic.type}, {messages}) is taken for transforms."
@@ -38,7 +38,7 @@ def odometry_notes(recording: "Recording") -> Iterator[str]:
 
 
 def _described_notes(described: "DescribedFrames | None") -> Iterator[str]:
-    """Return notes on links added from a robot's description."""
+    """Yield sentences about links added from a robot's description."""
     if described is None:
         return
     added = len(described.still) + len(described.moving)
@@ -56,11 +56,11 @@ def _described_notes(described: "DescribedFrames | None") -> Iterator[str]:
 
 
 def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
-    """Return a note on joint positions beyond their limits; they are used nevertheless.
+    """Yield a sentence about given joint positions beyond their limits, which are used anyway.
 
     Args:
         robot: Robot of the joints.
-        given: Positions by joint, of joints it has.
+        given: Positions by joint; all joints belong to the robot.
     """
     for name, position in given.items():
         joint = robot.joints[name]
@@ -73,7 +73,7 @@ def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
 
 
 def joints_at_rest(robot: "Robot", given: Collection[str], name: str) -> Iterator[str]:
-    """Return a note on the number of movable joints without a position."""
+    """Yield a sentence about the number of movable joints without a position."""
     at_rest = sum(
         joint.moves and joint.name not in given and robot.leader(joint.name, given) not in given
         for joint in robot.joints.values()

@@ -1,4 +1,4 @@
-"""One pair at many times: the times, and where and why lookups fail."""
+"""Poses of one frame in another at many times, with the times and reasons of failed lookups."""
 
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
@@ -15,10 +15,10 @@ from tftool.geometry import rigid_arrays as batch
 Stamps: TypeAlias = npt.NDArray[np.int64]
 
 MOST_MOMENTS: Final = 20_000_000
-"""Moments of one pair that are asked for at once: 1.3 GB of poses, days of a hundred a second."""
+"""Maximum number of lookups for one pair: 1.3 GB of poses, or days at 100 Hz."""
 
 MOST_REASONS: Final = 200
-"""Runs of refused moments whose reason is asked for; of more, the rest goes without."""
+"""Maximum number of runs of failed lookups whose reason is determined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,10 +26,10 @@ class RefusedRun:
     """Consecutive times at which the lookup fails.
 
     Attributes:
-        first: First refused time, nanoseconds.
-        last: Last refused time, nanoseconds.
-        count: Number of refused times.
-        reason: tf2's message for the first.
+        first: First time without a pose, nanoseconds.
+        last: Last time without a pose, nanoseconds.
+        count: Number of these times.
+        reason: tf2's error message for the first time.
     """
 
     first: Stamp
@@ -40,13 +40,13 @@ class RefusedRun:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
-    """The pose of one frame in another over time.
+    """Poses of one frame in another over time.
 
     Attributes:
-        path: A row for each moment, NaN where the lookup refuses. Quaternions do not jump
-            from one sign to the other.
-        refusals: Refused spans, in the order of time.
-        moments: Description of the moments: "at the stamps of 'odom'".
+        path: One row for each time, NaN if the lookup fails. The signs of the quaternions are
+            continuous.
+        refusals: Runs of failed lookups, in the order of time.
+        moments: Description of the times: "at the stamps of 'odom'".
     """
 
     path: TransformArray
@@ -60,7 +60,7 @@ class Trajectory:
 
     @property
     def source(self) -> str:
-        """Return the frame whose poses they are."""
+        """Return the frame whose poses are given."""
         return self.path.child_frame_id
 
     @property
@@ -75,15 +75,15 @@ class Trajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moments:
-    """Choice of the times for lookups.
+    """Choice of the times at which a pair is looked up.
 
     Attributes:
-        start: First moment, nanoseconds; None for the first there is data of.
-        end: Last moment; None for the last there is data of.
-        period: Ask so often, nanoseconds, from the start on; None for the stamps of the link
-            that has most of them in a second.
-        stamps: Ask at these instead, shape (n,).
-        words: Description of `stamps` for people.
+        start: First time, nanoseconds; None for the first stamp.
+        end: Last time, nanoseconds; None for the last stamp.
+        period: Time between lookups, nanoseconds; None for the stamps of the link with the
+            shortest period.
+        stamps: Times to use instead, nanoseconds, shape (n,).
+        words: Description of `stamps` for messages.
     """
 
     start: Stamp | None = None
@@ -94,18 +94,18 @@ class Moments:
 
 
 def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = None) -> Trajectory:
-    """Look a pair up at many times.
+    """Look up the pose of one frame in another at many times.
 
     Args:
         buffer: Source of the frames.
         target: Frame in which the results are expressed.
         source: Frame to look up.
-        moments: Times of the lookups; the stamps of the fastest link between the two if None.
+        moments: Times of the lookups; None for the stamps of the fastest link between the frames.
 
     Raises:
-        TransformException: If a name is unknown, nothing joins the two, or there is a pose at
-            none of the moments.
-        UsageError: If there is no such moment, or more than `MOST_MOMENTS`.
+        TransformException: If a name is unknown, no links join the frames, or there is no pose at
+            any of the times.
+        UsageError: If there are no times, or more than `MOST_MOMENTS`.
     """
     moments = moments or Moments()
     asked, words = _asked(buffer, target, source, moments)
@@ -115,17 +115,17 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
             f"There is nothing to look up: {words}, there is no moment in the requested span."
         )
     if not path.valid.any():
-        # Says why, of the first.
+        # Raises the error for the first time.
         buffer.lookup_transform(target, source, int(asked[0]))
     path = replace(path, rotations=continuous(path.rotations, path.valid))
     return Trajectory(path, _refusals(buffer, path), words)
 
 
 def only_chain(buffer: Buffer) -> tuple[str, str]:
-    """Return the root and the leaf of frames that form a single chain.
+    """Return the root and the last frame of the only chain of frames in a buffer.
 
     Raises:
-        InputError: If there are several.
+        InputError: If there are several chains.
     """
     frames = buffer.frames()
     parents = {frame: buffer.parent(frame) for frame in frames}
@@ -140,7 +140,7 @@ def only_chain(buffer: Buffer) -> tuple[str, str]:
 
 
 def trajectory_of(path: TransformArray) -> Trajectory:
-    """Return known poses as a trajectory, without reasons for missing rows."""
+    """Return poses as a trajectory, without reasons for rows without a pose."""
     turned = replace(path, rotations=continuous(path.rotations, path.valid))
     runs = tuple(
         RefusedRun(int(path.stamps[first]), int(path.stamps[end - 1]), end - first, "")
@@ -153,19 +153,19 @@ def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
     """Return the children of all links between two frames, by their last parents.
 
     Raises:
-        TransformException: If a name is unknown, or nothing joins the two.
+        TransformException: If a name is unknown, or no links join the frames.
     """
     above = [_ancestors(buffer, frame) for frame in (target, source)]
     shared = next((frame for frame in above[0] if frame in above[1]), None)
     if shared is None or not all(map(buffer.frame_exists, (target, source))):
-        # Refuses, with the reason.
+        # Raises an error with the reason.
         buffer.lookup_transform(target, source)
         return []
     return [frame for side in above for frame in side[: side.index(shared)]]
 
 
 def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
-    """Return the link with the shortest sample period, and its stamps; None if none moves."""
+    """Return the link with the shortest sample period, and its stamps; None if all are static."""
     found: tuple[float, int, str, Stamps] | None = None
     for frame in links:
         held = buffer.samples(frame)
@@ -179,7 +179,7 @@ def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
 
 
 def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
-    """Return first and last stamp of the moving links; 0 and 0 if none moves."""
+    """Return the first and the last stamp of moving links; 0 and 0 if all are static."""
     ends = []
     for frame in links:
         held = buffer.samples(frame)
@@ -189,11 +189,11 @@ def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
 
 
 def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = None) -> batch.Floats:
-    """Return the rotations with signs chosen for continuity; NaN rows are skipped.
+    """Return rotations with the quaternions' signs changed to be continuous; NaN rows are skipped.
 
     Args:
         rotations: Unit quaternions x y z w, shape (n, 4).
-        valid: Mask of the valid ones, shape (n,); all if None.
+        valid: Mask of the valid rotations, shape (n,); None if all are valid.
     """
     held = rotations if valid is None or valid.all() else rotations[valid]
     if len(held) < 2:
@@ -211,7 +211,7 @@ def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = No
 
 
 def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
-    """Return evenly spaced times from `start` to `end`; 1 replaces 0, which would mean the latest.
+    """Return evenly spaced times from `start` to `end`; 0, which means the latest, becomes 1.
 
     Raises:
         UsageError: If there are more than `MOST_MOMENTS`.
@@ -220,7 +220,7 @@ def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
     if count > MOST_MOMENTS:
         raise UsageError(
             f"Every {as_seconds(period):g} s over {as_seconds(end - start):,.0f} s would be "
-            f"{count:,} moments, and {MOST_MOMENTS:,} is the most: ask at a lower rate. If "
+            f"{count:,} times, but at most {MOST_MOMENTS:,} are possible: use a lower rate. If "
             "the recording is shorter, a stamp is wrong: 'tftool info' shows the first and "
             "last one."
         )
@@ -239,7 +239,7 @@ def _asked(buffer: Buffer, target: str, source: str, moments: Moments) -> tuple[
         return evenly(start, end, moments.period), f"every {as_seconds(moments.period):g} s"
     found = fastest(buffer, links)
     if found is None:
-        # Any moment will do: the first there is data of, as stamp 0 would mean the latest.
+        # Any time is right. Use the first stamp, because 0 would mean the latest.
         alone = max(1, moments.start or moving_span(buffer, buffer.frames())[0])
         return np.array([alone], dtype=np.int64), "at one moment, as nothing moves between the two"
     return _within(found[1], moments), f"at the stamps of '{found[0]}'"
@@ -255,7 +255,7 @@ def _within(stamps: Stamps, moments: Moments) -> Stamps:
 
 
 def _ancestors(buffer: Buffer, frame: str) -> list[str]:
-    """Return a frame and all above it, up to a root or once around a loop."""
+    """Return a frame and all its ancestors, up to a root or once around a loop."""
     found = {frame: None}
     above = buffer.parent(frame)
     while above is not None and above not in found:
@@ -276,7 +276,7 @@ def _refusals(buffer: Buffer, path: TransformArray) -> tuple[RefusedRun, ...]:
 
 
 def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return runs of set flags: the first index, and the one after the last."""
+    """Return the runs of true flags: first index, and index after the last."""
     edges = np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))
     firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return list(zip(firsts.tolist(), ends.tolist(), strict=True))

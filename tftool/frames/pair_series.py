@@ -1,4 +1,4 @@
-"""Curves of a trajectory over time, grouped in panels, with gaps where data is missing.
+"""Curves of trajectories over time, grouped in panels, with gaps where data is missing.
 
 Times are seconds since one start, so that a plot's axis agrees with `--from` and `--at`.
 """
@@ -20,10 +20,10 @@ from tftool.geometry import rigid_arrays as batch
 Floats = batch.Floats
 
 MOST_TOLD: Final = 3
-"""Refused spans that are told with their reason."""
+"""Maximum number of spans without poses whose reason is printed."""
 
 LONG_SILENCE: Final = 10.0
-"""So many usual periods without a moment are a gap."""
+"""Number of median periods without a sample that count as a gap."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,10 +31,10 @@ class PlotCurve:
     """One curve of a panel.
 
     Attributes:
-        label: Label: "x", or with several pairs "laser in map".
-        place: Number of its pair, counted from 0.
-        times: Seconds, shape (n,).
-        values: In the panel's unit, shape (n,); NaN where the line is broken.
+        label: Label of the curve: "x", or with several pairs "laser in map".
+        place: Index of the pair, from 0.
+        times: Times in seconds, shape (n,).
+        values: Values in the panel's unit, shape (n,); NaN in gaps.
     """
 
     label: str
@@ -45,12 +45,12 @@ class PlotCurve:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotPanel:
-    """Curves on one axis.
+    """Curves that share an axis.
 
     Attributes:
         title: Title of the panel: "position".
-        unit: "m", "°", "m/s", "°/s".
-        curves: In their order.
+        unit: Unit of the values: "m", "°", "m/s", "°/s".
+        curves: The curves, in order.
     """
 
     title: str
@@ -58,7 +58,7 @@ class PlotPanel:
     curves: tuple[PlotCurve, ...]
 
     def limits(self) -> tuple[float, float]:
-        """Return lowest and highest value, widened if they are equal."""
+        """Return the lowest and the highest value of the curves, widened if they are equal."""
         values = np.concatenate([one.values for one in self.curves] or [np.zeros(1)])
         values = values[np.isfinite(values)]
         low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
@@ -107,14 +107,14 @@ _GROUPS: Final[dict[str, tuple[str, tuple[str, ...], Callable[[TransformArray], 
 }
 
 QUANTITIES: Final = tuple(name for _, names, _ in _GROUPS.values() for name in names)
-"""Everything that can be drawn over time."""
+"""Names of all quantities that can be drawn over time."""
 
 
 def chosen(words: Sequence[str]) -> tuple[str, ...]:
-    """Return the quantities named by words: their own names, or those of panels.
+    """Return the quantities that words name: a quantity, or a panel for all of its quantities.
 
     Raises:
-        UsageError: If a word names none.
+        UsageError: If a word is neither.
     """
     found: list[str] = []
     for word in words:
@@ -125,18 +125,18 @@ def chosen(words: Sequence[str]) -> tuple[str, ...]:
             found.append(name)
         else:
             listed = ", ".join(dict.fromkeys((*_GROUPS, *QUANTITIES)))
-            raise UsageError(f"'{word}' cannot be plotted; there is {listed}.")
+            raise UsageError(f"'{word}' cannot be plotted; use {listed}.")
     return tuple(dict.fromkeys(found)) or QUANTITIES
 
 
 def panels(
     found: Sequence[Trajectory], start: Stamp, quantities: Sequence[str] = QUANTITIES
 ) -> list[PlotPanel]:
-    """Return curves over time: for one pair by kind, for several a panel per quantity.
+    """Return panels of curves over time: for several pairs, one panel per quantity.
 
     Args:
-        found: The pairs.
-        start: The moment that is 0 on the axis.
+        found: Trajectories of the pairs.
+        start: Stamp of 0 on the time axis.
         quantities: Quantities to draw, of `QUANTITIES`.
     """
     several = len(found) > 1
@@ -162,13 +162,13 @@ def panels(
 
 
 def shades(found: Sequence[Trajectory], start: Stamp) -> list[RefusedSpan]:
-    """Return the spans in which lookups fail, in order of time."""
+    """Return the spans in which lookups of any pair fail, in order of time."""
     spans = [_shade(run, start) for one in found for run in one.refusals]
     return sorted(spans, key=lambda span: span.first)
 
 
 def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
-    """Return a sentence for each of the first spans, and the number of further ones."""
+    """Return a sentence with the reason for each of the first spans, and one about the others."""
     told = []
     for one in spans[:MOST_TOLD]:
         when = f"from {axis_number(one.first)} s to {axis_number(one.last)} s"
@@ -182,7 +182,7 @@ def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
 
 
 def axis_number(value: float) -> str:
-    """Format a number for an axis with the digits it needs, within the width of a label."""
+    """Format a number for an axis: four significant digits, within the width of a label."""
     if value == 0.0 or not math.isfinite(value):
         return "0"
     size = abs(value)
@@ -192,14 +192,14 @@ def axis_number(value: float) -> str:
 
 
 def round_ticks(low: float, high: float, most: int) -> list[float]:
-    """Return multiples of 1, 2 or 5 times a power of ten that enclose a span.
+    """Return ticks that enclose a span: multiples of 1, 2 or 5 times a power of ten.
 
     Args:
         low: Lower end of the span.
         high: Upper end, above `low`.
-        most: Largest number of ticks, at least two; three if 0 is inside the span.
+        most: Maximum number of ticks; at least two are returned, or three if 0 is inside the span.
     """
-    # Zero is a multiple of every step, so that two never enclose it.
+    # Zero is a multiple of every step, so two ticks cannot enclose it.
     most = max(most, 3 if low < 0.0 < high else 2)
     power = 10.0 ** math.floor(math.log10((high - low) / (most - 1)))
     for step in (factor * power for factor in (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)):
@@ -210,7 +210,7 @@ def round_ticks(low: float, high: float, most: int) -> list[float]:
 
 
 def tick_labels(ticks: Sequence[float]) -> list[str]:
-    """Format an axis's ticks with as many digits as distinguish them."""
+    """Format the ticks of an axis with enough digits to distinguish them."""
     step = min((after - before for before, after in pairwise(ticks)), default=1.0)
     if max(map(abs, ticks), default=0.0) >= 1e6 or step < 1e-6:
         return [axis_number(tick) for tick in ticks]
@@ -219,7 +219,7 @@ def tick_labels(ticks: Sequence[float]) -> list[str]:
 
 
 def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]:
-    """Return each pair's path from above: label, x and y, with NaN for gaps."""
+    """Return each pair's path seen from above: label, x and y, with NaN in gaps."""
     curves = []
     for one in found:
         times, columns, broken = _columns(one, 0, _position)
@@ -230,12 +230,12 @@ def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]
 
 
 def thinned(times: Floats, values: Floats, most: int) -> tuple[Floats, Floats]:
-    """Return a curve with fewer points: minimum and maximum of each piece.
+    """Return a curve with fewer points: the minimum and maximum of each part.
 
     Args:
-        times: Shape (n,).
-        values: Shape (n,).
-        most: Sufficient number of points.
+        times: Times of the points, shape (n,).
+        values: Values of the points, shape (n,).
+        most: Approximate number of points to return.
     """
     if len(values) <= most:
         return times, values
@@ -262,7 +262,7 @@ def _shade(run: RefusedRun, start: Stamp) -> RefusedSpan:
 def _columns(
     one: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
 ) -> "tuple[Floats, Floats, np.ndarray]":
-    """Return seconds, values, and whether the line breaks before each row but the first."""
+    """Return times in seconds, values, and a mask of gaps before each row except the first."""
     times = (one.path.stamps - start) / NANOSECONDS
     apart = np.diff(times)
     usual = float(np.median(apart)) if len(apart) else 0.0

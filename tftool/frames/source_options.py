@@ -1,4 +1,4 @@
-"""Options for reading FROM when it is a file: joint positions, odometry, cache."""
+"""Options for reading frames from a file: joint positions, odometry, cache."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -9,12 +9,12 @@ from tftool.base.errors import UsageError
 
 @dataclass(frozen=True, slots=True)
 class DescriptionOptions:
-    """Options about the robot description in FROM or beside it.
+    """Options for reading a robot description: FROM itself, or --urdf for a recording.
 
     Attributes:
         joints: Positions by joint, radians or metres.
-        arguments: Values of xacro arguments.
-        urdf: A description for a recording that has none.
+        arguments: Values of xacro arguments, by name.
+        urdf: Path of the description for a recording without one.
     """
 
     joints: Mapping[str, float] = field(default_factory=dict)
@@ -22,13 +22,13 @@ class DescriptionOptions:
     urdf: Path | None = None
 
     def refuse(self, what: str) -> None:
-        """Refuse these options if FROM is not a robot description.
+        """Raise an error if any of these options was given, for a source without a description.
 
         Args:
             what: Name of the source, as the beginning of a sentence.
 
         Raises:
-            UsageError: If one was given.
+            UsageError: If an option was given.
         """
         given = [f"--joint {name}={value:g}" for name, value in self.joints.items()]
         given += [f"{name}:={value}" for name, value in self.arguments.items()]
@@ -42,9 +42,9 @@ class RecordingOptions:
     """Options for reading a recording.
 
     Attributes:
-        no_cache: Whether columns are read from the recording and not cached.
-        with_odometry: Whether odometry and poses count as transforms.
-        tf_topics: Topics of transforms, in place of all.
+        no_cache: Whether to read without the cache of columns.
+        with_odometry: Whether odometry and poses are used as transforms.
+        tf_topics: Topics of transforms to read; empty for all.
     """
 
     no_cache: bool = False
@@ -52,13 +52,13 @@ class RecordingOptions:
     tf_topics: tuple[str, ...] = ()
 
     def refuse(self, what: str) -> None:
-        """Refuse options that would change the answer if FROM is not a recording.
+        """Raise an error if an option that changes the result was given, for another source.
 
         Args:
             what: Name of the source, as the beginning of a sentence.
 
         Raises:
-            UsageError: If that was given.
+            UsageError: If such an option was given.
         """
         if self.with_odometry:
             raise UsageError(f"{what}: leave out --with-odometry.")

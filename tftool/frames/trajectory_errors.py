@@ -1,4 +1,4 @@
-"""Errors of one trajectory relative to another: absolute and relative, after alignment."""
+"""Errors of one trajectory relative to another, absolute and relative, after alignment."""
 
 import re
 from dataclasses import dataclass, replace
@@ -20,17 +20,17 @@ Match: TypeAlias = Literal["nearest", "interpolate"]
 Pair: TypeAlias = tuple[str, str]
 
 NEAREST: Final[Duration] = 10_000_000
-"""Nanoseconds by which the stamps of two matched poses may differ."""
+"""Maximum difference between the stamps of two matched poses, nanoseconds."""
 
 _STEP: Final = re.compile(r"(\d+(?:\.\d+)?)(m|deg)?")
 
 
 @dataclass(frozen=True, slots=True)
 class PieceLength:
-    """Length of the pieces whose motions are compared.
+    """Length of the parts of a trajectory whose motions are compared for the relative error.
 
     Attributes:
-        size: Length in the unit.
+        size: Length, in `unit`.
         unit: "frames", "m" or "deg".
     """
 
@@ -39,16 +39,18 @@ class PieceLength:
 
     @classmethod
     def read(cls, text: str) -> "PieceLength":
-        """Parse a step: "1" frames, "10m", "5deg".
+        """Parse a length: "1" (frames), "10m", "5deg".
 
         Raises:
-            UsageError: If the text is no such length.
+            UsageError: If the text is not such a length.
         """
         found = _STEP.fullmatch(text)
         unit = "frames" if found is None or found[2] is None else found[2]
         size = float(found[1]) if found is not None else 0.0
         if size <= 0.0 or (unit == "frames" and size != int(size)):
-            raise UsageError(f"--per takes frames, metres or degrees (1, 10m, 5deg), not '{text}'.")
+            raise UsageError(
+                f"--per must be frames, metres or degrees (1, 10m, 5deg), not '{text}'."
+            )
         return cls(size, unit)  # type: ignore[arg-type]
 
     def __str__(self) -> str:
@@ -57,12 +59,12 @@ class PieceLength:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ErrorColumn:
-    """One kind of error over time.
+    """Errors of one kind over time.
 
     Attributes:
-        name: "ape" or "rpe".
-        unit: "m" or "deg".
-        stamps: Nanoseconds, on the clock of A, shape (n,).
+        name: Kind of error: "ape" (absolute) or "rpe" (relative).
+        unit: Unit of the errors: "m" or "deg".
+        stamps: Times of the errors on the clock of A, nanoseconds, shape (n,).
         values: Errors in the unit, shape (n,).
     """
 
@@ -72,7 +74,7 @@ class ErrorColumn:
     values: Floats
 
     def statistics(self) -> dict[str, float]:
-        """Return root mean square, mean, median, standard deviation, minimum and maximum."""
+        """Return root mean square, mean, median, standard deviation, minimum and maximum errors."""
         values = self.values
         return {
             "rmse": float(np.sqrt(np.mean(values * values))),
@@ -92,11 +94,11 @@ class TrajectoryErrors:
         pairs: Target and source in A, and in B.
         matched: Number of matched poses.
         counts: Number of poses of A, and of B.
-        scale: Factor by which the fit scaled B; 1 except for "sim3".
-        fit: Alignment of B with A before the errors were taken.
+        scale: Factor by which the alignment scaled B; 1 except for "sim3".
+        fit: Alignment of B with A before the errors were computed.
         match: Rule by which poses were matched.
-        step: Length of the pieces of the relative error.
-        columns: The errors.
+        step: Length of the parts for the relative error.
+        columns: The errors, by kind and unit.
     """
 
     pairs: tuple[Pair, Pair]
@@ -119,19 +121,19 @@ def trajectory_errors(
     match: Match = "nearest",
     step: PieceLength | None = None,
 ) -> TrajectoryErrors:
-    """Measure how far one trajectory is from another.
+    """Compute the errors of one trajectory, B, relative to another, A.
 
     Args:
         reference: Frames of A.
         estimate: Frames of B.
-        pairs: Target and source in A and in B; the only chain of each if None.
-        kinds: "ape", "rpe", or both.
-        fit: Alignment of B with A first: none, by the first pose, rigid, or rigid with a scale.
-        match: Take the nearest pose of A, or interpolate A at the stamps of B.
-        step: Length of the pieces of the relative error; one frame if None.
+        pairs: Target and source in A and in B; None for the only chain.
+        kinds: Kinds of error: "ape", "rpe", or both.
+        fit: Alignment of B with A before: none, by the first pose, rigid, or rigid with a scale.
+        match: Whether to use the nearest pose of A, or to interpolate A at the stamps of B.
+        step: Length of the parts for the relative error; None for one frame.
 
     Raises:
-        InputError: If a side has several chains, or too few poses match.
+        InputError: If A or B has several chains, or too few poses match.
         TransformException: If a pair cannot be looked up.
     """
     step = step or PieceLength()
@@ -168,7 +170,7 @@ def trajectory_errors(
 
 
 def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, TransformArray]:
-    """Match each pose of the shorter trajectory with the nearest in time of the longer."""
+    """Return matching poses: each of the shorter trajectory with the other's nearest in time."""
     if len(a) > len(b):
         second, first = _nearest(b, a)
         return first, second
@@ -182,13 +184,13 @@ def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, Tran
 
 
 def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArray, float]:
-    """Align trajectory B with trajectory A; both have equal length.
+    """Align trajectory B with trajectory A, pose by pose.
 
     Returns:
-        The aligned B, and the factor by which it was scaled.
+        The aligned B, and the factor by which B was scaled.
 
     Raises:
-        InputError: If all positions are on one line, which leaves the rotation open.
+        InputError: If all positions are on one line, so that the rotation is undetermined.
 
     Source:
         Umeyama, "Least-squares estimation of transformation parameters between two point
@@ -230,7 +232,7 @@ def _moved(path: TransformArray, turn: Floats, shift: Floats, scale: float) -> T
 
 
 def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> TransformArray:
-    """Return the relative motion from some poses to others."""
+    """Return the poses at the indices `ends` relative to those at `begins`."""
     back = batch.conjugate(path.rotations[begins])
     moved = batch.rotate(back, path.translations[ends] - path.translations[begins])
     turned = batch.multiply(back, path.rotations[ends])
@@ -238,10 +240,10 @@ def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> T
 
 
 def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.ndarray"]:
-    """Return the indices of the ends of consecutive pieces of one step.
+    """Return the first and last indices of consecutive parts of a trajectory, one step long each.
 
     Raises:
-        InputError: If the trajectory is shorter than two.
+        InputError: If the trajectory is shorter than one step.
     """
     if step.unit == "frames":
         places = np.arange(0, len(path), int(step.size))
@@ -251,14 +253,12 @@ def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.
             moved = np.degrees(_angles(path.rotations[:-1], path.rotations[1:]))
         places = np.array(_marks(moved.tolist(), step.size), dtype=np.intp)
     if len(places) < 2:
-        raise InputError(
-            f"The trajectory is shorter than one piece of {step}: give --per a smaller step."
-        )
+        raise InputError(f"The trajectory is shorter than {step}: give --per a smaller length.")
     return places[:-1], places[1:]
 
 
 def _marks(moved: list[float], size: float) -> list[int]:
-    """Return the indices at which another step is complete, including the first pose."""
+    """Return the indices of poses at which another step is complete, including index 0."""
     marks, gone = [0], 0.0
     for place, one in enumerate(moved, 1):
         gone += one

@@ -1,4 +1,4 @@
-"""Log of received transforms with their publishers, of a running or finished world."""
+"""Log of all transforms that a running world received, with their publishers."""
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from tftool.recordings.contract import Transforms
 
 MOST = 4_000_000
-"""Transforms that are kept: about 300 MB."""
+"""Maximum number of transforms in the log: about 300 MB."""
 
 
 class TransformLog:
-    """Transforms in order of arrival."""
+    """Log of received transforms, in order of arrival."""
 
     def __init__(self) -> None:
         self._rows: dict[tuple[str, str, bool], list[tuple[float, ...]]] = {}
@@ -33,12 +33,12 @@ class TransformLog:
         *,
         is_static: bool,
     ) -> None:
-        """Append a message; transforms beyond `MOST` are dropped.
+        """Append the transforms of a message; transforms beyond `MOST` are dropped.
 
         Args:
             now: Time of arrival, nanoseconds.
             transforms: Transforms of the message.
-            authority: Sender.
+            authority: Sender of the message.
             is_static: Whether the message came on the static topic.
         """
         if self._count >= MOST:
@@ -58,7 +58,7 @@ class TransformLog:
         return self._count
 
     def copy(self) -> "TransformLog":
-        """Return what was logged so far, for another thread to read."""
+        """Return a copy of the log, for another thread to read."""
         copied = TransformLog()
         copied._rows = {key: rows.copy() for key, rows in self._rows.items()}
         copied._stamps = {key: stamps.copy() for key, stamps in self._stamps.items()}
@@ -69,7 +69,7 @@ class TransformLog:
 
     def transforms(self) -> "Transforms":
         """Return all transforms in columns, one entry per edge, with log times and publishers."""
-        # Most that are played or heard are never judged, and need no numpy.
+        # Imported here because most logs are never read, and need no numpy.
         import numpy as np
 
         from tftool.recordings.contract import Edge, Publisher, Transforms

@@ -1,4 +1,4 @@
-"""Export of frames to other tools' files: choice of format, and contents."""
+"""Export of frames to files for other tools: poses of pairs over time, or links."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -26,18 +26,18 @@ if TYPE_CHECKING:
     from tftool.robots.robot_model import Robot
 
 Framed: TypeAlias = "Buffer | Frames | Recording | Robot"
-"""What frames are exported from; of a robot description with every joint at rest."""
+"""Source of frames for an export; in a robot description every joint is at rest."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Exported:
-    """The written files.
+    """Result of an export: the written files.
 
     Attributes:
-        paths: The files.
-        format: Format.
-        count: Number of poses, links or transforms.
-        trajectories: The answers, with the refused spans; empty for links.
+        paths: Paths of the files.
+        format: Format of the files.
+        count: Number of written poses, links or transforms.
+        trajectories: Poses of each pair, with the times without a pose; empty for links.
     """
 
     paths: tuple[Path, ...]
@@ -47,12 +47,12 @@ class Exported:
 
     @property
     def refused(self) -> int:
-        """Return at how many times there was no pose; these are left out."""
+        """Return the number of times without a pose, which were left out."""
         return sum(one.refused for one in self.trajectories)
 
 
 def buffer_of(frames: Framed) -> Buffer:
-    """Return the buffer of some frames."""
+    """Return the buffer with the given frames."""
     if isinstance(frames, Buffer):
         return frames
     if not hasattr(frames, "buffer"):
@@ -65,7 +65,7 @@ P = ParamSpec("P")
 
 
 def _named_path(function: "Callable[P, Exported]") -> "Callable[P, Exported]":
-    """Raise a TypeError that names the right call if arguments come in the old order."""
+    """Decorate `export`: arguments in the old order raise a TypeError with the right call."""
 
     @wraps(function)
     def checked(*given: P.args, **named: P.kwargs) -> Exported:
@@ -101,38 +101,38 @@ def export(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write where one frame is in another over time, or the links between frames.
+    """Write the poses of one frame in another over time, or the links between frames.
 
         tftool.export(recording, "map", "base_link", path="run.tum")
         tftool.export(recording, path="robot.urdf")
 
-    The file is complete, or does not exist. Moments of refused lookups are left out, and counted in
-    the result.
+    The file is complete, or does not exist. Times at which a lookup fails are left out, and counted
+    in the result.
 
     Args:
         frames: Opened frames, a recording, a buffer, or a robot description.
         target: Frame in which poses are expressed; None to write links.
-        source: Frame whose poses they are.
-        path: File to write; its suffix names the format: .tum .kitti .csv .npz .parquet of pairs,
-            .urdf .launch.py .launch.xml .launch.yaml .sh .mcap of links.
-        pairs: Several of (target, source), in CSV, npz and Parquet.
-        format: Format in place of the suffix's: "euroc", or another of `Format`.
-        start: Leave out everything before, nanoseconds.
-        end: Leave out everything after, nanoseconds.
-        period: Ask so often, nanoseconds; at the stamps of the fastest link if None.
-        stamps: Ask at these stamps instead, nanoseconds, shape (n,).
-        decimals: See `Style`; also for the following ones.
-        rpy: Add roll, pitch and yaw to CSV and Parquet.
-        foxglove: Write MCAP as foxglove.FrameTransforms.
-        with_moving: Write links that move to a URDF, as floating joints.
-        root: Write only the frames below this one.
-        time: The moment of links that move, nanoseconds.
+        source: Frame whose poses are written.
+        path: File to write. Its suffix selects the format: .tum .kitti .csv .npz .parquet for
+            pairs, .urdf .launch.py .launch.xml .launch.yaml .sh .mcap for links.
+        pairs: Several pairs (target, source), for CSV, npz and Parquet.
+        format: Format instead of the suffix's: "euroc", or another member of `Format`.
+        start: Time before which nothing is written, nanoseconds.
+        end: Time after which nothing is written, nanoseconds.
+        period: Time between lookups, nanoseconds; None for the stamps of the fastest link.
+        stamps: Times of the lookups instead, nanoseconds, shape (n,).
+        decimals: Decimals of numbers; see `Style`.
+        rpy: Whether to add roll, pitch and yaw to CSV and Parquet.
+        foxglove: Whether to write MCAP as foxglove.FrameTransforms.
+        with_moving: Whether to write moving links to a URDF, as floating joints.
+        root: Frame below which links are written; None for all.
+        time: Time of the poses of moving links, nanoseconds.
         force: Whether the file may replace an existing file.
-        progress: Called with the progress in bytes.
+        progress: Function called with the progress in bytes.
 
     Raises:
         InputError: If the file cannot be written.
-        TransformException: If a frame is unknown, or a pair is joined at no moment.
+        TransformException: If a frame is unknown, or a pair has no pose at any time.
         TypeError: If there are no frames to write, or `path` is not named.
         UsageError: If the options contradict each other, or an extra is missing.
     """
@@ -140,7 +140,7 @@ def export(
     form = _named(format) if format is not None else format_of(place)
     asked = list(pairs)
     if (target is None) != (source is None):
-        raise UsageError("A pair is two frames: name the target and the source.")
+        raise UsageError("A pair needs two frames: name the target and the source.")
     if target is not None and source is not None:
         asked.insert(0, (target, source))
     refuse_input(frames, place)
@@ -163,10 +163,12 @@ def _written(
     buffer = buffer_of(frames)
     if not form.is_trajectory:
         if asked:
-            raise UsageError(f"{form} holds links, not a pair: leave out the frames.")
+            raise UsageError(f"{form} files contain links, not a pair: leave out the frames.")
         return write_links(buffer, place, form, style, force=force, progress=progress)
     if not asked:
-        raise UsageError(f"{form} holds pairs of frames over time: name a target and a source.")
+        raise UsageError(
+            f"{form} files contain pairs of frames over time: name a target and a source."
+        )
     found = [sample(buffer, target, source, moments) for target, source in asked]
     return write_trajectories(found, place, form, style, force=force, progress=progress)
 
@@ -180,15 +182,17 @@ def write_trajectories(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write pairs that were looked up.
+    """Write poses of pairs that were already looked up.
 
     Raises:
         InputError: If the file cannot be written.
-        TransformException: If one of the pairs has no pose at any moment.
-        UsageError: If the format holds one pair only, or an extra is missing.
+        TransformException: If a pair has no pose at any time.
+        UsageError: If the format supports one pair only, or an extra is missing.
     """
     if len(found) > 1 and form.holds == "pair":
-        raise UsageError(f"{form} holds one pair, not {len(found)}: write .csv, .npz or .parquet.")
+        raise UsageError(
+            f"{form} files contain one pair, not {len(found)}: write .csv, .npz or .parquet."
+        )
     if style.rpy and form not in (Format.csv, Format.parquet):
         raise UsageError(f"Roll, pitch and yaw are columns of CSV and Parquet, not of {form}.")
     paths = TRAJECTORY_WRITERS[form](found, path, style, force, progress)
@@ -205,11 +209,11 @@ def write_links(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write the links between frames: static ones, or for MCAP all.
+    """Write the links between frames: all links for MCAP, else static links.
 
     Raises:
         InputError: If the file cannot be written.
-        UsageError: If there is nothing to write, or it does not fit the format.
+        UsageError: If there is nothing to write, or the format cannot contain it.
     """
     if not buffer.frames():
         raise UsageError("There are no frames to write.")
@@ -244,14 +248,14 @@ def _named(name: str) -> Format:
     for form in Format:
         if form == name:
             return form
-    raise UsageError(f"'{name}' is no format: there is {', '.join(Format)}.")
+    raise UsageError(f"'{name}' is not a format: use one of {', '.join(Format)}.")
 
 
 def refuse_input(frames: object, path: Path) -> None:
-    """Refuse to overwrite the file or folder that frames are read from.
+    """Raise an error if the path is the file or folder that the frames were read from.
 
     Raises:
-        UsageError: If that is asked for.
+        UsageError: If the path is the input.
     """
     if getattr(frames, "kind", "") in ("scenario", "session"):
         return

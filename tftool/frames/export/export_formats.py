@@ -1,7 +1,7 @@
-"""Export formats by file name, and the options of an export.
+"""Table of export formats with their suffixes, and the options of an export.
 
-To add a format: its line in `Format`, and its function in the table of writers in
-`trajectory_files` (pairs over time) or `static_files` (links).
+A new format needs a line in `Format`, and a function in the table of writers in `trajectory_files`
+(pairs over time) or `static_files` (links).
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from tftool.base.errors import UsageError
 from tftool.base.stamps import LATEST, Stamp
 
 DECIMALS: Final = 9
-"""Of numbers in texts, unless said otherwise: nanometres."""
+"""Default number of decimals in texts: nanometres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,10 +22,10 @@ class Style:
 
     Attributes:
         decimals: Decimals of numbers in texts; 17 writes the shortest text that reads back equal.
-        rpy: Whether CSV and Parquet get roll, pitch and yaw, too.
-        foxglove: Whether MCAP gets foxglove.FrameTransforms in the place of tf2_msgs.
-        with_moving: Whether URDF gets links that move, too, as floating joints.
-        root: The frame a URDF or the like begins with; None for all there is.
+        rpy: Whether roll, pitch and yaw are added to CSV and Parquet.
+        foxglove: Whether MCAP contains foxglove.FrameTransforms instead of tf2_msgs/TFMessage.
+        with_moving: Whether moving links are written to a URDF, as floating joints.
+        root: Frame below which links are written; None for all.
         time: Time of the lookup of moving links, nanoseconds; 0 for the latest.
     """
 
@@ -38,11 +38,11 @@ class Style:
 
 
 class Format(StrEnum):
-    """Format of an export.
+    """Format of an export; the value is its name.
 
     Attributes:
-        holds: One pair of frames over time, several pairs, or the links themselves.
-        suffixes: Ends of names that ask for it.
+        holds: Contents: "pair" or "pairs" of frames over time, or "links".
+        suffixes: Endings of file names that select the format.
     """
 
     holds: Literal["pair", "pairs", "links"]
@@ -51,7 +51,7 @@ class Format(StrEnum):
     def __new__(
         cls, name: str, holds: Literal["pair", "pairs", "links"], *suffixes: str
     ) -> "Format":
-        """Make a member from its table row."""
+        """Create a member from its name, contents and suffixes."""
         member = str.__new__(cls, name)
         member._value_ = name
         member.holds, member.suffixes = holds, suffixes
@@ -59,7 +59,7 @@ class Format(StrEnum):
 
     tum = "tum", "pair", ".tum"
     kitti = "kitti", "pair", ".kitti"
-    # Its files end in .csv, and are asked for by name.
+    # Selected by name only, because its files also end in .csv.
     euroc = "euroc", "pair"
     csv = "csv", "pairs", ".csv"
     npz = "npz", "pairs", ".npz"
@@ -73,22 +73,22 @@ class Format(StrEnum):
 
     @property
     def is_trajectory(self) -> bool:
-        """Whether the format stores pairs over time, and not links."""
+        """Whether files of this format contain pairs over time, and not links."""
         return self.holds != "links"
 
 
 SUFFIXES: Final = {suffix: form for form in Format for suffix in form.suffixes}
-"""What the end of a name asks for."""
+"""Format by the ending of a file name."""
 
 
 def suffixes_of(*, trajectories: bool) -> str:
-    """List the file name endings for pairs over time, or for links, in a sentence."""
+    """Return the first suffix of each format for pairs over time, or for links, as text."""
     forms = [form for form in Format if form.suffixes and form.is_trajectory == trajectories]
     return " ".join(form.suffixes[0] for form in forms)
 
 
 def format_of(path: Path) -> Format:
-    """Return the format for a file name.
+    """Return the format that a file name's ending selects.
 
     Raises:
         UsageError: If the suffix is unknown.

@@ -1,4 +1,4 @@
-"""All known transforms as an MCAP file: tf2_msgs, or for Foxglove and Rerun."""
+"""Export of all transforms to an MCAP file, as tf2_msgs or for Foxglove and Rerun."""
 
 import os
 from collections.abc import Iterator
@@ -26,14 +26,14 @@ def write_frames(
     force: bool = False,
     progress: Progress | None = None,
 ) -> int:
-    """Write a buffer's contents: statics first, then moving links in order of stamps.
+    """Write all transforms of a buffer: static transforms first, then moving links by stamps.
 
     Args:
         buffer: Source of the transforms.
-        path: File to write; its name ends in ".mcap".
-        foxglove: Whether as foxglove.FrameTransforms in protobuf, not as tf2_msgs/TFMessage.
+        path: File to write; its name must end in ".mcap".
+        foxglove: Whether to write foxglove.FrameTransforms in protobuf, not tf2_msgs/TFMessage.
         force: Whether an existing file may be replaced.
-        progress: Called with the progress.
+        progress: Function called with the progress.
 
     Returns:
         The number of transforms written.
@@ -87,7 +87,7 @@ def _held(buffer: Buffer) -> "tuple[list[TransformStamped], Moving, int]":
 def _messages(
     statics: list[TransformStamped], moving: "Moving"
 ) -> Iterator[tuple[Stamp, list[TransformStamped]]]:
-    """Yield the statics as one message, then a message for each stamp."""
+    """Yield the transforms of each message: all static transforms, then those of each stamp."""
     stamps = np.concatenate([one[1] for one in moving]) if moving else np.array([], np.int64)
     order = np.argsort(stamps, kind="stable")
     start = int(stamps[order[0]]) if len(order) else NANOSECONDS

@@ -1,4 +1,4 @@
-"""Static transforms as files that publish them: URDF, launch files, a shell script."""
+"""Static transforms written as files that publish them: URDF, launch files, a shell script."""
 
 import json
 import re
@@ -23,7 +23,7 @@ _PLAIN_WORD = re.compile(r"[^\s\"'$\\]+")
 
 @dataclass(frozen=True, slots=True)
 class FixedLink:
-    """One link to write: the pose of `child` in `parent`."""
+    """One link to write: the static pose of `child` in `parent`."""
 
     parent: str
     child: str
@@ -34,17 +34,16 @@ class FixedLink:
 def fixed_links(
     buffer: Buffer, *, with_moving: bool = False, time: Stamp = LATEST, root: str | None = None
 ) -> list[FixedLink]:
-    """Return the static links in the order in which their frames were first seen.
+    """Return the static links of a buffer, in the order in which their frames were first seen.
 
     Args:
         buffer: Source of the frames.
-        with_moving: Whether to add moving links, with their pose at one moment.
-        time: Moment, nanoseconds; 0 for the latest of each link.
-        root: Take only the frames below this one; all if None.
+        with_moving: Whether to add moving links, with their poses at one time.
+        time: Time of these poses, nanoseconds; 0 for the latest of each link.
+        root: Frame below which links are returned; None for all.
 
     Raises:
-        TransformException: If a link that moves has no pose at that moment, or there is no
-            frame of the root's name.
+        TransformException: If a moving link has no pose at that time, or the root does not exist.
     """
     links = []
     for frame in buffer.frames():
@@ -58,7 +57,7 @@ def fixed_links(
     if root is None:
         return links
     if not buffer.frame_exists(root):
-        # Refuses, and says what there is.
+        # Raises an error that lists the known frames.
         buffer.lookup_transform(root, links[0].child if links else root)
     below = {root}
     grown = True
@@ -70,7 +69,7 @@ def fixed_links(
 
 
 def roots(links: Sequence[FixedLink]) -> list[str]:
-    """Return the frames that are a parent and no child, in order of appearance."""
+    """Return the root frames (parents that are no child), in order of appearance."""
     children = {one.child for one in links}
     return list(dict.fromkeys(one.parent for one in links if one.parent not in children))
 
@@ -79,19 +78,19 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
     """Return a robot description with a joint for every link.
 
     Args:
-        links: Links to write; moving ones become floating joints, which
-            robot_state_publisher skips.
-        name: The robot's.
+        links: Links to write; moving links become floating joints, which robot_state_publisher
+            ignores.
+        name: Name of the robot.
 
     Raises:
         UsageError: If the links are not one tree.
-        InputError: If a name cannot stand in XML.
+        InputError: If a name contains characters that XML forbids.
     """
     tops = roots(links)
     if len(tops) != 1:
         shown = ", ".join(tops[:6]) + (" …" if len(tops) > 6 else "")
         raise UsageError(
-            f"A URDF is one tree, and there are {len(tops)}, with the roots {shown}: choose one "
+            f"A URDF is one tree, but there are {len(tops)}, with the roots {shown}: choose one "
             "with --root FRAME."
         )
     frames = dict.fromkeys([tops[0], *(one.child for one in links)])
@@ -111,7 +110,7 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
 
 
 def shell(links: Sequence[FixedLink]) -> str:
-    """Return a script that runs a publisher for each link; Ctrl-C ends them all."""
+    """Return a shell script that runs a static publisher for each link."""
     lines = ["#!/bin/sh", "# Publishes static transforms; Ctrl-C ends them all.", "set -e"]
     lines += [
         f"ros2 run tf2_ros {PUBLISHER} {shlex.join(_words(_whole_name(one)))} &" for one in links
@@ -120,7 +119,7 @@ def shell(links: Sequence[FixedLink]) -> str:
 
 
 def launch_python(links: Sequence[FixedLink]) -> str:
-    """Return a Python launch file with a node for each link."""
+    """Return a Python launch file with a static publisher for each link."""
     lines = [
         "from launch import LaunchDescription",
         "from launch_ros.actions import Node",
@@ -144,10 +143,10 @@ def launch_python(links: Sequence[FixedLink]) -> str:
 
 
 def launch_xml(links: Sequence[FixedLink]) -> str:
-    """Return an XML launch file with a node for each link.
+    """Return an XML launch file with a static publisher for each link.
 
     Raises:
-        InputError: If a name would be read as something else there.
+        InputError: If a launch file would change a name.
     """
     lines = ['<?xml version="1.0"?>', "<launch>"]
     for one, name in zip(links, _node_names(links), strict=True):
@@ -157,10 +156,10 @@ def launch_xml(links: Sequence[FixedLink]) -> str:
 
 
 def launch_yaml(links: Sequence[FixedLink]) -> str:
-    """Return a YAML launch file with a node for each link.
+    """Return a YAML launch file with a static publisher for each link.
 
     Raises:
-        InputError: If a name would be read as something else there.
+        InputError: If a launch file would change a name.
     """
     lines = ["launch:" if links else "launch: []"]
     for one, name in zip(links, _node_names(links), strict=True):
@@ -175,7 +174,7 @@ def launch_yaml(links: Sequence[FixedLink]) -> str:
 
 
 def _listed(words: Sequence[str]) -> list[str]:
-    """Format options as Python strings, each with its value."""
+    """Return lines with an option and its value each, as Python strings."""
     texts = [json.dumps(word) for word in words]
     return [f"{name}, {value}" for name, value in zip(texts[::2], texts[1::2], strict=True)]
 
@@ -185,20 +184,20 @@ def _words(one: FixedLink) -> list[str]:
 
 
 def _whole_name(one: FixedLink) -> FixedLink:
-    """Refuse a name that cannot be passed on a command line."""
+    """Return the link; raise an error if a name cannot be passed on a command line."""
     for name in (one.parent, one.child):
         if "\0" in name or _NOT_XML.search(name):
-            raise InputError(f"The frame {name!r} has characters that this format cannot hold.")
+            raise InputError(f"The frame {name!r} has characters that this format cannot contain.")
     return one
 
 
 def _plain(one: FixedLink) -> str:
-    """Join words in one line; refuse names that a launch file would change."""
+    """Return a link's options as one line; raise an error if a launch file would change a name."""
     for name in (one.parent, one.child):
         if not _PLAIN_WORD.fullmatch(name):
             raise InputError(
-                f"The frame {name!r} would be read as something else in such a launch file: "
-                "write a .launch.py or .sh."
+                f"This kind of launch file would change the frame name {name!r}: "
+                "write a .launch.py or .sh file."
             )
     return " ".join(_words(_whole_name(one)))
 
@@ -217,8 +216,8 @@ def _node_names(links: Sequence[FixedLink]) -> list[str]:
 
 def _attribute(text: str) -> str:
     if _NOT_XML.search(text):
-        raise InputError(f"The frame {text!r} has characters that this format cannot hold.")
-    # A tab or a line end would be read back as a blank.
+        raise InputError(f"The frame {text!r} has characters that this format cannot contain.")
+    # A reader would convert a tab or a line end to a space.
     return quoteattr(text, {"\t": "&#9;", "\n": "&#10;", "\r": "&#13;"})
 
 
@@ -231,4 +230,4 @@ LINK_WRITERS: Final[Mapping[Format, Callable[[Sequence[FixedLink], str], str]]] 
         Format.launch_yaml: lambda links, _: launch_yaml(links),
     }
 )
-"""What makes the text of each format of fixed links, from them and the name of the file."""
+"""Functions that return a file's text for each format, from the links and the file's name."""

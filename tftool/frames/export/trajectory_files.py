@@ -1,7 +1,7 @@
-"""Trajectory files: TUM, KITTI, EuRoC, CSV, npz, Parquet.
+"""Writers of trajectory files: TUM, KITTI, EuRoC, CSV, npz, Parquet.
 
-Stamps are whole nanoseconds throughout: today a float of seconds has steps of 238 ns. A file is
-complete, or does not exist.
+Stamps are always whole nanoseconds, because today's time as float seconds has steps of 238 ns. A
+file is complete, or does not exist.
 """
 
 import csv
@@ -32,17 +32,17 @@ EUROC_HEADER: Final = (
     "q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n"
 )
 NPZ_VERSION: Final = 1
-"""What `format_version` says; another one means other names or another order."""
+"""Value of `format_version` in npz files; raised when names or their order change."""
 
 _BYTES_PER_ROW: Final = 110
 
 
 @contextmanager
 def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
-    """Open a file that gets its name only when complete, and is removed otherwise.
+    """Open a file for writing; it gets its final name when complete, and is removed otherwise.
 
     Raises:
-        UsageError: If something has that name and `force` is not given.
+        UsageError: If the path exists and `force` is not given.
         InputError: If the file cannot be written.
     """
     with Target(path, force=force) as target:
@@ -55,19 +55,19 @@ def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
 
 @contextmanager
 def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
-    """Open files that get their names together when all are complete, or not at all.
+    """Open files for writing; they get their final names together when all are complete.
 
     Args:
-        paths: Final names; readers find the other files by the last one.
+        paths: Final paths; readers find the other files through the last one.
         force: Whether existing files may be replaced.
 
     Raises:
-        UsageError: If something has one of the names and `force` is not given.
-        InputError: If one cannot be written.
+        UsageError: If a path exists and `force` is not given.
+        InputError: If a file cannot be written.
     """
     targets: list[Target] = []
     try:
-        # One by one: those made before one fails are discarded.
+        # Created one by one, so that all created before an error are discarded.
         targets.extend(Target(path, force=force) for path in paths)
         try:
             with ExitStack() as stack:
@@ -84,16 +84,17 @@ def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
 TrajectoryWriter: TypeAlias = Callable[
     [Sequence[Trajectory], Path, Style, bool, Progress | None], list[Path]
 ]
-"""Writes pairs (one, where its format holds one) to a path; returns the files it made.
+"""Function that writes pairs to a path, and returns the paths of the written files.
 
-The flag says Whether they may replace an existing file.
+If the format supports a single pair, only the first is written. The boolean tells whether existing
+files may be replaced.
 """
 
 
 def _write_tum(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write `sec.nnnnnnnnn x y z qx qy qz qw`, one line per pose."""
+    """Write a TUM file: `sec.nnnnnnnnn x y z qx qy qz qw`, one line per pose."""
     rows = found[0].answered()
     with whole_file(path, force=force) as file:
         write = _writer(file, rows, style.decimals, progress)
@@ -105,9 +106,9 @@ def _write_tum(
 def _write_kitti(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write the upper three rows of each matrix in a line, and the stamps in a second file.
+    """Write a KITTI file: the upper three rows of each matrix in a line; stamps in a second file.
 
-    Both files get their names together, the poses last.
+    Both files get their final names together, the file of poses last.
     """
     times = path.with_name(f"{path.stem}_times.txt")
     rows = found[0].answered()
@@ -125,7 +126,7 @@ def _write_kitti(
 def _write_euroc(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write EuRoC's ground truth: whole nanoseconds, quaternion w first."""
+    """Write a EuRoC file: whole nanoseconds, position, quaternion with w first."""
     rows = found[0].answered()
     with whole_file(path, force=force) as file:
         file.write(EUROC_HEADER.encode())
@@ -138,7 +139,7 @@ def _write_euroc(
 def _write_csv(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write a table with a header; of several pairs each row begins with target and source."""
+    """Write a CSV file with a header; with several pairs, rows begin with target and source."""
     with whole_file(path, force=force) as file:
         names = (*CSV_COLUMNS, *(RPY_COLUMNS if style.rpy else ()))
         several = len(found) > 1
@@ -158,9 +159,9 @@ def _write_csv(
 def _write_npz(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write NumPy's archive without pickles: stamps, translations, rotations (x y z w).
+    """Write a NumPy archive without pickles: stamps, translations, rotations (x y z w).
 
-    Rows of several pairs are concatenated, and `pair` holds the number of each row's pair.
+    Rows of several pairs are concatenated; `pair` has the number of each row's pair.
     """
     rows = [one.answered() for one in found]
     several = len(rows) > 1
@@ -182,7 +183,7 @@ def _write_npz(
 def _write_parquet(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write the CSV's columns as Parquet, and `stamp` if stamps are dates.
+    """Write a Parquet file with the columns of the CSV, and `stamp` if stamps are dates.
 
     Raises:
         UsageError: If the extra `parquet` is not installed.
@@ -232,7 +233,7 @@ TRAJECTORY_WRITERS: Final[Mapping[Format, TrajectoryWriter]] = MappingProxyType(
         Format.parquet: _write_parquet,
     }
 )
-"""What writes each format of pairs over time."""
+"""Function that writes each format of pairs over time."""
 
 
 def _poses(rows: TransformArray) -> batch.Floats:
@@ -255,7 +256,7 @@ def _writer(
     progress: Progress | None,
     before: bytes = b"",
 ) -> "Callable[..., None]":
-    """Return the fastest writer of blocks that fits the numbers, with progress."""
+    """Return a function that writes blocks of rows: the fastest one that supports the numbers."""
     done = 0
 
     def write(
