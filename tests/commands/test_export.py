@@ -392,7 +392,7 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
     [
         (["odom", "base", "RUN"], 2, "-o FILE"),
         (["odom", "base", "RUN", "-o", "a.doc"], 2, "has no known suffix"),
-        (["odom", "base", "RUN", "-o", "a.urdf"], 2, "files contain links"),
+        (["odom", "base", "RUN", "-o", "a.urdf"], 2, "holds links"),
         (["RUN", "-o", "a.tum"], 2, "TARGET SOURCE"),
         (["odom", "base", "RUN", "more", "-o", "a.tum"], 2, "TARGET SOURCE [FROM], not 4 words"),
         (["RUN", "--pair", "odom", "-o", "a.csv"], 2, "TARGET:SOURCE"),
