@@ -229,6 +229,18 @@ def test_environment_and_folder_reach_a_process(tmp_path):
     assert done.said("launch") == ["over"]
 
 
+@pytest.mark.parametrize(("status", "failed"), [(0, []), (4, ["launch"])])
+def test_a_handler_that_exits_ends_the_launch_with_its_status(tmp_path, status, failed):
+    done = described(
+        tmp_path,
+        f"ExecuteProcess(cmd=['true'], on_exit=lambda event, context: exit({status}))",
+        "TimerAction(period=1.5, actions=[LogInfo(msg='late')])",
+    )
+
+    assert done.failed == failed
+    assert "late" not in done.said("launch")
+
+
 def test_an_argument_as_on_exit_fails_only_when_the_process_ends(tmp_path):
     done = described(
         tmp_path,

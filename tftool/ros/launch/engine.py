@@ -14,7 +14,7 @@ from tftool.base.stamps import seconds
 from tftool.ros import ros2
 from tftool.ros.host import executables, importing, program, user_code
 from tftool.ros.host.error_text import error_sentence
-from tftool.ros.host.program import Program, ProgramNode
+from tftool.ros.host.program import Program, ProgramNode, exit_status
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch.arguments import declared, refuse_unknown
 from tftool.ros.launch.commands import SystemCommand, begin, interrupt, lines_of, run_at_once
@@ -187,6 +187,10 @@ class Launch(Node):
                 self.context.push_locals()
                 try:
                     entities = handler.handle(event, self.context)
+                except SystemExit as error:
+                    self.failed += ["launch"] if exit_status(error) else []
+                    entities = None
+                    self._end()
                 except Exception as error:
                     raise InputError(error_sentence(error)) from error
                 self.do(entities or ())
