@@ -130,6 +130,24 @@ def test_the_distribution_is_set_for_programs_and_is_no_sourced_ros(monkeypatch)
     assert "ROS_DISTRO" not in os.environ
 
 
+@pytest.mark.skipif(os.name == "nt", reason="it is a shell script")
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["interface", "package", "std_srvs"], "std_srvs/srv/Trigger"),
+        (["run", "--help"], "tftool run"),
+    ],
+)
+def test_child_processes_of_programs_have_the_command_ros2(words, said):
+    path = os.environ["PATH"]
+    with ros_free():
+        done = subprocess.run(["ros2", *words], capture_output=True, text=True)
+
+    assert done.returncode == 0
+    assert said in done.stdout
+    assert os.environ["PATH"] == path
+
+
 def test_a_virtual_environment_beside_a_file_keeps_pythons_own_threads(
     ros_runtime, tmp_path, monkeypatch
 ):

@@ -309,21 +309,33 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
             f"a real ROS 2 is sourced ({found}): run the file with it, or add --ros-free to "
             "run it without ROS"
         )
-    with own_arguments(), _distribution(), ros_modules() as finder:
+    with own_arguments(), _environment(), ros_modules() as finder:
         yield finder
 
 
 @contextmanager
-def _distribution() -> Iterator[None]:
-    """Set `ROS_DISTRO`, which launch files read, inside this block if it is not set."""
-    if "ROS_DISTRO" in os.environ:
-        yield
-        return
-    os.environ["ROS_DISTRO"] = DISTRIBUTION
+def _environment() -> Iterator[None]:
+    """Set variables of a sourced ROS 2 inside this block.
+
+    `ROS_DISTRO`, which launch files read, keeps a value that it has. The command `ros2` of child
+    processes is ours: it asks this world in real time.
+    """
+    commands = f"{Path(__file__).parent / 'bin'}{os.pathsep}{os.environ.get('PATH', '')}"
+    wanted = {
+        "ROS_DISTRO": os.environ.get("ROS_DISTRO", DISTRIBUTION),
+        "PATH": commands,
+        "TFTOOL_PYTHON": sys.executable,
+    }
+    before = {name: os.environ.get(name) for name in wanted}
+    os.environ.update(wanted)
     try:
         yield
     finally:
-        os.environ.pop("ROS_DISTRO", None)
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
 
 
 @contextmanager
