@@ -28,9 +28,9 @@ GROUPS = {
     "Ask": {
         "echo": "Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).",
         "tree": "Show which frame hangs from which (rqt_tf_tree, view_frames).",
-        "monitor": "Show how often and how late transforms arrive (tf2_monitor).",
-        "explain": "Say why a lookup refuses: which link, by how much.",
         "doctor": "Say what is wrong with the frames, and what mends it.",
+        "explain": "Say why a lookup refuses: which link, by how much.",
+        "monitor": "Show how often and how late transforms arrive (tf2_monitor).",
         "convert": "Write one rotation, or pose, in every notation.",
         "ros2": "Ask a session in the words of ROS 2's command line, without ROS.",
     },
@@ -43,16 +43,16 @@ GROUPS = {
         "info": "Show what a recording or robot description holds.",
         "play": "Play a recording as a live session (ros2 bag play).",
         "record": "Record a session (ros2 bag record).",
-        "export": "Write a pair over time, or links, to files of other tools.",
-        "calibrate": "Find a sensor's mount and clock offset from motion.",
-        "diff": "Say what differs between two sets of frames, link by link.",
         "edit": "Change the frames of a recording; repair, join, cut, convert.",
+        "export": "Write a pair over time, or links, to files of other tools.",
+        "diff": "Say what differs between two sets of frames, link by link.",
+        "calibrate": "Find a sensor's mount and clock offset from motion.",
         "mcp": "Answer questions of an agent about recordings (MCP).",
     },
     "Run your own nodes": {
-        "new": "Make a package of nodes to begin with (ros2 pkg create).",
         "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
         "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
+        "new": "Make a package of nodes to begin with (ros2 pkg create).",
         "session": "Show who shares the session that runs here.",
     },
     "Check": {
@@ -62,7 +62,7 @@ GROUPS = {
         "help": "Show the list of commands, or the help of one (man).",
     },
 }
-"""A line of the help for each command, by purpose."""
+"""A line of the help for each command, by purpose, the most used first."""
 
 COMMANDS = {name: summary for group in GROUPS.values() for name, summary in group.items()}
 
@@ -103,9 +103,11 @@ def overview() -> str:
                   for one in ABOUT]  # fmt: skip
     options = [(", ".join(sorted(names, key=len)), words) for names, words in OPTIONS.items()]
     widest = max(len(name) for name in COMMANDS)
-    lists = [("Options", options)]
-    for title, group in GROUPS.items():
-        lists.append((title, [(name.ljust(widest), words) for name, words in group.items()]))
+    lists = [
+        (title, [(name.ljust(widest), words) for name, words in group.items()])
+        for title, group in GROUPS.items()
+    ]
+    lists.append(("Options", options))
     parts = ["Usage: tftool [OPTIONS] COMMAND [ARGS]...", *paragraphs]
     parts += [f"{title}:\n" + "\n".join(_rows(rows, width)) for title, rows in lists]
     return "\n\n".join(parts)

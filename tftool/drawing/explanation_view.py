@@ -129,19 +129,20 @@ class _Links:
         base = _base(found)
         at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"
         held = "held, s since the start" if base else "held"
-        rows = [tuple(Text(word, "dim") for word in ("link", "kind", held, at))]
+        rows = [tuple(Text(word, "dim") for word in ("link", "kind", held, "samples", at))]
         left_out = range(MOST_LINES // 2, len(found.links) - MOST_LINES // 2)
         for number, link in enumerate(found.links):
             if number in left_out and link.edge != found.refusing:
                 if number == left_out[0]:
                     more = Text(f"… {len(left_out):,} links more …", "dim")
-                    rows.append((more, Text(), Text(), Text()))
+                    rows.append((more, *(Text() for _ in rows[0][1:])))
                 continue
             style = "bold" if link.edge == found.refusing else ""
             says = Text("answers", "green")
             if link.verdict is not LinkVerdict.ANSWERS:
                 says = Text(f"REFUSES: {_refusal(link)}", "bold red")
-            words = (visible(link.name), _kind(link), _held(link, base))
+            count = "" if link.is_static or not link.count else f"{link.count:,}"
+            words = (visible(link.name), _kind(link), _held(link, base), count)
             rows.append((*(Text(word, style) for word in words), says))
         return rows
 
@@ -158,10 +159,10 @@ def _held(link: TracedLink, base: Stamp) -> str:
     if link.is_static:
         return f"since {_since(link.oldest, base)}"
     if _other_clock(link.newest, base):
-        return f"{dated(link.oldest)} …, {link.count:,}"
+        return f"{dated(link.oldest)} …"
     if link.count == 1:
-        return f"{_since(link.oldest, base)}, 1"
-    return f"{_since(link.oldest, base)} … {_since(link.newest, base)}, {link.count:,}"
+        return _since(link.oldest, base)
+    return f"{_since(link.oldest, base)} … {_since(link.newest, base)}"
 
 
 def _refusal(link: TracedLink) -> str:
