@@ -111,8 +111,7 @@ if TYPE_CHECKING:
     from tftool.frames.calibration.calibrate import Calibration, calibrate
     from tftool.frames.calibration.clock_offset import ClockOffset, clock_offset
     from tftool.frames.calibration.motion import CalibrationRefused
-    from tftool.frames.diff import diff
-    from tftool.frames.differences import Differences
+    from tftool.frames.differences import Differences, diff
     from tftool.frames.export.export import Exported, export
     from tftool.frames.frames import Frames
     from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
@@ -223,9 +222,8 @@ _HOMES = {
     "tftool.frames.calibration.calibrate": ("Calibration", "calibrate"),
     "tftool.frames.calibration.clock_offset": ("ClockOffset", "clock_offset"),
     "tftool.frames.calibration.motion": ("CalibrationRefused",),
-    "tftool.frames.diff": ("diff",),
     "tftool.frames.frames": ("Frames",),
-    "tftool.frames.differences": ("Differences",),
+    "tftool.frames.differences": ("Differences", "diff"),
     "tftool.doctor.judge": ("diagnose",),
     "tftool.doctor.explanation": ("Explanation", "explain"),
     "tftool.doctor.findings": ("Finding",),

@@ -11,8 +11,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tftool.base.escaping import visible
-from tftool.base.short_numbers import short_size
+from tftool.base.plain_text import short_size, visible
 
 if TYPE_CHECKING:
     from tftool.buffer.batch.transform_array import TransformArray

@@ -12,11 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, seconds
 from tftool.frames.frames import Frames
-from tftool.frames.moment import At
-from tftool.frames.source_options import DescriptionOptions, RecordingOptions
+from tftool.frames.source_options import At, DescriptionOptions, RecordingOptions
 from tftool.recordings.find import Found, Kind, find, names_a_path
 from tftool.recordings.poses.pose_options import (
     ChosenOptions,

@@ -1,6 +1,6 @@
 """What was meant by an unknown name."""
 
-from tftool.base.near_names import LONGEST, did_you_mean, near_names
+from tftool.base.plain_text import LONGEST, did_you_mean, near_names
 
 
 def test_the_likest_names_come_first_whatever_their_case():

@@ -1,5 +1,5 @@
 from tftool.base.stamps import seconds
-from tftool.buffer.clock_jumps import FELL_BACK, Watch, must_clear
+from tftool.buffer.callbacks import FELL_BACK, Watch, must_clear
 
 
 def watch(least_fall=seconds(1)):

@@ -2,7 +2,7 @@ import pytest
 
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import NEVER, Buffer
-from tftool.buffer.requests import AVAILABLE, NOW, PENDING, Requests
+from tftool.buffer.callbacks import AVAILABLE, NOW, PENDING, Requests
 from tftool.buffer.sample import TransformStamped
 from tftool.buffer.solver import Solver
 from tftool.geometry.rigid import Transform

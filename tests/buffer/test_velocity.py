@@ -6,8 +6,7 @@ from tftool.base.errors import ForwardExtrapolationException, LookupException
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.planar import transform_from_pose
-from tftool.geometry.rigid import Transform
+from tftool.geometry.rigid import Transform, transform_from_pose
 
 
 @pytest.fixture

@@ -17,8 +17,8 @@ from scipy.spatial.transform import Rotation
 import tftool as library
 from tftool import Buffer, Transform, TransformStamped, seconds
 from tftool.base.errors import InputError
-from tftool.frames.export import digits
-from tftool.frames.export.digits import BLOCK
+from tftool.frames.export import trajectory_files
+from tftool.frames.export.trajectory_files import BLOCK
 from tftool.geometry.conversions import quaternion_from_rpy
 
 SECOND = seconds(1)
@@ -340,7 +340,7 @@ def test_protobufs_own_reader_understands_foxgloves_frames(buffer, tmp_path):
     descriptors = pytest.importorskip("google.protobuf.descriptor_pb2", reason="no protobuf here")
     from google.protobuf import descriptor_pool, message_factory
 
-    from tftool.messages.protobuf import frame_transforms, frame_transforms_definition
+    from tftool.frames.export.frame_messages import frame_transforms, frame_transforms_definition
 
     pool = descriptor_pool.DescriptorPool()
     for file in descriptors.FileDescriptorSet.FromString(frame_transforms_definition()).file:
@@ -461,7 +461,7 @@ def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number)
     # The signal comes while the second block of rows is written.
     before = sorted(tmp_path.iterdir())
     blocks = []
-    write = digits.rows
+    write = trajectory_files.rows
 
     def interrupted(*arguments, **words):
         blocks.append(1)
@@ -469,7 +469,7 @@ def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number)
             os.kill(os.getpid(), number)
         return write(*arguments, **words)
 
-    monkeypatch.setattr("tftool.frames.export.digits.rows", interrupted)
+    monkeypatch.setattr("tftool.frames.export.trajectory_files.rows", interrupted)
     result = tftool(
         "export", "odom", "base", run, "-o", tmp_path / "a.tum", "--every", str(1.39 / 2 / BLOCK)
     )

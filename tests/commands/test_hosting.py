@@ -12,7 +12,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import HEAD_START, open_empty_session, open_session
 from tftool.frames.export.export import export
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 from tftool.geometry.rigid import Transform
 from tftool.opener import named, open_frames, scenario_named
 from tftool.recordings.find import Kind

@@ -8,7 +8,7 @@ from tftool.commands.shared.options import (
     not_negative,
     positive,
 )
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ from tftool.drawing.plane import (
     fitted_view,
     grid_step,
 )
-from tftool.geometry.motion.unicycle import CENTRE, FIELD
+from tftool.geometry.motion import CENTRE, FIELD
 
 PEN = Color(179, 184, 255)
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tftool.base.short_numbers import short_size
+from tftool.base.plain_text import short_size
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.messages.native_scan import SCAN
+from tftool.messages.transform_rows import SCAN
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.columns import Batch, Table
 from tftool.recordings.contract import Publisher

@@ -12,8 +12,7 @@ from tests.recordings.scanning import REASON, ROS1_SAMPLE, both, cdr, is_native,
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.messages.layouts import CDR, ROS1
-from tftool.messages.native_scan import SCAN
-from tftool.messages.transform_rows import walk
+from tftool.messages.transform_rows import SCAN, walk
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings import columns
 

@@ -8,9 +8,9 @@ import pytest
 
 from tests.recordings.scanning import REASON, is_native
 from tftool import InputError
-from tftool.messages.native_scan import SCAN
+from tftool.messages.transform_rows import SCAN
 from tftool.recordings.rosbag2 import read as sqlite
-from tftool.recordings.rosbag2.format import read_pages
+from tftool.recordings.rosbag2.read import read_pages
 
 needs_scan = pytest.mark.skipif(not is_native(), reason=REASON)
 TOPICS = ["/tf", "/image", "/tf_static"]

@@ -7,7 +7,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tftool.base.errors import InputError, ScenarioError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.scenario import builtin, load
 from tftool.scenario.node_kinds import KINDS
 from tftool.scenario.questions import SUBJECTS

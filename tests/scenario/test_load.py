@@ -6,7 +6,7 @@ import pytest
 
 from tftool.base.errors import InputError, ScenarioError, UsageError
 from tftool.base.stamps import seconds
-from tftool.geometry.motion.pid import Gains
+from tftool.geometry.motion import Gains
 from tftool.scenario import document, load
 from tftool.scenario.scenario import When
 

@@ -7,8 +7,7 @@ from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.on_screen import scene_of
 from tftool.drawing import theme
-from tftool.geometry.planar import heading
-from tftool.geometry.rigid import Transform
+from tftool.geometry.rigid import Transform, heading
 from tftool.messages.turtle_messages import Empty
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description

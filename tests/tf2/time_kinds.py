@@ -9,7 +9,7 @@ import pytest
 from tests.tf2 import buffer_kind
 from tests.tf2.loader import Unknown, fields
 from tftool.base.errors import TransformException
-from tftool.buffer.clock_jumps import LEAST_FALL, Watch, must_clear
+from tftool.buffer.callbacks import LEAST_FALL, Watch, must_clear
 from tftool.buffer.sample import TransformStamped
 from tftool.world.clock import SimClock, run
 from tftool.world.world import World

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from rich.cells import cell_len
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 
 # Joiners and variation selectors, which change a character's width in some terminals only.
 # Without them the computed width is right on every terminal.

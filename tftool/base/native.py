@@ -1,15 +1,17 @@
-"""Import of the native (C) modules, if they were built and are not switched off.
+"""Native (C) modules, if they were built and are not switched off, and memory in large pages.
 
 Native modules are built with the package if there is a C compiler. Without them everything runs in
 plain Python with equal results. `TFTOOL_PURE=1` switches them off.
 """
 
+import mmap
 import os
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
     from types import ModuleType
+
 
 SWITCH = "TFTOOL_PURE"
 """Environment variable that switches the native modules off, unless it is empty or 0."""
@@ -29,3 +31,28 @@ def built(name: str, interface: int) -> "ModuleType | None":
     except ImportError:
         return None
     return found if interface == found.INTERFACE else None
+
+
+PAGE: Final = 1 << 21
+"""Bytes of a large page of memory."""
+
+_HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
+
+
+def large_pages(size: int, end: int) -> "mmap.mmap | None":
+    """Allocate memory in large pages, rounded up to a whole page; None if unsupported.
+
+    Args:
+        size: Minimum number of bytes. Bytes that are never written occupy no memory.
+        end: Offset from which on no large page is requested, bytes.
+    """
+    if _HUGE is None:
+        return None
+    try:
+        # So long a piece recent kernels begin at a large page.
+        pages = mmap.mmap(-1, size + PAGE - 1 & -PAGE, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+        pages.madvise(_HUGE, 0, end)
+    except OSError:
+        # A kernel without them, or not as many addresses.
+        return None
+    return pages

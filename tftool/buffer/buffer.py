@@ -6,10 +6,10 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 from tftool.base.errors import TransformException
-from tftool.base.listeners import Listeners, Report, listener_text
 from tftool.base.stamps import CACHE_TIME, Duration, Stamp, as_seconds, whole
 from tftool.buffer import forest as tree
-from tftool.buffer import refusals, snapshot, velocity
+from tftool.buffer import refusals, snapshot, solver
+from tftool.buffer.callbacks import NEVER, Callback, Listeners, Report, Requests, listener_text
 from tftool.buffer.forest import FrameTree
 from tftool.buffer.history import (
     AUTHORITY_SHIFT,
@@ -22,10 +22,8 @@ from tftool.buffer.history import (
     Sample,
 )
 from tftool.buffer.native_kernel import Door, native_first
-from tftool.buffer.path import Path
-from tftool.buffer.requests import NEVER, Callback, Requests
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
-from tftool.buffer.solver import Solver
+from tftool.buffer.solver import Path, Solver
 from tftool.geometry import poses, quaternions, rigid
 from tftool.geometry.rigid import Transform
 
@@ -588,13 +586,13 @@ class Buffer(Door):
 
     def lookup_velocity(
         self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
-    ) -> velocity.Velocity:
+    ) -> solver.Velocity:
         """Return the velocity of `tracking_frame` in `observation_frame`, by tf2's formula.
 
-        `velocity.full` explains how tf2's numbers differ; `lookup_twist` returns the true
+        `solver.full` explains how tf2's numbers differ; `lookup_twist` returns the true
         velocities.
         """
-        return velocity.full(
+        return solver.full(
             self,
             tracking_frame,
             observation_frame,
@@ -614,13 +612,13 @@ class Buffer(Door):
         reference_point_frame: str,
         time: Stamp,
         interval: Duration,
-    ) -> velocity.Velocity:
+    ) -> solver.Velocity:
         """Return `tracking_frame`'s velocity in `observation_frame`, expressed in
         `reference_frame`.
 
-        The formula is exactly tf2's; see `velocity.full`.
+        The formula is exactly tf2's; see `solver.full`.
         """
-        return velocity.full(
+        return solver.full(
             self,
             tracking_frame,
             observation_frame,
@@ -633,7 +631,7 @@ class Buffer(Door):
 
     def lookup_twist(
         self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
-    ) -> velocity.Velocity:
+    ) -> solver.Velocity:
         """Return linear and angular velocity of `tracking_frame` in `observation_frame`.
 
         Raises:
@@ -641,7 +639,7 @@ class Buffer(Door):
             TypeError: If the time or the interval is not a whole number.
             ValueError: If the interval is not positive.
         """
-        return velocity.twist(self, tracking_frame, observation_frame, time, interval)
+        return solver.twist(self, tracking_frame, observation_frame, time, interval)
 
     # Whether a lookup would succeed
 

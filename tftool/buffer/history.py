@@ -21,7 +21,7 @@ from array import array
 from math import inf, nan
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, cast
 
-from tftool.base.large_pages import PAGE, large_pages
+from tftool.base.native import PAGE, large_pages
 from tftool.base.stamps import LAST_STAMP, Duration, Stamp
 from tftool.buffer.native_kernel import IS_NATIVE
 from tftool.geometry import poses, quaternions

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
 from tftool.base.native import built
 
 if TYPE_CHECKING:
+    from tftool.buffer.callbacks import Request
     from tftool.buffer.forest import Frame, Sender
-    from tftool.buffer.path import Path
-    from tftool.buffer.requests import Request
+    from tftool.buffer.solver import Path
 
 _Method = TypeVar("_Method")
 

@@ -1,15 +1,218 @@
-"""Solver of lookups: walks the trees, and caches paths for the next lookup."""
+"""Solver of lookups: walks the trees, caches paths for the next lookup, computes velocities."""
 
-from typing import Final
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from tftool.base.errors import TransformException
-from tftool.base.stamps import Duration, Stamp
+from tftool.base.stamps import Duration, Stamp, as_seconds, seconds, whole
 from tftool.buffer import forest as tree
 from tftool.buffer import refusals, snapshot
+from tftool.buffer.callbacks import AVAILABLE, EXPIRED, PENDING, Lookup
 from tftool.buffer.forest import ARRIVED, LOOP, REFUSED, FrameTree, Walk
-from tftool.buffer.history import History, Sample
-from tftool.buffer.path import Path, path_of
-from tftool.buffer.requests import AVAILABLE, EXPIRED, PENDING, Lookup
+from tftool.buffer.history import IDENTITY, LONGEST, SHORTEST, History, Link, Sample, StaticLink
+from tftool.geometry import conversions, poses, quaternions
+from tftool.geometry.quaternions import Triple
+from tftool.geometry.rigid import Quaternion, Transform, Vector3
+
+if TYPE_CHECKING:
+    from tftool.buffer.buffer import Buffer
+
+
+_new: Final = tuple.__new__
+
+
+class Path(NamedTuple):
+    """Links from the source and from the target up to their common ancestor.
+
+    A plain tuple, which the native kernel reads as well: see `native`.
+
+    Attributes:
+        up: Links from the source upward.
+        down: Links from the target upward.
+        moving: The links that are not static.
+    """
+
+    up: tuple[Link, ...]
+    down: tuple[Link, ...]
+    moving: tuple[History, ...]
+
+    def latest(self) -> Stamp:
+        """Return the newest time for which every link has data; 0 if all are static."""
+        # The smallest of the links' newest stamps; a stamp of 0 is "no sample yet".
+        latest = 0
+        for link in self.moving:
+            stamp = link.newest_stamp
+            if stamp != 0 and (stamp < latest or latest == 0):
+                latest = stamp
+        return latest
+
+    def covers(self, time: Stamp) -> bool:
+        """Whether every link has data at that time."""
+        for link in self.moving:
+            # The newest stamp is asked for most, so it is compared first.
+            if time != link.newest_stamp and (
+                not link.oldest_stamp <= time < link.newest_stamp and time != 0
+            ):
+                return False
+        return True
+
+    def solve(self, time: Stamp) -> Transform | None:
+        """Return the pose of source in target at that time; None if a link has no data."""
+        pose = chain(self.up, time)
+        if self.down:
+            pose = poses.between(chain(self.down, time), pose)
+        x, y, z, qx, qy, qz, qw = pose
+        # The usual case of both: to call them each time costs 10 % of a lookup.
+        if not (qw > 0.5 and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST):
+            if qw != qw:
+                return None
+            # Of length one, as samples are: where several links turn, rounding adds up.
+            qx, qy, qz, qw = quaternions.canonical(quaternions.unit((qx, qy, qz, qw)))
+        return _new(Transform, (_new(Vector3, (x, y, z)), _new(Quaternion, (qx, qy, qz, qw))))
+
+
+def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
+    """Multiply the poses of several links, lowest first; NO_POSE if a link has no pose.
+
+    Args:
+        links: Links in order; the parent of each link is the child of the next link.
+        time: Nanoseconds; 0 for each link's newest sample.
+
+    Returns:
+        The pose of the first link's child in the last link's parent.
+    """
+    pose: Sample | None = None
+    for link in links:
+        # A row without a pose is NaN throughout, and leaves nothing but NaN.
+        pose = link.at(time) if pose is None else poses.compose(link.at(time), pose)
+    return IDENTITY if pose is None else pose
+
+
+def folded(links: Iterable[Link]) -> tuple[Link, ...]:
+    """Merge each run of static links into one."""
+    result: list[Link] = []
+    run: list[Link] = []
+    for link in links:
+        if link.is_static:
+            run.append(link)
+            continue
+        if run:
+            result += _folded_run(run)
+            run = []
+        result.append(link)
+    return tuple(result + _folded_run(run)) if run else tuple(result)
+
+
+def _folded_run(run: list[Link]) -> list[Link]:
+    return [StaticLink(chain(tuple(run), 0))] if len(run) > 1 else run
+
+
+def path_of(tree: FrameTree, walk: Walk) -> Path:
+    """Return the path of a successful walk."""
+    frames = tree.frames
+    up = folded([link for number in walk.up if (link := frames[number].link) is not None])
+    down = folded([link for number in walk.down if (link := frames[number].link) is not None])
+    return Path(up, down, tuple([link for link in up + down if isinstance(link, History)]))
+
+
+@dataclass(frozen=True, slots=True)
+class Velocity:
+    """Linear and angular velocity of one frame relative to another.
+
+    Attributes:
+        stamp: Middle of the averaging interval, nanoseconds.
+        frame: The frame in which both vectors are expressed.
+        body: The frame that moves.
+        linear: Metres per second.
+        angular: Radians per second.
+    """
+
+    stamp: Stamp
+    frame: str
+    body: str
+    linear: Vector3
+    angular: Vector3
+
+
+def full(
+    buffer: "Buffer",
+    tracking: str,
+    observation: str,
+    reference: str,
+    point: Triple,
+    point_frame: str,
+    time: Stamp,
+    interval: Duration,
+) -> Velocity:
+    """Return the velocity that tf2's `lookup_velocity_full` computes, with its known errors.
+
+    The result is a spatial twist if the reference does not rotate relative to the tracked frame.
+    Otherwise tf2 applies the wrong rotation to the vectors, and moves the reference point with an
+    element-wise product instead of a cross product. `twist` has neither error.
+
+    Raises:
+        TransformException: If one of the lookups fails.
+        TypeError: If the time or the interval is not a whole number.
+    """
+    # As in tf2, times are converted to float seconds, which rounds them.
+    at, over = as_seconds(whole(time)), as_seconds(whole(interval))
+    end = min(at + over * 0.5, as_seconds(buffer.newest_common(observation, tracking)))
+    start = max(0.00001 + over, end) - over
+    duration = end - start
+    first = buffer.lookup_transform(observation, tracking, seconds(start)).transform
+    last = buffer.lookup_transform(observation, tracking, seconds(end)).transform
+    v, w = _difference(first, last, duration)
+
+    reference_from_body = buffer.lookup_transform(reference, tracking, time).transform
+    origin = reference_from_body.translation
+    w = reference_from_body.rotate(w)
+    v = reference_from_body.rotate(v) + origin.cross(w)
+    place = buffer.lookup_transform(reference, point_frame, time).transform.apply(point)
+    shift = place - origin
+    v += Vector3(w.x * shift.x, w.y * shift.y, w.z * shift.z)
+    return Velocity(seconds(start + over * 0.5), reference, tracking, v, w)
+
+
+def twist(
+    buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
+) -> Velocity:
+    """Return the linear velocity of `tracking`'s origin and its angular velocity, in `observation`.
+
+    The result is the mean over `interval` around `time`, or over the part of the interval for which
+    the buffer has data.
+
+    Raises:
+        TransformException: If a lookup at an end of the interval fails.
+        TypeError: If the time or the interval is not a whole number.
+        ValueError: If the interval is not positive.
+    """
+    time, interval = whole(time), whole(interval)
+    if interval <= 0:
+        raise ValueError(f"a velocity needs a positive interval, not {interval} ns")
+    newest = buffer.newest_common(observation, tracking)
+    middle = time or newest
+    end = min(middle + interval // 2, newest) if newest else middle + interval // 2
+    start = max(1, end - interval)
+    first = buffer.lookup_transform(observation, tracking, start).transform
+    last = buffer.lookup_transform(observation, tracking, end).transform
+    v, w = _difference(first, last, as_seconds(end - start))
+    return Velocity((start + end) // 2, observation, tracking, v, w)
+
+
+def _difference(first: Transform, last: Transform, duration: float) -> tuple[Vector3, Vector3]:
+    """Return the mean linear and angular velocity between two poses of a frame."""
+    if duration == 0.0:
+        unknown = Vector3(math.nan, math.nan, math.nan)
+        return unknown, unknown
+    turn = quaternions.multiply(quaternions.conjugate(first.rotation), last.rotation)
+    axis, angle = conversions.axis_angle_from_quaternion(turn)
+    return (
+        (last.translation - first.translation) / duration,
+        first.rotate(axis) * (angle / duration),
+    )
+
 
 MOST_PATHS: Final = 20_000
 """Maximum number of cached paths, which limits memory; with more pairs of frames in turn, each

@@ -3,8 +3,8 @@
 import sys
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.options import OUTPUT, Json, argument, flag, option

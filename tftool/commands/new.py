@@ -13,7 +13,7 @@ from typing import Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Json, argument, flag, option, refuse
 from tftool.commands.shared.printer import write_json

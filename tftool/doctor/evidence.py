@@ -14,16 +14,13 @@ from tftool.buffer.buffer import Buffer
 from tftool.frames.frames import Frames
 from tftool.frames.transform_log import TransformLog
 from tftool.recordings.container_reader import Recorded
-from tftool.recordings.contract import (
-    Edge,
-    Headers,
-    Publisher,
-    RecordedTopic,
-    Stamps,
-    Transforms,
+from tftool.recordings.contract import Edge, Headers, Publisher, RecordedTopic, Stamps, Transforms
+from tftool.recordings.description_frames import (
+    description_topics,
+    joint_state_topics,
+    read_description,
+    read_joint_states,
 )
-from tftool.recordings.description_frames import description_topics, read_description
-from tftool.recordings.joint_state_reader import joint_state_topics, read_joint_states
 from tftool.recordings.tf_topics import transforms_on
 from tftool.robots.robot_model import Robot, load_urdf
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.errors import TransformException
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.doctor.missing_joins import static_publisher
 from tftool.doctor.wording import several
 from tftool.robots.description import RobotJoint

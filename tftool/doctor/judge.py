@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tftool.base.errors import UsageError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.base.stamps import CACHE_TIME, Duration
 from tftool.buffer.buffer import Buffer
 from tftool.doctor import clock_checks as clocks

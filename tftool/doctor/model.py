@@ -14,9 +14,7 @@ from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, sec
 from tftool.doctor.evidence import Evidence
 from tftool.doctor.ros_words import ros_words
 from tftool.doctor.stamp_stream import WILD, Heard, Stream, Track, last_part
-from tftool.recordings.contract import (
-    Stamps,
-)
+from tftool.recordings.contract import Stamps
 from tftool.recordings.description_frames import prefix_of
 from tftool.recordings.timeline import through_clock
 from tftool.robots.description import RobotJoint

@@ -8,7 +8,7 @@ import numpy as np
 
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.errors import InputError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.base.stamps import LATEST, Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.drawing.recording_view import wrapped
 from tftool.frames.calibration.calibrate import Calibration, Interval, Trio
 from tftool.frames.calibration.clock_offset import ClockOffset

@@ -36,7 +36,7 @@ from tftool.drawing.plane import (
     Viewport,
     grid_step,
 )
-from tftool.geometry.motion.unicycle import FIELD
+from tftool.geometry.motion import FIELD
 
 MOST_NAMED: Final = 80
 """Largest number of frames whose names are written."""

@@ -4,7 +4,7 @@ from typing import Final
 
 from rich.cells import cell_len
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.drawing.recording_view import table, wrapped
 from tftool.frames.differences import (

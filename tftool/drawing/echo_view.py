@@ -5,8 +5,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import TransformException
-from tftool.base.escaping import visible, visible_lines
-from tftool.base.short_numbers import finite, short_duration
+from tftool.base.plain_text import finite, short_duration, visible, visible_lines
 from tftool.base.stamps import FRAME_TIMEOUT, NANOSECONDS, Duration, Stamp, as_seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import rpy_from_quaternion

@@ -9,7 +9,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from tftool.base.escaping import MOST_LINES, visible, visible_lines
+from tftool.base.plain_text import MOST_LINES, visible, visible_lines
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp
 from tftool.doctor.explanation import Explanation
 from tftool.doctor.trace import LinkVerdict, TracedLink

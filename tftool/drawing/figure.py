@@ -10,7 +10,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.frames.export.export import Framed, buffer_of

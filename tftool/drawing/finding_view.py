@@ -13,9 +13,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import count, visible
 from tftool.base.report import Judgement, Report
-from tftool.base.short_numbers import count
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Confidence, Finding, Severity

@@ -16,9 +16,8 @@ import yaml
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.base.escaping import distinct, visible
 from tftool.base.fixed_width import middle_cut
-from tftool.base.short_numbers import finite, short_duration, short_rate
+from tftool.base.plain_text import distinct, finite, short_duration, short_rate, visible
 from tftool.base.stamps import FRAME_TIMEOUT, Stamp, as_seconds, display
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import ASCII, UNICODE, Branch, Forest, Guides, branches, grow

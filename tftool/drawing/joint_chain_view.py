@@ -7,7 +7,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.doctor.joint_chain import ChainExplanation, ChainLink
 from tftool.drawing.explanation_view import SCHEMA, reasons
 

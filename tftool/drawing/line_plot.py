@@ -9,8 +9,8 @@ import numpy as np
 from rich.text import Text
 
 from tftool.base.color import Color
-from tftool.base.escaping import visible
 from tftool.base.fixed_width import fitted
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme

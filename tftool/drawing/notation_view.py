@@ -10,9 +10,11 @@ from tftool.geometry.notation.notations import (
     NAMED_FORMS,
     NOTATIONS,
     Notation,
+    exact,
     notation_of,
+    publisher_words,
+    urdf_origin,
 )
-from tftool.geometry.notation.text import exact, publisher_words, urdf_origin
 from tftool.geometry.rigid import Transform
 
 POSE_FORMS: Final = ("matrix4", "urdf", "static")

@@ -10,8 +10,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from tftool.base.escaping import distinct, visible
-from tftool.base.short_numbers import count, short_duration
+from tftool.base.plain_text import count, distinct, short_duration, visible
 from tftool.base.stamps import Duration
 from tftool.buffer.sample import Snapshot
 from tftool.drawing.drawn_forest import Forest, facts, grow, recorded_at

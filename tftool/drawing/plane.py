@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from tftool.base.color import BACKGROUND, Color
 from tftool.drawing.cells import Stroke
-from tftool.geometry.motion.unicycle import FIELD
+from tftool.geometry.motion import FIELD
 
 _APART: Final = 3.4
 """Smallest distance of two grid lines, in rows of the terminal."""

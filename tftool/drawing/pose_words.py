@@ -2,7 +2,7 @@
 
 import math
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.geometry.conversions import axis_angle_from_quaternion
 from tftool.geometry.rigid import Transform, Vector3
 

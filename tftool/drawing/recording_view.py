@@ -9,9 +9,8 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.base.escaping import visible
 from tftool.base.fixed_width import middle_cut
-from tftool.base.short_numbers import count, short_size
+from tftool.base.plain_text import count, short_size, visible
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp, as_seconds
 from tftool.drawing.table_columns import TableColumn, fit
 from tftool.recordings.contract import Publisher, RecordedTopic

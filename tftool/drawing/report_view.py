@@ -9,9 +9,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import count, visible
 from tftool.base.report import Judgement, Report
-from tftool.base.short_numbers import count
 
 
 def render(reports: Sequence[Report]) -> Table:

@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from tftool.base.escaping import visible
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, visible
 from tftool.drawing.recording_view import table, wrapped
 from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot

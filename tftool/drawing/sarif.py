@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.doctor.check import Check
 from tftool.doctor.findings import Finding
 from tftool.doctor.judge import CHECKS, Diagnosis

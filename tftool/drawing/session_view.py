@@ -7,8 +7,8 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.base.escaping import visible
 from tftool.base.fixed_width import middle_cut, wrap_words
+from tftool.base.plain_text import visible
 from tftool.drawing.table_columns import TableColumn, fit
 
 ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.drawing import theme
 from tftool.drawing.labels import Label, PlacedLabel, Placer
 from tftool.drawing.space import OrbitCamera, SpacePicture

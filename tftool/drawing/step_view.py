@@ -8,7 +8,7 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import as_seconds
 from tftool.doctor.localisation_steps import LocalisationStep
 from tftool.doctor.model import Model

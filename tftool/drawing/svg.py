@@ -10,7 +10,7 @@ from base64 import b64encode
 from hashlib import sha256
 from html import escape
 
-from tftool.base.escaping import distinct, visible
+from tftool.base.plain_text import distinct, visible
 from tftool.base.stamps import display
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.frame_tree import HEADINGS, NO_MARKS, NOTHING, Marks, facts

@@ -11,9 +11,8 @@ from rich.style import Style
 from rich.text import Text
 
 from tftool.base.color import Color
-from tftool.base.escaping import visible
 from tftool.base.fixed_width import fitted, padded
-from tftool.base.short_numbers import short_duration
+from tftool.base.plain_text import short_duration, visible
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.buffer.traffic import FrameTraffic, Series, Traffic
 from tftool.drawing import theme

@@ -7,9 +7,8 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.base.escaping import visible
 from tftool.base.fixed_width import middle_cut, wrap_words
-from tftool.base.short_numbers import short_duration
+from tftool.base.plain_text import short_duration, visible
 from tftool.base.stamps import FRAME_TIMEOUT, Duration, Stamp, as_seconds
 from tftool.buffer.traffic import FrameTraffic, NetDelay, Series, Traffic
 from tftool.doctor.findings import STALE_AFTER, STOPPED_AFTER, STOPPED_PERIODS

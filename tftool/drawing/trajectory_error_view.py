@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.drawing.recording_view import table, wrapped
 from tftool.frames.pair_series import PlotCurve, PlotPanel

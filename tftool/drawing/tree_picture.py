@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from tftool.base.escaping import distinct, shorten, visible
+from tftool.base.plain_text import distinct, shorten, visible
 from tftool.buffer.sample import Snapshot
 from tftool.drawing import pdf as pdf_writer
 from tftool.drawing import svg as svg_writer

@@ -1,5 +1,6 @@
 """Differences of two sets of frames, A and B: links added, removed, reattached or displaced."""
 
+import os
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from enum import StrEnum
@@ -8,13 +9,18 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from tftool.base.errors import InputError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import SIMULATED_BELOW, Duration, Stamp
 from tftool.buffer.batch.transform_array import SampleColumns
 from tftool.buffer.buffer import Buffer
+from tftool.frames.frames import Frames
 from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
+from tftool.recordings.find import Kind, find
+from tftool.recordings.recording import Recording, open_recording
+from tftool.robots.robot_model import Robot, load_urdf
+from tftool.robots.static_publishers import StaticFrames, load_statics
 
 Stamps: TypeAlias = npt.NDArray[np.int64]
 
@@ -387,3 +393,83 @@ def _common(old: SampleColumns, new: SampleColumns, shift: Duration) -> Stamps:
 
 def _root_mean_square(values: batch.Floats) -> float:
     return float(np.sqrt(np.mean(values * values)))
+
+
+Comparable = Frames | Recording | Robot | Buffer | StaticFrames | str | os.PathLike[str]
+"""Source of frames to compare; a path names a recording, a description or a launch file."""
+
+
+def diff(
+    a: Comparable,
+    b: Comparable,
+    *,
+    mm: float = 1.0,
+    deg: float = 0.1,
+    rate_percent: float | None = None,
+    align_starts: bool = False,
+) -> Differences:
+    """Compare two sets of frames, link by link; see `compare`::
+
+        for one in tftool.diff("monday.mcap", "robot.urdf").changed:
+            print(one.child, *one.changes)
+
+    Args:
+        a: Frames, or the path of a file of them.
+        b: The other side.
+        mm: Largest distance that a frame may have moved, millimetres.
+        deg: Tolerated rotation, degrees.
+        rate_percent: Tolerated difference of rates, percent; None to ignore rates.
+        align_starts: Whether moments count from each one's own start.
+
+    Returns:
+        All links with their changes; false if there are none.
+
+    Raises:
+        InputError: If a path cannot be read, or one of the two has no frames.
+        UsageError: If a path names a scenario, which has to be played first.
+    """
+    allowance = Allowance(mm, deg, rate_percent)
+    return compare(side_of(a, "A"), side_of(b, "B"), allowance, align_starts=align_starts)
+
+
+def side_of(frames: Comparable, name: str) -> Side:
+    """Return frames as one side of a comparison.
+
+    Args:
+        frames: Source of the frames.
+        name: Name for a side without one of its own.
+
+    Raises:
+        InputError: If a path cannot be read.
+        UsageError: If the word names a scenario.
+    """
+    if isinstance(frames, str | os.PathLike):
+        return _opened(os.fspath(frames))
+    if isinstance(frames, Frames):
+        return Side(frames.label, frames.buffer, frames.span[0], frames.moving or frozenset())
+    if isinstance(frames, Buffer):
+        stamps = [int(one.stamps[0]) for one in map(frames.samples, frames.frames()) if len(one)]
+        return Side(name, frames, min((one for one in stamps if one), default=0))
+    if isinstance(frames, Robot):
+        return Side(frames.name, frames.buffer(), 0, joints_of(frames))
+    return Side(frames.name, frames.buffer, frames.start)
+
+
+def joints_of(robot: Robot) -> frozenset[str]:
+    """Return the links of a robot whose pose depends on a joint."""
+    return frozenset(one.child for one in robot.joints.values() if one.moves)
+
+
+def _opened(path: str) -> Side:
+    found = find(path)
+    if found.kind is Kind.SCENARIO:
+        raise UsageError(
+            f"'{path}' is a scenario, which must be played first: use 'tftool diff', or give "
+            "the buffer of a world."
+        )
+    if found.kind is Kind.STATICS:
+        return side_of(load_statics(found.paths[0], path), path)
+    if found.kind is Kind.DESCRIPTION:
+        return side_of(load_urdf(found.paths[0]), path)
+    with open_recording(path) as recording:
+        return side_of(recording, path)

@@ -2,10 +2,10 @@
 
 from typing import TYPE_CHECKING, Literal, Self, TypeAlias
 
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import LATEST, Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
-from tftool.frames.moment import At, checked_moment
+from tftool.frames.source_options import At, checked_moment
 
 if TYPE_CHECKING:
     from tftool.frames.transform_log import TransformLog
@@ -146,7 +146,7 @@ class Frames:
         """Return sentences about damage, gaps and joints without a position."""
         if self._recording is None:
             return self._notes
-        from tftool.frames.notes import recording_notes
+        from tftool.frames.frame_files import recording_notes
 
         return tuple(recording_notes(self._recording))
 

@@ -5,6 +5,64 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tftool.base.errors import UsageError
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """A time as for `--at`: seconds since FROM's start, or a stamp.
+
+    Attributes:
+        nanoseconds: The time, nanoseconds.
+        is_stamp: Whether they count from 1970 (or a recording's own zero), not from the
+            beginning.
+    """
+
+    nanoseconds: int
+    is_stamp: bool = False
+
+    def stamp(self, epoch: Stamp) -> Stamp:
+        """Return the stamp of this time in a source that begins at `epoch`."""
+        return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
+
+    def __str__(self) -> str:
+        whole, rest = divmod(self.nanoseconds, NANOSECONDS)
+        digits = f"{whole}.{rest:09}".rstrip("0").rstrip(".")
+        return digits if self.is_stamp else f"{digits} s"
+
+
+def checked_moment(
+    at: At, title: str, epoch: Stamp, duration: Duration | None, received: Duration = 0
+) -> Stamp:
+    """Return the stamp of a time, checked to be between start and end.
+
+    Args:
+        at: The moment.
+        title: Name of the recording or session, as the beginning of a sentence.
+        epoch: Start.
+        duration: Length; None for no end.
+        received: Time over which a recording received messages of any topic.
+
+    Raises:
+        UsageError: If the moment is outside the span.
+    """
+    stamp = at.stamp(epoch)
+    if duration is not None and stamp > epoch + duration:
+        if at.is_stamp:
+            end = At(epoch + duration, is_stamp=True)
+            raise UsageError(f"{title} ends at {end}: {at} is after that.")
+        lasts = f"{title} lasts {as_seconds(duration):g} s"
+        # Other topics may go on long after the last transform.
+        if received > duration + NANOSECONDS:
+            lasts = (
+                f"The transforms of {title} end at {as_seconds(duration):g} s (messages were "
+                f"received for {as_seconds(received):.1f} s)"
+            )
+            raise UsageError(f"{lasts}: {at} is after their end.")
+        raise UsageError(f"{lasts}: {at} is after its end.")
+    if stamp < epoch:
+        raise UsageError(f"{title} begins at {At(epoch, is_stamp=True)}: {at} is before that.")
+    return stamp
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,7 @@
 
 #include "../buffer/_path.h"
 
-/* Version that `tftool.messages.native_scan` expects; a build with another one is not used. */
+/* Version that `tftool.messages.transform_rows` expects; a build with another one is not used. */
 #define INTERFACE 4
 
 #define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */

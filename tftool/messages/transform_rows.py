@@ -15,9 +15,14 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import MalformedMessage
+from tftool.base.native import built
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.messages.layouts import CDR, Layout
 from tftool.messages.transforms import KIND
+
+SCAN: Final[Any] = built("tftool.messages._scan", 4)
+"""The module; None where it is not used."""
+
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 """Array of bytes."""

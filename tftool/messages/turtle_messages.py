@@ -8,7 +8,7 @@ encoder of a message checks it.
 from typing import Any, Final
 
 from tftool.base.stamps import NANOSECONDS, Stamp
-from tftool.geometry.motion.twist import Twist2D
+from tftool.geometry.motion import Twist2D
 from tftool.messages.classes import INTERFACES, build
 
 Pose: Final[Any] = INTERFACES.message("turtlesim/msg/Pose")

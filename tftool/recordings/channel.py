@@ -185,6 +185,26 @@ class ContainerWriter(Protocol):
         """Close the file without writing its end."""
 
 
+class RecordedWriter(ContainerWriter, Protocol):
+    """Writer of a file that is of use before it is complete.
+
+    Attributes:
+        counts: Messages by stream.
+    """
+
+    counts: dict[int, int]
+
+    @property
+    def span(self) -> tuple[Stamp, Stamp]:
+        """First and last log time of the messages in the file; 0 if there are none."""
+
+    def flush(self) -> None:
+        """Write buffered messages to the file."""
+
+    def rescue(self) -> bool:
+        """Complete the file after a failed write; return False if it cannot be completed."""
+
+
 def offers_text(static: bool) -> str:
     """Return the QoS profile of a publisher of transforms, as recorded text.
 

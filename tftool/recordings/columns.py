@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from tftool.base.large_pages import PAGE, large_pages
+from tftool.base.native import PAGE, large_pages
 from tftool.base.stamps import Stamp
 from tftool.messages.transform_rows import (
     Bytes,

@@ -26,7 +26,8 @@ from tftool.recordings.contract import (
     Transforms,
 )
 from tftool.recordings.decompression import LARGEST, unpack_beginning
-from tftool.recordings.foreign_transforms import decoder_of, is_foreign
+from tftool.recordings.find import Found, Kind, container_in
+from tftool.recordings.foreign_transforms import FOREIGN, decoder_of
 from tftool.recordings.message_cutter import AnyCutter, Cutter, Decoding, cutter
 
 TRANSFORM_TYPES: Final = ("tf2_msgs/TFMessage", "tf/tfMessage")
@@ -356,7 +357,7 @@ def _is_tf(stream: Channel) -> bool:
 
 
 def _has_transforms(stream: Channel) -> bool:
-    return _is_tf(stream) or is_foreign(short_type(stream.type), stream.encoding)
+    return _is_tf(stream) or (short_type(stream.type), stream.encoding) in FOREIGN
 
 
 def is_static(stream: Channel) -> bool:
@@ -382,3 +383,25 @@ def begins_with_header(stream: Channel) -> bool:
         if field and "=" not in field:
             return _HEADER_FIELD.fullmatch(field) is not None
     return False
+
+
+def open_found(found: Found) -> Container:
+    """Open a recording that `find` returned.
+
+    Raises:
+        InputError: If the file cannot be read, or is not a recording.
+        OSError: If a file cannot be opened.
+    """
+    if not found.kind.is_recording:
+        raise InputError(f"'{found.name}' is a {found.kind.value}, not a recording.")
+    # Imported here because few recordings need these modules.
+    if found.kind in (Kind.ROSBAG2, Kind.SEVERAL, Kind.ZSTD):
+        from tftool.recordings.rosbag2.folder import open_parts
+
+        return open_parts(found)
+    if found.kind is Kind.POSES:
+        from tftool.recordings.poses.pose_container import open_poses
+
+        return open_poses(found)
+    path = found.paths[0]
+    return container_in(path, found.kind).open(path)

@@ -106,7 +106,7 @@ CONTAINERS: Final = (
         "mcap",
         ("mcap.read", "Mcap"),
         ("mcap.write", "McapWriter"),
-        ("compression", "profile", "library"),
+        ("compression", "profile", "library", "chunk_size"),
         keeps_sequences=True,
     ),
     ContainerFormat(
@@ -172,6 +172,10 @@ def container_stored(storage: str) -> ContainerFormat:
             return one
     known = " or ".join(one.storage for one in CONTAINERS if one.storage)
     raise UsageError(f"'{storage}' is not a storage of rosbag2: use {known}.")
+
+
+RECORDED: Final = container_named("mcap")
+"""The container that `record` writes: what it holds so far can be read at any time."""
 
 
 def library_name() -> str:

@@ -27,6 +27,18 @@ class Shaped(NamedTuple):
 Decoder = Callable[[bytes], Iterable[Shaped]]
 
 _FOXGLOVE: Final = {"FrameTransform": False, "FrameTransforms": True}
+
+FOREIGN: Final = frozenset(
+    [
+        (f"foxglove{package}{name}", encoding)
+        for package in (".", "/", "_msgs.", "_msgs/")
+        for name in _FOXGLOVE
+        for encoding in ("protobuf", "json")
+    ]
+    + [("geometry_msgs/TransformStamped", encoding) for encoding in ("cdr", "ros1")]
+)
+"""Short type and encoding of messages that contain transforms, but are not TFMessages."""
+
 _DOUBLE = struct.Struct("<d")
 
 
@@ -55,14 +67,6 @@ def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decode
         return None
     decode = Codec(Interfaces().recorded(kind, definition), layout).decode
     return lambda payload: [read(decode(payload), topic)]
-
-
-def is_foreign(kind: str, encoding: str) -> bool:
-    """Whether messages of a type contain transforms, but are not TFMessages."""
-    package, _, name = kind.replace("/", ".").rpartition(".")
-    if package in ("foxglove", "foxglove_msgs") and name in _FOXGLOVE:
-        return encoding in ("protobuf", "json")
-    return kind == "geometry_msgs/TransformStamped" and encoding in ("cdr", "ros1")
 
 
 def _stamp(message: Any) -> Stamp:

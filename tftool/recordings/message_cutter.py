@@ -6,8 +6,8 @@ import numpy as np
 
 from tftool.base.errors import MalformedMessage, TftoolError
 from tftool.messages.layouts import CDR, Layout
-from tftool.messages.native_scan import SCAN
 from tftool.messages.transform_rows import (
+    SCAN,
     SMALLEST,
     Template,
     Words,

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import InputError, TftoolError, UsageError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.base.stamps import SIMULATED_BELOW, Stamp
 from tftool.buffer.buffer import NO_LIMIT, Buffer, adopt_records
 from tftool.buffer.forest import stripped
@@ -22,7 +22,7 @@ from tftool.messages.codec import Codec, RecordedCodec
 from tftool.messages.layouts import CDR, ROS1
 from tftool.messages.schema import full_name
 from tftool.recordings.column_cache import ColumnCache, KeptColumns
-from tftool.recordings.container_reader import Recorded
+from tftool.recordings.container_reader import Recorded, open_found
 from tftool.recordings.contract import (
     Edge,
     Floats,
@@ -38,19 +38,16 @@ from tftool.recordings.contract import (
 from tftool.recordings.description_frames import (
     DESCRIPTION,
     DescribedFrames,
+    RecordedJoints,
     add_described,
     description_topics,
+    joint_state_topics,
     missing_motion,
     prefix_of,
     read_description,
-)
-from tftool.recordings.find import Found, Kind, find
-from tftool.recordings.joint_state_reader import (
-    RecordedJoints,
-    joint_state_topics,
     read_joint_states,
 )
-from tftool.recordings.rosbag2.folder import open_found
+from tftool.recordings.find import Found, Kind, find
 from tftool.recordings.tf_topics import implying, joined, transforms_on
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import UnexpandedXacro

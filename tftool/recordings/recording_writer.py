@@ -18,7 +18,7 @@ from tftool.recordings.containers import (
     library_name,
 )
 from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
-from tftool.recordings.rosbag2.folder_writer import FolderWriter
+from tftool.recordings.rosbag2.write import FolderWriter
 from tftool.recordings.target import Target, failed
 
 

@@ -8,17 +8,16 @@ import os
 from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, cast
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.messages.layouts import CDR
 from tftool.messages.transform_rows import TransformRow, TransformRows, encode_rows
-from tftool.recordings.channel import Channel
-from tftool.recordings.containers import library_name
+from tftool.recordings.channel import Channel, RecordedWriter
+from tftool.recordings.containers import RECORDED, library_name
 from tftool.recordings.find import ACTIVE
-from tftool.recordings.mcap.write import McapWriter
-from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
+from tftool.recordings.rosbag2.format import FileFacts, metadata_text, write_metadata
 from tftool.recordings.target import failed, refuse_existing, synced
 
 CHUNK_SIZE: Final = 256 * 1024
@@ -96,8 +95,10 @@ class RollingRecording:
         self._limits = limits or RecordLimits()
         self._compression = compression
         self._is_folder = not path.suffix
-        if path.suffix not in ("", ".mcap"):
-            raise UsageError(f"'{path.name}' has a suffix that cannot be recorded: use '.mcap'.")
+        if path.suffix not in ("", RECORDED.suffix):
+            raise UsageError(
+                f"'{path.name}' has a suffix that cannot be recorded: use '{RECORDED.suffix}'."
+            )
         if self._limits.splits and not self._is_folder:
             raise UsageError(
                 "--max-size and --max-duration write several files into a folder: name a folder, "
@@ -112,7 +113,7 @@ class RollingRecording:
         self._held: deque[Kept] = deque()
         self._held_bytes = 0
         self._written = 0
-        self._writer: McapWriter | None = None
+        self._writer: RecordedWriter | None = None
         self._numbers: dict[int, tuple[int, Channel]] = {}
         self._file_start: Stamp | None = None
         self._last = 0
@@ -125,10 +126,9 @@ class RollingRecording:
 
     def _make_way(self, force: bool) -> None:
         active = self._place(0).with_name(self._place(0).name + ACTIVE)
-        left = active if not self._is_folder else self.path / f"{self.path.name}_0.mcap{ACTIVE}"
-        if left.exists() and not force:
+        if active.exists() and not force:
             raise UsageError(
-                f"'{left}' was left by a recorder that was killed: 'tftool edit {left} -o "
+                f"'{active}' was left by a recorder that was killed: 'tftool edit {active} -o "
                 "FILE.mcap' repairs it. --force replaces it."
             )
         if self._is_folder and os.path.lexists(self.path):
@@ -157,7 +157,7 @@ class RollingRecording:
     def _place(self, number: int) -> Path:
         if not self._is_folder:
             return self.path
-        return self.path / f"{self.path.name}_{number}.mcap"
+        return self.path / f"{self.path.name}_{number}{RECORDED.suffix}"
 
     # Messages
 
@@ -224,13 +224,13 @@ class RollingRecording:
         except OSError as error:
             raise self._rescued(error) from error
 
-    def _number(self, writer: McapWriter, channel: Channel) -> int:
+    def _number(self, writer: RecordedWriter, channel: Channel) -> int:
         """Return a channel's number in the open file, registering the channel if it is new."""
         number = writer.channel(channel)
         self._numbers[id(channel)] = number, channel
         return number
 
-    def _is_full(self, writer: McapWriter, now: Stamp) -> bool:
+    def _is_full(self, writer: RecordedWriter, now: Stamp) -> bool:
         limits = self._limits
         if self._file_start is None:
             return False
@@ -238,7 +238,7 @@ class RollingRecording:
         too_long = limits.duration and now - self._file_start >= limits.duration
         return bool(too_large or too_long)
 
-    def _next(self, now: Stamp) -> McapWriter:
+    def _next(self, now: Stamp) -> RecordedWriter:
         """Start the next file, and write all static transforms at its beginning."""
         if self._writer is not None:
             self._close_file()
@@ -247,17 +247,17 @@ class RollingRecording:
         self._write_statics(writer, now)
         return writer
 
-    def _write_statics(self, writer: McapWriter, now: Stamp) -> None:
+    def _write_statics(self, writer: RecordedWriter, now: Stamp) -> None:
         for channel, rows in self._statics.items():
             if rows:
                 number = self._number(writer, channel)
                 writer.write(number, now, encode_rows(CDR, tuple(rows.values())))
         writer.flush()
 
-    def _open(self) -> McapWriter:
+    def _open(self) -> RecordedWriter:
         place = self._place(len(self.files))
         try:
-            self._writer = McapWriter(
+            writer = RECORDED.create(
                 place.with_name(place.name + ACTIVE),
                 library=library_name(),
                 compression=self._compression,
@@ -267,6 +267,7 @@ class RollingRecording:
             raise failed(place, error) from error
         self._numbers = {}
         self._file_start = None
+        self._writer = cast("RecordedWriter", writer)
         return self._writer
 
     def tick(self, now: Stamp) -> None:
@@ -326,7 +327,9 @@ class RollingRecording:
                 self._open()
             self._close_file()
             if self._is_folder:
-                write_metadata(self.path, metadata_text("mcap", self._facts, self._topics))
+                write_metadata(
+                    self.path, metadata_text(RECORDED.storage, self._facts, self._topics)
+                )
                 synced(self.path)
         except OSError as error:
             raise self._rescued(error) from error
@@ -350,7 +353,7 @@ class RollingRecording:
         writer.finish()
         self._named(writer)
 
-    def _named(self, writer: McapWriter) -> None:
+    def _named(self, writer: RecordedWriter) -> None:
         """Give the file of a closed writer its final name."""
         place = self._place(len(self.files))
         active = place.with_name(place.name + ACTIVE)

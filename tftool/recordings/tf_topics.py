@@ -11,8 +11,7 @@ from typing import Final
 import numpy as np
 
 from tftool.base.errors import InputError
-from tftool.base.near_names import near_names
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, near_names
 from tftool.recordings.container_reader import Recorded
 from tftool.recordings.contract import Edge, Progress, RecordedTopic, Transforms
 

@@ -11,12 +11,7 @@ from tftool.base.stamps import SIMULATED_BELOW, Stamp
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
 from tftool.recordings.container_reader import Recorded
-from tftool.recordings.contract import (
-    Edge,
-    Indexes,
-    Stamps,
-    Transforms,
-)
+from tftool.recordings.contract import Edge, Indexes, Stamps, Transforms
 
 _NOTHING: Final = np.zeros(0, dtype=np.int64)
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import UsageError
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped

@@ -17,7 +17,7 @@ from xml.parsers import expat
 
 from tftool.base.errors import DescriptionError, InputError, Mistake, UsageError
 from tftool.base.named_files import read_named
-from tftool.base.near_names import did_you_mean, near_names
+from tftool.base.plain_text import did_you_mean, near_names
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform, Vector3
 from tftool.robots.description import (

@@ -14,7 +14,7 @@ from copy import copy
 from typing import Any
 
 from tftool.base.errors import UsageError
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 from tftool.base.stamps import seconds
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import executables, names, program, ros2_words, rosidl_runtime

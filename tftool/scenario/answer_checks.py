@@ -12,12 +12,10 @@ from typing import Any, TypeAlias
 
 from tftool.base import errors
 from tftool.base.errors import LookupException, TransformException
-from tftool.base.escaping import visible
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names, visible
 from tftool.geometry.conversions import quaternion_from_rpy
-from tftool.geometry.planar import wrap
 from tftool.geometry.quaternions import angle_between
-from tftool.geometry.rigid import Quaternion, Transform
+from tftool.geometry.rigid import Quaternion, Transform, wrap
 from tftool.scenario import document
 from tftool.scenario import units as values
 from tftool.scenario.document import Node, TextPlace

@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from tftool.base.errors import InputError
-from tftool.base.escaping import visible
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names, visible
 
 PACKAGE = Path(__file__).resolve().parents[1]
 """Folder of the package; scenarios and examples are in it or, in a checkout, beside it."""

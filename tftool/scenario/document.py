@@ -13,8 +13,8 @@ import yaml
 
 from tftool.base import yaml_guard
 from tftool.base.errors import InputError, Mistake, ScenarioError, showable
-from tftool.base.escaping import visible
 from tftool.base.named_files import open_named
+from tftool.base.plain_text import visible
 from tftool.scenario import document
 
 LARGEST = 256 * 1024

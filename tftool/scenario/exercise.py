@@ -10,8 +10,7 @@ from contextlib import nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
 
 from tftool.base.errors import InputError, NodeFailed, UsageError
-from tftool.base.escaping import visible
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean, visible
 from tftool.ros import running
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace

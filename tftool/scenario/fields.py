@@ -11,8 +11,7 @@ from dataclasses import FrozenInstanceError, dataclass
 from typing import Any, ClassVar, NamedTuple, TypeAlias, TypeVar, dataclass_transform
 
 from tftool.base.errors import Mistake
-from tftool.base.escaping import visible
-from tftool.base.near_names import did_you_mean, near_names
+from tftool.base.plain_text import did_you_mean, near_names, visible
 from tftool.scenario import document
 from tftool.scenario.document import Document, Node, Scalar, TextPlace
 

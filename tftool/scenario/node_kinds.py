@@ -15,7 +15,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
-from tftool.geometry.motion.pid import Gains
+from tftool.geometry.motion import Gains
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Spawn

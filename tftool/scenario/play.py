@@ -8,10 +8,10 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias
 
 from tftool.base.errors import NodeFailed
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.frames.frames import Frames
-from tftool.frames.moment import At, checked_moment
+from tftool.frames.source_options import At, checked_moment
 from tftool.recordings.find import Found
 from tftool.scenario.load import NO_ARGUMENTS, load, parse
 from tftool.scenario.node_kinds import KINDS

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 from tftool.base.errors import LookupException
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import FrameInfo
-from tftool.buffer.velocity import Velocity
-from tftool.geometry import planar
+from tftool.buffer.solver import Velocity
+from tftool.geometry import rigid
 from tftool.geometry.rigid import Transform
 from tftool.messages.turtle_messages import Pose
 from tftool.scenario import units as values
@@ -222,8 +222,8 @@ class Bearing(Between):
     """Question for the direction of a frame seen from another."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the direction in radians, counter-clockwise from the x axis."""
-        return planar.bearing(self.lookup.answer(scene))
+        """Return the answer at this time."""
+        return rigid.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:
         start, end, how = self.lookup.words

@@ -8,7 +8,7 @@ from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
-from tftool.geometry.motion.unicycle import CENTRE
+from tftool.geometry.motion import CENTRE
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import (

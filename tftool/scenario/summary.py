@@ -7,12 +7,10 @@ from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 
 from tftool.base.errors import NodeFailed
-from tftool.base.escaping import visible
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, visible
 from tftool.base.stamps import Duration, as_seconds
 from tftool.buffer.sample import Snapshot
-from tftool.geometry.planar import heading
-from tftool.geometry.rigid import distance
+from tftool.geometry.rigid import distance, heading
 from tftool.scenario.play import Watch, build
 from tftool.scenario.scenario import Scenario, Verdict
 from tftool.world.clock import SimClock, run

@@ -22,8 +22,8 @@ from enum import IntEnum
 from typing import Any, TypeVar
 
 from tftool.base.errors import TftoolError
-from tftool.base.listeners import Listeners
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds, whole
+from tftool.buffer.callbacks import Listeners
 from tftool.world.stopper import PATIENCE, STANDSTILL, Stopper, abandon, leftovers
 
 T = TypeVar("T")

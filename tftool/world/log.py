@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, Literal, get_args
 
-from tftool.base.listeners import Listeners, Report
 from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.buffer.callbacks import Listeners, Report
 
 Level = Literal["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]
 

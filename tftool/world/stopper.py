@@ -19,7 +19,7 @@ from types import FrameType
 from typing import Any, Final
 
 from tftool.base.errors import is_users_file
-from tftool.base.listeners import Listeners
+from tftool.buffer.callbacks import Listeners
 
 PATIENCE: Final = 2.0
 """Real seconds that a node may take to end after it was cancelled."""

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Any, Generic, Literal, TypeVar
 
 from tftool.base.errors import TftoolError
-from tftool.base.listeners import Listeners, Report
+from tftool.buffer.callbacks import Listeners, Report
 from tftool.world.endpoints import Endpoint
 
 T = TypeVar("T")

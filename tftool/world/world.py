@@ -8,9 +8,9 @@ from types import MappingProxyType
 from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 from tftool.base.errors import LinkError, NodeFailed, TftoolError
-from tftool.base.listeners import Listeners, listener_text
 from tftool.base.stamps import CACHE_TIME, Duration, Stamp, whole
 from tftool.buffer.buffer import Buffer
+from tftool.buffer.callbacks import Listeners, listener_text
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import interface_name, is_part
 from tftool.world import transform_wait as waiting

@@ -17,9 +17,8 @@ from tftool.recordings.edit import tables
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
 from tftool.recordings.mcap.write import McapWriter
-from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
+from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel, ros2_definition
 from tftool.recordings.rosbag1.write import Rosbag1Writer
-from tftool.recordings.schema_text import ros2_definition
 
 SECOND = 10**9
 START = 1_750_000_000 * SECOND

@@ -8,8 +8,7 @@ from tests.world.nodes.harness import At, new_world, play
 from tftool.base.errors import LookupException, UsageError
 from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.planar import heading
-from tftool.geometry.rigid import Transform
+from tftool.geometry.rigid import Transform, heading
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Kill, Pose
 from tftool.world.nodes.broadcasters import (

@@ -6,7 +6,7 @@ from tests.world.nodes.harness import At, log_texts, new_world, play
 from tftool.base.errors import UsageError
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.motion.pid import Gains
+from tftool.geometry.motion import Gains
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Kill, Spawn, Twist, twist

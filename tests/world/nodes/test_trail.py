@@ -5,7 +5,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from tftool.base.color import Color
-from tftool.geometry.motion.unicycle import CENTRE, FIELD, PIXELS_PER_METRE
+from tftool.geometry.motion import CENTRE, FIELD, PIXELS_PER_METRE
 from tftool.world.nodes import trail as trail_module
 from tftool.world.nodes.trail import BLANK, Segment, Trail
 

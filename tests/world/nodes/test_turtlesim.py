@@ -9,8 +9,7 @@ from tests.world.nodes.harness import After, At, Before, log_texts, new_world, p
 from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import TftoolError, UsageError
 from tftool.base.stamps import seconds
-from tftool.geometry.motion.twist import Twist2D
-from tftool.geometry.motion.unicycle import CENTRE, FIELD, Placement, float32
+from tftool.geometry.motion import CENTRE, FIELD, Placement, Twist2D, float32
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import (
     ColorMessage,

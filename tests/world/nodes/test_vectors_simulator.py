@@ -3,7 +3,7 @@ import pytest
 from tests.world.nodes.harness import At, log_texts, new_world, play
 from tests.world.nodes.vectors import STRICT, VECTORS, close, ids, mismatch, rows
 from tftool.base.color import Color
-from tftool.geometry.motion.unicycle import CENTRE
+from tftool.geometry.motion import CENTRE
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import (
     Empty,

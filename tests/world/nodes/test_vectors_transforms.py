@@ -8,12 +8,10 @@ from tftool.base.errors import BackwardExtrapolationException, ForwardExtrapolat
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
+from tftool.geometry import motion
 from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
-from tftool.geometry.motion import pid, pursuit
-from tftool.geometry.motion.twist import Twist2D
-from tftool.geometry.motion.unicycle import float32
-from tftool.geometry.planar import heading, transform_from_pose
-from tftool.geometry.rigid import Transform
+from tftool.geometry.motion import Twist2D, float32
+from tftool.geometry.rigid import Transform, heading, transform_from_pose
 
 STAMP = seconds(1000)
 
@@ -37,7 +35,7 @@ def same_rotation(found, expected):
 def test_one_look_at_the_leader_gives_the_command_of_the_reference(case):
     buffer = turtles(case["turtle1"], case["turtle2"])
     seen = buffer.lookup_transform("turtle2", "turtle1").transform
-    command, _ = pursuit.steer(pursuit.Law(), pursuit.FRESH, *seen.translation[:2], 1.0)
+    command, _ = motion.steer(motion.Law(), motion.AT_REST, *seen.translation[:2], 1.0)
 
     assert seen.translation[:2] == pytest.approx(case["relative_xy"], abs=2e-8)
     turned = math.remainder(heading(seen) - case["relative_yaw"], math.tau)
@@ -57,7 +55,7 @@ def test_turtles_at_one_place_ask_for_no_motion_whatever_their_headings():
         x, y = float32(x), float32(y)
         buffer = turtles((x, y, float32(one)), (x, y, float32(two)))
         seen = buffer.lookup_transform("turtle2", "turtle1").transform
-        command, _ = pursuit.steer(pursuit.Law(), pursuit.FRESH, *seen.translation[:2], 1.0)
+        command, _ = motion.steer(motion.Law(), motion.AT_REST, *seen.translation[:2], 1.0)
 
         assert seen.translation[:2] == (0.0, 0.0)
         assert command == Twist2D(*case["expect_cmd"])
@@ -100,10 +98,10 @@ def test_looking_through_a_fixed_frame_joins_two_moments(case):
 
 @pytest.mark.parametrize("case", VECTORS["pid"], ids=lambda c: f"{c['kp']}-{c['ki']}-{c['kd']}")
 def test_the_controller_answers_errors_as_the_reference_does(case):
-    gains = pid.Gains(case["kp"], case["ki"], case["kd"])
-    memory, found = pid.FRESH, []
+    gains = motion.Gains(case["kp"], case["ki"], case["kd"])
+    memory, found = motion.FRESH, []
     for error in case["errors"]:
-        output, memory = pid.step(gains, memory, -error, case["dt"])
+        output, memory = motion.step(gains, memory, -error, case["dt"])
         found.append(output)
 
     assert found == pytest.approx(case["expect"], abs=1e-12)

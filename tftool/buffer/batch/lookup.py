@@ -15,8 +15,7 @@ from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.forest import ARRIVED, FrameTree
 from tftool.buffer.history import History, Link, Sample, StaticLink
 from tftool.buffer.native_kernel import IS_NATIVE
-from tftool.buffer.path import Path, path_of
-from tftool.buffer.solver import Solver
+from tftool.buffer.solver import Path, Solver, path_of
 from tftool.geometry.rigid_arrays import Floats
 
 if IS_NATIVE:

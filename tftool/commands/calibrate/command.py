@@ -10,8 +10,8 @@ from typing import Final, NoReturn
 import numpy as np
 
 from tftool.base.errors import InputError, TransformException, UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import NANOSECONDS
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import Buffer

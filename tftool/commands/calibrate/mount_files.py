@@ -6,7 +6,7 @@ from typing import Final
 from xml.parsers import expat
 
 from tftool.base.errors import InputError, LookupException, TransformException, UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped
@@ -14,7 +14,7 @@ from tftool.commands.shared.printer import write_file
 from tftool.frames.calibration.calibrate import Calibration
 from tftool.frames.export.export import export
 from tftool.frames.frames import Frames
-from tftool.geometry.notation.text import publisher_words, urdf_origin
+from tftool.geometry.notation.notations import publisher_words, urdf_origin
 from tftool.geometry.rigid import Transform
 from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible, visible_lines
 from tftool.base.report import Report
 from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.commands.check import CheckOptions

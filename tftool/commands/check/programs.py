@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible_lines
+from tftool.base.plain_text import visible_lines
 from tftool.base.report import Judgement, Report
 from tftool.commands.shared.notices import FoldedLog, notice
 from tftool.ros.host.importing import ros_free

@@ -12,8 +12,8 @@ from rich.table import Table
 from rich.text import Text
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp
 from tftool.commands.demo import DemoOptions
 from tftool.commands.shared.connection import HOME, Connection, open_from

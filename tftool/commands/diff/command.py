@@ -4,8 +4,8 @@ import sys
 from pathlib import Path
 
 from tftool.base.errors import LinkError, UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration
 from tftool.commands.diff import DiffOptions
 from tftool.commands.shared.connection import WHOLE, Connection, listen_from, open_from
@@ -19,8 +19,7 @@ from tftool.drawing import trajectory_error_view as error_view
 from tftool.drawing.calibration_view import clock_object
 from tftool.frames.calibration.clock_offset import clock_offset
 from tftool.frames.calibration.motion import CalibrationRefused
-from tftool.frames.diff import side_of
-from tftool.frames.differences import Allowance, Side, compare
+from tftool.frames.differences import Allowance, Side, compare, side_of
 from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.pair_samples import only_chain, sample
 from tftool.frames.trajectory_errors import Pair, PieceLength, trajectory_errors

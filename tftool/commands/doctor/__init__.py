@@ -18,7 +18,7 @@ from tftool.commands.shared.options import (
     moment,
     option,
 )
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 
 
 class FailOn(StrEnum):

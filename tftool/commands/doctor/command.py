@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import seconds
 from tftool.commands.doctor import DoctorOptions, FailOn
 from tftool.commands.fleet import fleet
@@ -30,7 +30,7 @@ from tftool.doctor.model import Model, Settings
 from tftool.drawing import finding_view as view
 from tftool.drawing import step_view
 from tftool.drawing.sarif import as_sarif
-from tftool.recordings.remote_files import fetched
+from tftool.recordings.find import fetched
 
 if TYPE_CHECKING:
     from rich.text import Text

@@ -17,7 +17,7 @@ from tftool.commands.shared.options import (
     option,
     seconds_option,
 )
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 
 NAMES = "Names"
 LINKS = "Links"

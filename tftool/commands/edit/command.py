@@ -5,15 +5,15 @@ import sys
 from pathlib import Path
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.edit import EditOptions
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import Bar, interruptible
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
 from tftool.messages.transform_rows import LONGEST_NAME

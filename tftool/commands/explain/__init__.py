@@ -15,7 +15,7 @@ from tftool.commands.shared.options import (
     not_negative,
     option,
 )
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 
 
 class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=True):

@@ -3,8 +3,8 @@
 from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import LATEST, seconds
 from tftool.commands.explain import ExplainOptions
 from tftool.commands.shared.connection import Connection, open_from
@@ -19,7 +19,7 @@ from tftool.doctor.joint_chain import chained
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.trace import Question, message_of
 from tftool.drawing import explanation_view, joint_chain_view
-from tftool.frames.notes import beyond_limits
+from tftool.frames.frame_files import beyond_limits
 from tftool.opener import named
 from tftool.recordings.find import Kind
 

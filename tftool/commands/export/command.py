@@ -3,9 +3,8 @@
 from dataclasses import replace
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, visible
 from tftool.base.stamps import LATEST
 from tftool.commands.export import ExportOptions
 from tftool.commands.shared.connection import WHOLE, Connection, open_from

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from tftool.base.errors import InputError, TftoolError, UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import as_seconds
 from tftool.commands.fleet.rows import ColumnKind, Row, RowFile
 from tftool.commands.fleet.workers import Workers, processes
@@ -33,9 +33,8 @@ from tftool.doctor.judge import judge
 from tftool.doctor.model import Model
 from tftool.opener import named
 from tftool.recordings.containers import SUFFIXES
-from tftool.recordings.find import METADATA, Kind, kind_of_file
+from tftool.recordings.find import METADATA, Kind, fetched, is_url, kind_of_file, listed
 from tftool.recordings.recording import open_recording
-from tftool.recordings.remote_files import fetched, is_url, listed
 from tftool.scenario.doctor_expectations import rules_beside
 
 if TYPE_CHECKING:

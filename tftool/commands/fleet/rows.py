@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.escaping import visible
 from tftool.base.named_files import open_regular, reader_there
+from tftool.base.plain_text import visible
 
 if TYPE_CHECKING:
     import pyarrow

@@ -16,8 +16,8 @@ from multiprocessing import get_context
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.escaping import visible
-from tftool.recordings.remote_files import is_url
+from tftool.base.plain_text import visible
+from tftool.recordings.find import is_url
 
 ANSWERS_WITHIN = "20s"
 """How long a scheduler may take to answer."""

@@ -1,15 +1,15 @@
 """`tftool follow`: a turtle that follows a frame."""
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, as_seconds, seconds
 from tftool.commands.follow import FollowOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice, tell_record
 from tftool.commands.shared.on_screen import simulator_of
-from tftool.geometry.motion.pid import Gains
+from tftool.geometry.motion import Gains
 from tftool.world.link.session_world import Session
 from tftool.world.log import PROBLEMS, LogRecord
 from tftool.world.nodes.broadcasters import Broadcaster

@@ -4,20 +4,18 @@ import sys
 from pathlib import Path
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, visible
 from tftool.commands.info import InfoOptions
 from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import recording_view
-from tftool.frames.notes import odometry_notes
+from tftool.frames.frame_files import odometry_notes
 from tftool.frames.source_options import DescriptionOptions
 from tftool.opener import named
-from tftool.recordings.find import Kind
+from tftool.recordings.find import Kind, fetched
 from tftool.recordings.recording import Recording
-from tftool.recordings.remote_files import fetched
 from tftool.robots.robot_model import load_urdf
 from tftool.robots.static_publishers import read_statics
 

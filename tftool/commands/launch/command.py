@@ -3,8 +3,8 @@
 import sys
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
-from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible, visible_lines
 from tftool.commands.launch import LaunchOptions
 from tftool.commands.shared.connection import Connection, Mode
 from tftool.commands.shared.hosting import open_empty_session, open_session, tell_where_to_look

@@ -19,7 +19,7 @@ from tftool.base.errors import InputError, TransformException, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import CACHE_TIME, NANOSECONDS, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
-from tftool.buffer.requests import NOW
+from tftool.buffer.callbacks import NOW
 from tftool.buffer.sample import TransformStamped
 from tftool.buffer.traffic import NetDelay, Series, Traffic
 from tftool.commands.monitor import MonitorOptions

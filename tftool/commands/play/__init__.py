@@ -4,7 +4,7 @@ from typing import Literal
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import RunFor, argument, flag, moment_option, option, within
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 from tftool.world.link.link_options import REACHES
 
 ROBOTS = " or ".join(flag for reach in REACHES if reach.is_robots for flag in reach.FLAGS)

@@ -11,8 +11,8 @@ from rich.console import Console
 from rich.text import Text
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.play import PlayOptions
 from tftool.commands.shared.connection import Connection, open_from
@@ -32,7 +32,7 @@ from tftool.drawing.playback_line import (
     line,
     passed,
 )
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 from tftool.opener import named
 from tftool.recordings.recording import Recording
 from tftool.recordings.timeline import Timeline

@@ -10,9 +10,8 @@ from rich.console import Console
 from rich.text import Text
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, visible
 from tftool.base.stamps import Stamp
 from tftool.commands.plot import PlotOptions
 from tftool.commands.shared.connection import WHOLE, Connection, open_from

@@ -13,10 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from tftool.base.errors import MalformedMessage, UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.near_names import near_names
-from tftool.base.short_numbers import count, short_size
+from tftool.base.plain_text import count, near_names, short_size, visible
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.record import RecordOptions
 from tftool.commands.shared.connection import NO_SESSION, Connection

@@ -7,10 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.near_names import did_you_mean
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, did_you_mean, visible
 from tftool.base.stamps import Duration
 from tftool.commands.robot import RobotOptions
 from tftool.commands.shared.connection import Connection
@@ -22,8 +20,7 @@ from tftool.drawing.space import SpaceFrame, SpacePicture
 from tftool.drawing.space_file import drawn_file
 from tftool.drawing.theme import DARK, LIGHT
 from tftool.frames.export.trajectory_files import whole_file
-from tftool.frames.frame_files import load_described
-from tftool.frames.notes import beyond_limits
+from tftool.frames.frame_files import beyond_limits, load_described
 from tftool.geometry.rigid import Transform
 from tftool.opener import kind_in_words, named
 from tftool.recordings.find import Kind

@@ -8,7 +8,7 @@ from pathlib import Path
 from typer.models import Context
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.commands.run import RunOptions
 from tftool.commands.shared.connection import NO_SESSION, Connection
 from tftool.commands.shared.declaration import Invocation

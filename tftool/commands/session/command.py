@@ -9,8 +9,8 @@ from rich.console import Console
 from rich.text import Text
 
 from tftool.base.errors import LinkError, UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, as_seconds
 from tftool.commands.session import SessionOptions
 from tftool.commands.shared.connection import Connection, Mode

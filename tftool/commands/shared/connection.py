@@ -15,13 +15,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypedDict
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, as_seconds
 from tftool.commands.shared.declaration import CommandKind, Invocation
 from tftool.commands.shared.notices import notice
 from tftool.frames.frames import Frames
-from tftool.frames.moment import At
-from tftool.frames.source_options import DescriptionOptions, RecordingOptions
+from tftool.frames.source_options import At, DescriptionOptions, RecordingOptions
 from tftool.opener import (
     LISTEN_FOR,
     named,

@@ -23,7 +23,7 @@ import typer
 from typer.models import ParameterInfo
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.commands.shared.options import ROBOT, flag, option
 from tftool.world.link.link_options import LARGEST_DOMAIN, REACHES, reach_at
 from tftool.world.link.reach import Reach

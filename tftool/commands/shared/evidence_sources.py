@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import WHOLE, Connection, open_from
 from tftool.commands.shared.notices import notice

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import LinkError, UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.commands.shared.connection import HOME, NO_SESSION, Connection, Mode
 from tftool.commands.shared.notices import notice, tell_news

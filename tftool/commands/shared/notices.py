@@ -5,9 +5,7 @@ import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from tftool.base.escaping import visible, visible_lines
-from tftool.base.near_names import near_names
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, near_names, visible, visible_lines
 
 if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer

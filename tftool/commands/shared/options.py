@@ -14,7 +14,7 @@ import typer
 
 from tftool.base.errors import UsageError
 from tftool.base.stamps import NANOSECONDS, Duration, as_seconds, seconds
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 
 if TYPE_CHECKING:
     from decimal import Decimal

@@ -9,7 +9,7 @@ from tftool.base.errors import (
     TimeoutException,
     TransformException,
 )
-from tftool.base.escaping import visible_lines
+from tftool.base.plain_text import visible_lines
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.commands.shared.notices import name_frames, notice

@@ -5,12 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from tftool.base.errors import LookupException, UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.frames.frames import Frames
-from tftool.frames.moment import At
+from tftool.frames.source_options import At
 from tftool.recordings.find import METADATA
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tftool.base.escaping import visible_lines
+from tftool.base.plain_text import visible_lines
 from tftool.commands.shared.notices import notice, tell_record
 from tftool.ros.host.workspace import Workspace
 

@@ -23,7 +23,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count
 from tftool.base.stamps import Duration, as_seconds, seconds
 from tftool.world.clock import WallClock
 

@@ -5,8 +5,8 @@ import os
 import sys
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.plain_text import visible
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session

@@ -9,9 +9,8 @@ from rich.console import Console
 from rich.text import Text
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, visible
 from tftool.buffer.sample import Snapshot
 from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import notice, rivalries

@@ -8,7 +8,7 @@ from rich.live import Live
 from rich.text import Text
 
 from tftool.base.errors import UsageError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session

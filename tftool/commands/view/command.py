@@ -13,9 +13,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import short_size
+from tftool.base.plain_text import short_size, visible
 from tftool.commands.shared.connection import WHOLE, Connection, open_from
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice, tell_news
@@ -23,9 +22,8 @@ from tftool.commands.shared.on_screen import at_rest, driver_of, simulator_of
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.commands.view import ViewOptions
 from tftool.frames.export.trajectory_files import whole_file
-from tftool.frames.frame_files import load_described
+from tftool.frames.frame_files import beyond_limits, load_described
 from tftool.frames.frames import Frames
-from tftool.frames.notes import beyond_limits
 from tftool.opener import named
 from tftool.recordings.find import Found, Kind
 from tftool.recordings.target import refuse_existing

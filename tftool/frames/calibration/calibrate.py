@@ -22,21 +22,19 @@ from tftool.frames.calibration.motion import (
     CalibrationRefused,
     Floats,
 )
-from tftool.frames.calibration.motion_pairs import (
-    MotionPairs,
-    about_one_axis,
-    kabsch,
-    lever,
-    pairs_of,
-    shortest_turn,
-)
 from tftool.frames.calibration.mount_fit import (
     DRIFT,
     SCALE,
     SHIFT,
     Fit,
+    MotionPairs,
     Problem,
+    about_one_axis,
+    kabsch,
+    lever,
+    pairs_of,
     refine,
+    shortest_turn,
     spread,
 )
 from tftool.frames.frames import Frames

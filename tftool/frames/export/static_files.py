@@ -13,7 +13,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import LATEST, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.frames.export.export_formats import Format
-from tftool.geometry.notation.text import publisher_words, urdf_origin
+from tftool.geometry.notation.notations import publisher_words, urdf_origin
 from tftool.geometry.rigid import Transform
 from tftool.robots.static_publishers import PUBLISHER
 

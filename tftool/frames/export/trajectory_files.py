@@ -13,17 +13,159 @@ from types import MappingProxyType
 from typing import BinaryIO, Final, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from tftool.base.errors import UsageError
 from tftool.base.stamps import SIMULATED_BELOW
 from tftool.buffer.batch.transform_array import TransformArray
-from tftool.frames.export import digits
 from tftool.frames.export.export_formats import DECIMALS, Format, Style
 from tftool.frames.pair_samples import Trajectory
 from tftool.geometry import rigid_arrays as batch
 from tftool.recordings.containers import library_name
 from tftool.recordings.contract import Progress
 from tftool.recordings.target import Target, commit_together, failed
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Words: TypeAlias = npt.NDArray[np.uint32]
+Stamps: TypeAlias = npt.NDArray[np.int64]
+
+FULL: Final = 17
+"""From this many decimals on, a number is written as the shortest text that reads back to it."""
+
+BLOCK: Final = 4096
+"""Rows that are written at once: their text stays in the processor's cache."""
+
+_SCALE: Final = 10**DECIMALS
+_LARGEST: Final = 9.0e9
+_FOUR: Final = 10_000
+
+
+def _table(texts: Sequence[bytes]) -> Words:
+    return np.frombuffer(b"".join(text.ljust(4, b"\0") for text in texts), dtype=np.uint32)
+
+
+_PLAIN: Final = _table([b"%04d" % n for n in range(_FOUR)])
+_LEADING: Final = _table([b"%d" % n for n in range(_FOUR)])
+# Zeros before the first digit leave no trace.
+_LEADING_OR_NOTHING: Final = np.where(np.arange(_FOUR) == 0, 0, _LEADING).astype(np.uint32)
+_POINT: Final = _table([b".%d" % n for n in range(10)])
+
+
+def rows_as_text(
+    numbers: Floats, *, stamps: Stamps | None = None, seconds: bool = False, separator: str = ","
+) -> bytes:
+    """Format a block of rows, a line each; numbers get nine decimals.
+
+    Args:
+        numbers: Finite and below 9e9, shape (n, k).
+        stamps: Stamps at the beginning of rows, nanoseconds, shape (n,); no column if None.
+        seconds: Whether stamps are written as seconds with nine decimals, not as nanoseconds.
+        separator: One character.
+    """
+    scaled = np.rint(np.abs(numbers) * _SCALE).astype(np.int64)
+    scaled = np.where(numbers < 0.0, -scaled, scaled)
+    parts = []
+    if stamps is not None:
+        parts.append(_decimals(stamps[:, np.newaxis], b"") if seconds else _whole(stamps))
+    between = separator.encode("ascii")
+    if stamps is None:
+        parts.append(_decimals(scaled[:, :1], b""))
+        scaled = scaled[:, 1:]
+    parts.append(_decimals(scaled, between))
+    parts.append(np.broadcast_to(_table([b"\n"]), (len(numbers), 1)))
+    text = np.concatenate(parts, axis=1).view(np.uint8).ravel()
+    written: bytes = text[text != 0].tobytes()
+    return written
+
+
+def fits(numbers: Floats) -> bool:
+    """Whether `rows` can format these numbers; else use `exact_rows`."""
+    # Asked this way round, NaN does not.
+    return bool((np.abs(numbers) < _LARGEST).all())
+
+
+def exact_rows(
+    numbers: Floats,
+    decimals: int,
+    *,
+    stamps: Stamps | None = None,
+    seconds: bool = False,
+    separator: str = ",",
+) -> bytes:
+    """Format rows with any number of decimals, one number at a time; see `FULL`."""
+    lines = []
+    for place, row in enumerate(numbers.tolist()):
+        words = [_shortest(one) if decimals >= FULL else f"{one:.{decimals}f}" for one in row]
+        if stamps is not None:
+            stamp = int(stamps[place])
+            words.insert(0, stamp_text(stamp) if seconds else str(stamp))
+        lines.append(separator.join(words))
+    return "".join(f"{line}\n" for line in lines).encode("ascii")
+
+
+def stamp_text(stamp: int) -> str:
+    """Format nanoseconds as seconds with nine decimals, without floating point."""
+    whole, rest = divmod(abs(stamp), _SCALE)
+    return f"{'-' if stamp < 0 else ''}{whole}.{rest:09}"
+
+
+def _shortest(number: float) -> str:
+    text = repr(number)
+    # Some readers take no exponents: 1e-09 as decimals.
+    return text if "e" not in text or "inf" in text else f"{number:.30f}".rstrip("0")
+
+
+def _whole(values: Stamps) -> Words:
+    """Convert whole numbers, shape (n,), to words of four digits each, shape (n, w)."""
+    return _digits(values[:, np.newaxis], b"")[:, 0]
+
+
+def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
+    """Convert whole numbers of the last decimal, shape (n, k), to text, shape (n, k·w)."""
+    count, width = scaled.shape
+    size = np.abs(scaled)
+    whole = size // _SCALE
+    rest = size - whole * _SCALE
+    upper = rest // _FOUR
+    first = upper // _FOUR
+    text = np.concatenate(
+        [
+            _digits(whole, before, negative=scaled < 0),
+            np.stack(
+                [
+                    _POINT[first],
+                    _PLAIN[upper - first * _FOUR],
+                    _PLAIN[rest - upper * _FOUR],
+                ],
+                axis=2,
+            ),
+        ],
+        axis=2,
+    )
+    return text.reshape(count, width * text.shape[2])
+
+
+def _digits(
+    values: npt.NDArray[np.int64], before: bytes, *, negative: npt.NDArray[np.bool_] | None = None
+) -> Words:
+    """Convert whole numbers, shape (n, k), to words: prefix, sign, digits."""
+    size = np.abs(values)
+    signs = _table([before, before + b"-"])
+    words = [signs[((values < 0) if negative is None else negative).astype(np.intp)]]
+    groups = [size]
+    while int(groups[-1].max(initial=0)) >= _FOUR:
+        groups.append(groups[-1] // _FOUR)
+    for number in range(len(groups) - 1, -1, -1):
+        group = groups[number]
+        if number == len(groups) - 1:
+            words.append((_LEADING if number == 0 else _LEADING_OR_NOTHING)[group])
+            continue
+        above = groups[number + 1]
+        own = group - above * _FOUR
+        lead = _LEADING if number == 0 else _LEADING_OR_NOTHING
+        words.append(np.where(above > 0, _PLAIN[own], lead[own]))
+    return np.stack(words, axis=2)
+
 
 CSV_COLUMNS: Final = ("stamp_ns", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw")
 RPY_COLUMNS: Final = ("roll_rad", "pitch_rad", "yaw_rad")
@@ -117,9 +259,7 @@ def _write_kitti(
         for block in _blocks(rows):
             matrices = batch.matrices(block.translations, block.rotations)
             write(None, matrices[:, :3].reshape(-1, 12), separator=" ")
-            beside.write(
-                "".join(f"{digits.stamp_text(one)}\n" for one in block.stamps.tolist()).encode()
-            )
+            beside.write("".join(f"{stamp_text(one)}\n" for one in block.stamps.tolist()).encode())
     return [path, times]
 
 
@@ -245,8 +385,8 @@ def _joined(parts: "Sequence[np.ndarray]") -> "np.ndarray":
 
 
 def _blocks(rows: TransformArray) -> Iterator[TransformArray]:
-    for start in range(0, len(rows), digits.BLOCK):
-        yield rows[start : start + digits.BLOCK]
+    for start in range(0, len(rows), BLOCK):
+        yield rows[start : start + BLOCK]
 
 
 def _writer(
@@ -267,10 +407,10 @@ def _writer(
         separator: str = ",",
     ) -> None:
         nonlocal done
-        if decimals == DECIMALS and digits.fits(numbers):
-            text = digits.rows(numbers, stamps=stamps, seconds=seconds, separator=separator)
+        if decimals == DECIMALS and fits(numbers):
+            text = rows_as_text(numbers, stamps=stamps, seconds=seconds, separator=separator)
         else:
-            text = digits.exact_rows(
+            text = exact_rows(
                 numbers, decimals, stamps=stamps, seconds=seconds, separator=separator
             )
         if before:

@@ -20,7 +20,7 @@ from tftool.geometry.conversions import (
     wxyz_from_xyzw,
     xyzw_from_wxyz,
 )
-from tftool.geometry.rigid import Quaternion
+from tftool.geometry.rigid import Quaternion, Transform
 
 Numbers: TypeAlias = Sequence[float]
 
@@ -168,3 +168,27 @@ NAMED_FORMS: Final = (*NOTATIONS, "matrix")
 def notation_of(form: str) -> Notation:
     """Return the notation with a name of `FORMS`, except "matrix"."""
     return NOTATIONS.get(form) or EULER[form]
+
+
+def exact(number: float) -> str:
+    """Format a number with the fewest digits that identify it; -0 becomes "0"."""
+    text = repr(float(number) + 0.0)
+    return text.removesuffix(".0")
+
+
+def urdf_origin(transform: Transform) -> str:
+    """Return URDF's `<origin>` element of a transform, exact to 1e-12."""
+    xyz = " ".join(map(exact, transform.translation))
+    rpy = " ".join(map(exact, precise_rpy_from_quaternion(transform.rotation)))
+    return f'<origin xyz="{xyz}" rpy="{rpy}"/>'
+
+
+def publisher_words(transform: Transform) -> list[str]:
+    """Return static_transform_publisher's options for a transform, with the exact quaternion."""
+    names = ("x", "y", "z", "qx", "qy", "qz", "qw")
+    numbers = (*transform.translation, *transform.rotation)
+    return [
+        word
+        for name, number in zip(names, numbers, strict=True)
+        for word in (f"--{name}", exact(number))
+    ]

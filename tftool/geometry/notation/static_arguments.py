@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from tftool.base.errors import UsageError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
 

@@ -21,11 +21,10 @@ from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.container import MessageTable, Piece
 from tftool.recordings.edit.outputs import digest_table
-from tftool.recordings.rosbag2.read import Sqlite
+from tftool.recordings.rosbag2.read import LOWEST_ROW, Sqlite, batch_of_rows, rows_query
 from tftool.recordings.rosbag2.write import translated
 
 _ROWS: Final = 2048  # rows that are read and then written in one step
-_LOWEST: Final = -(2**63)
 
 Change = Callable[[MessageTable, Mapping[int, Channel]], MessageTable]
 
@@ -133,36 +132,27 @@ class EditedDatabase:
         Raises:
             Unsound: If a timestamp is not a whole number.
         """
-        which = {self._tape.topic_ids[number]: number for number in numbers}
-        # The query contains only numbers, no text from the file.
-        asked = (
-            "select id, topic_id, timestamp, data from messages "
-            f"where id > ? and topic_id in ({','.join(map(str, which))}) order by id limit {_ROWS}"
-        )
-        last = _LOWEST
+        streams = {self._tape.topic_ids[number]: number for number in numbers}
+        asked = rows_query(streams, most=_ROWS)
+        last = LOWEST_ROW
         # Read each part completely, so that no row changes while a query is open.
-        while which and (rows := base.execute(asked, (last,)).fetchall()):
-            ids, topics, moments, blobs = zip(*rows, strict=True)
-            if set(map(type, moments)) != {int}:
+        while streams and (rows := base.execute(asked, (last,)).fetchall()):
+            if any(type(row[-2]) is not int for row in rows):
                 raise Unsound
-            data = [blob if isinstance(blob, bytes) else b"" for blob in blobs]
-            lengths = np.array([len(blob) for blob in data], dtype=np.int64)
-            log_times = np.array(moments, dtype=np.int64)
-            # `rows_of` reads some bytes before a message, so put 8 bytes in front.
-            buffer = np.frombuffer(b"".join((bytes(8), *data)), dtype=np.uint8)
+            batch = batch_of_rows(rows, streams)
             yield (
-                list(ids),
+                [row[0] for row in rows],
                 MessageTable(
-                    buffer,
-                    np.array([which[topic] for topic in topics], dtype=np.int64),
-                    log_times,
-                    log_times,
+                    batch.buffer,
+                    batch.senders.astype(np.int64),
+                    batch.log_times,
+                    batch.log_times,
                     np.arange(len(rows)),
-                    np.cumsum(lengths) - lengths + 8,
-                    lengths,
+                    batch.starts,
+                    batch.lengths,
                 ),
             )
-            last = ids[-1]
+            last = rows[-1][0]
 
     def _sum_up(self) -> None:
         numbers = {topic: number for number, topic in enumerate(self._tape.topic_ids)}

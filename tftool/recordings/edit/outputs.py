@@ -23,8 +23,13 @@ from tftool.recordings.decompression import compressor
 from tftool.recordings.edit.changes import carries_transforms
 from tftool.recordings.edit.tables import Kinds, Result, TableChange
 from tftool.recordings.mcap.write import McapWriter
-from tftool.recordings.message_conversion import Conversion, as_ros1, as_ros2
-from tftool.recordings.schema_text import known_hash, ros2_definition
+from tftool.recordings.message_conversion import (
+    Conversion,
+    as_ros1,
+    as_ros2,
+    known_hash,
+    ros2_definition,
+)
 
 _HEADS = np.dtype([("log_time", "<i8"), ("publish_time", "<u8"), ("sequence", "<u8")])
 

@@ -26,11 +26,10 @@ from tftool.recordings.decompression import zstandard
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.database import EditedDatabase, Unsound
 from tftool.recordings.edit.heads import StaticHeads
-from tftool.recordings.edit.inputs import EditedInput, open_input, open_tape
 from tftool.recordings.edit.outputs import EditedFile, digest_table
-from tftool.recordings.edit.plan import changer_for
+from tftool.recordings.edit.plan import EditedInput, changer_for, open_input, open_tape
 from tftool.recordings.recording import Recording, open_recording
-from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
+from tftool.recordings.rosbag2.format import FileFacts, metadata_text, write_metadata
 from tftool.recordings.rosbag2.read import Sqlite
 from tftool.recordings.target import PART, Target, check_room, failed
 

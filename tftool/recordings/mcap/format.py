@@ -12,8 +12,7 @@ import numpy as np
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import LAST_STAMP
-from tftool.messages.native_scan import SCAN
-from tftool.messages.transform_rows import Bytes, rows_of
+from tftool.messages.transform_rows import SCAN, Bytes, rows_of
 from tftool.recordings.chunked import numbers_of
 from tftool.recordings.columns import Batch
 from tftool.recordings.container import File

@@ -14,9 +14,9 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
+from tftool.recordings.containers import RECORDED
 from tftool.recordings.contract import Floats, Progress, Stamps
 from tftool.recordings.find import Found
-from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.recordings.poses.pose_formats import PoseFormat, format_of_file
 from tftool.recordings.poses.pose_links import PoseFile, PoseLink
@@ -93,7 +93,7 @@ class PoseContainer:
 
     def write_mcap(self, path: Path) -> None:
         """Write the messages as an MCAP file, for editing."""
-        writer = McapWriter(path, profile="ros2", library="tftool")
+        writer = RECORDED.create(path, profile="ros2", library="tftool")
         numbers = [writer.channel(one) for one in self.channels]
         messages = self._batch
         for place in range(len(messages)):

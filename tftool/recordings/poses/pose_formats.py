@@ -12,8 +12,8 @@ from typing import Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.find import HEAD
-from tftool.recordings.poses import camera_readers as cameras
-from tftool.recordings.poses import trajectory_readers as trajectories
+from tftool.recordings.poses import pose_readers as cameras
+from tftool.recordings.poses import pose_readers as trajectories
 from tftool.recordings.poses.pose_links import PoseFile, PoseLink
 from tftool.recordings.poses.pose_options import PoseOptions, options_of, path_behind_prefix
 

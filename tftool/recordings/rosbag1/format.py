@@ -12,8 +12,7 @@ import numpy.typing as npt
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS, Stamp
-from tftool.messages.native_scan import SCAN
-from tftool.messages.transform_rows import Bytes
+from tftool.messages.transform_rows import SCAN, Bytes
 from tftool.recordings.columns import words_at
 from tftool.recordings.container import File
 from tftool.recordings.containers import ROS1_MAGIC

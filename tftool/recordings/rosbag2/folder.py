@@ -1,4 +1,4 @@
-"""Opening of rosbag2 folders, and of any other recording that was found.
+"""Opening of rosbag2 folders, of several files, and of files that are compressed as a whole.
 
 rosbag2's metadata is only a hint: files are read even if they differ from it.
 """
@@ -34,24 +34,10 @@ _LARGEST_UNPACKED: Final = 1 << 34
 _STEP: Final = 1 << 20
 
 
-def open_found(found: Found) -> Container:
-    """Open a recording that `find` returned.
-
-    Raises:
-        InputError: If the file cannot be read, or is not a recording.
-        OSError: If a file cannot be opened.
-    """
-    if not found.kind.is_recording:
-        raise InputError(f"'{found.name}' is a {found.kind.value}, not a recording.")
-    if found.kind is Kind.ROSBAG2:
-        return _open_folder(found.paths[0])
+def open_parts(found: Found) -> Container:
+    """Open a folder, several files, or a file that is compressed as a whole; see `open_found`."""
     if found.kind is Kind.SEVERAL:
         return _joined(found.paths, [], by_time=True)
-    if found.kind is Kind.POSES:
-        # Imported here, like yaml below, because few recordings need it.
-        from tftool.recordings.poses.pose_container import open_poses
-
-        return open_poses(found)
     return _open_file(found.paths[0])
 
 
@@ -138,7 +124,7 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read as they are.")
         return []
-    from tftool.recordings.rosbag2.folder_writer import read_metadata
+    from tftool.recordings.rosbag2.format import read_metadata
 
     try:
         names = read_metadata(folder)["relative_file_paths"]

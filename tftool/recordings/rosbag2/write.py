@@ -1,13 +1,15 @@
-"""Writer of rosbag2's sqlite files, in schema version 4."""
+"""Writers of rosbag2's sqlite files, in schema version 4, and of folders with metadata.yaml."""
 
 import sqlite3
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
-from tftool.recordings.channel import Channel
+from tftool.recordings.channel import Channel, ContainerWriter
+from tftool.recordings.rosbag2.format import FileFacts, metadata_text, write_metadata
 
 _ROWS: Final = 2048  # rows inserted in one step
 _SCHEMA: Final = """
@@ -169,3 +171,61 @@ class translated:  # noqa: N801 -- used as a function in a `with`
         if isinstance(error, sqlite3.Error):
             what = "the disk is full" if "full" in str(error) else str(error)
             raise InputError(f"'{self._path}' cannot be written: {what}.") from error
+
+
+class FolderWriter:
+    """Writer of a rosbag2 folder with one file and its metadata; see `ContainerWriter`."""
+
+    def __init__(self, folder: Path, file: Path, storage: str, inner: ContainerWriter) -> None:
+        """Wrap the writer of the folder's file.
+
+        Args:
+            folder: Path of the folder.
+            file: Name of the file in the folder.
+            storage: "mcap" or "sqlite3".
+            inner: Writer of the file.
+        """
+        self._folder = folder
+        self._file = file
+        self._storage = storage
+        self._inner = inner
+        self._channels: dict[int, Channel] = {}
+        self._counts: Counter[int] = Counter()
+        self._low: Stamp = 2**63 - 1
+        self._high: Stamp = 0
+
+    @property
+    def size(self) -> int:
+        """Number of bytes written so far, including buffered bytes."""
+        return self._inner.size
+
+    def channel(self, channel: Channel) -> int:
+        """Register a channel; return its number for `write`."""
+        number = self._inner.channel(channel)
+        self._channels.setdefault(number, channel)
+        return number
+
+    def write(
+        self,
+        channel: int,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append a message to a channel."""
+        self._inner.write(channel, log_time, payload, publish_time, sequence)
+        self._counts[channel] += 1
+        self._low, self._high = min(self._low, log_time), max(self._high, log_time)
+
+    def finish(self) -> None:
+        """Complete the file, and write the metadata."""
+        self._inner.finish()
+        count = sum(self._counts.values())
+        facts = FileFacts(self._file.name, self._low if count else 0, self._high, count)
+        topics = {channel: self._counts[number] for number, channel in self._channels.items()}
+        write_metadata(self._folder, metadata_text(self._storage, [facts], topics))
+
+    def abandon(self) -> None:
+        """Close the file without completing it."""
+        self._inner.abandon()

@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.near_names import did_you_mean, near_names
+from tftool.base.plain_text import did_you_mean, near_names
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import import_table
 from tftool.ros.host.fibers import StuckError, user_line_of_error

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import UsageError
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.notation import static_arguments
 from tftool.ros.host import importing, user_code

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tftool.base.errors import InputError
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import import_table
 from tftool.ros.host.package_files import Package, read_text

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.named_files import read_named_text
-from tftool.base.near_names import did_you_mean, near_names
+from tftool.base.plain_text import did_you_mean, near_names
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_]")
 _STRANGE_IN_TOPIC = re.compile(r"[^A-Za-z0-9_/~{}]")

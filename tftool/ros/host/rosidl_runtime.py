@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 from tftool.messages.classes import INTERFACES, Message
 from tftool.messages.schema import FLOATS
 

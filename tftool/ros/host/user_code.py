@@ -8,7 +8,7 @@ from typing import Any
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.named_files import open_regular
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 from tftool.ros.host import importing, program
 from tftool.ros.host.error_text import syntax_sentence
 from tftool.ros.host.shims import builtins_for_users

@@ -11,7 +11,7 @@ from itertools import chain
 from pathlib import Path, PurePosixPath
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host.package_files import MARKS, Package, read_package, read_text
 

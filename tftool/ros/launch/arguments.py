@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from tftool.base.errors import TftoolError, UsageError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.ros.host.workspace import FILES, Workspace, file_of, is_file
 from tftool.ros.launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from tftool.ros.launch.context import LaunchContext

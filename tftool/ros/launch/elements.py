@@ -11,7 +11,7 @@ import yaml
 from tftool.base import yaml_guard
 from tftool.base.errors import InputError
 from tftool.base.named_files import read_named
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 
 DEEPEST = 100
 """Largest allowed depth of nested elements, or of nested `$(…)`."""

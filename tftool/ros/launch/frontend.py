@@ -10,7 +10,7 @@ from types import FunctionType, MappingProxyType, ModuleType
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.import_table import tagged

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 from tftool.base.errors import InputError
-from tftool.base.near_names import near_names
+from tftool.base.plain_text import near_names
 from tftool.ros.host.import_table import tagged
 from tftool.ros.host.importing import load
 from tftool.ros.launch.elements import DEEPEST

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from tftool.base.errors import UsageError
 from tftool.base.named_files import read_named_text
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 from tftool.ros.launch import commands, packages
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.logging import launch_config

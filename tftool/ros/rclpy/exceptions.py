@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from tftool.base.near_names import did_you_mean
+from tftool.base.plain_text import did_you_mean
 
 
 class NotInitializedException(Exception):

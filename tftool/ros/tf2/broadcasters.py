@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from tftool.base.stamps import as_seconds, seconds
-from tftool.buffer.clock_jumps import Watch
+from tftool.buffer.callbacks import Watch
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import values

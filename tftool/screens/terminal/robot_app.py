@@ -11,7 +11,7 @@ from textual.containers import Container
 
 from tftool.base.errors import TransformException
 from tftool.base.fixed_width import fitted, padded
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count
 from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpacePicture
 from tftool.geometry.conversions import rpy_from_quaternion

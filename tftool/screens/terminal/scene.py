@@ -13,9 +13,8 @@ from tftool.buffer.snapshot import rate_of
 from tftool.drawing.cells import Stroke
 from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
 from tftool.drawing.solids import Solids
-from tftool.geometry.motion.unicycle import FIELD
-from tftool.geometry.planar import heading, transform_from_pose
-from tftool.geometry.rigid import Transform
+from tftool.geometry.motion import FIELD
+from tftool.geometry.rigid import Transform, heading, transform_from_pose
 from tftool.screens.still_frames import ShownFrames
 from tftool.screens.terminal.frames_picture import (
     FrameTrails,

@@ -6,8 +6,7 @@ from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 
-from tftool.base.escaping import visible
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count, visible
 from tftool.base.stamps import as_seconds
 from tftool.buffer.traffic import FrameTraffic, Traffic
 from tftool.drawing.echo_view import in_words

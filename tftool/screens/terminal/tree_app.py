@@ -10,7 +10,7 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 
 from tftool.base.fixed_width import fitted, plain
-from tftool.base.short_numbers import count
+from tftool.base.plain_text import count
 from tftool.base.stamps import as_seconds
 from tftool.buffer.sample import Snapshot
 from tftool.buffer.traffic import Traffic

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.base.errors import LinkError
-from tftool.base.escaping import visible
+from tftool.base.plain_text import visible
 from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
 from tftool.frames.frames import Frames
 from tftool.frames.transform_log import TransformLog

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from tftool.base.errors import MalformedMessage
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
-from tftool.buffer.clock_jumps import FELL_BACK, must_clear
+from tftool.buffer.callbacks import FELL_BACK, must_clear
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
 from tftool.messages.codec import codec

@@ -8,8 +8,7 @@ from tftool.base.errors import NodeArgumentsError, UsageError
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
-from tftool.geometry.planar import transform_from_pose
-from tftool.geometry.rigid import Transform
+from tftool.geometry.rigid import Transform, transform_from_pose
 from tftool.messages.turtle_messages import Pose
 from tftool.world.clock import Phase
 from tftool.world.node import Node

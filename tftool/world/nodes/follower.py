@@ -5,8 +5,8 @@ from typing import Any
 from tftool.base.errors import TftoolError, TransformException, UsageError
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.motion import pursuit
-from tftool.geometry.motion.pid import Gains
+from tftool.geometry import motion
+from tftool.geometry.motion import Gains
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Spawn, Twist, twist
 from tftool.world.node import Node
@@ -35,8 +35,8 @@ class Follower(Node):
         period: Duration = seconds(1),
         delay: Duration = 0,
         fixed_frame: str | None = "world",
-        distance_gains: Gains = pursuit.TUTORIAL_DISTANCE,
-        bearing_gains: Gains = pursuit.TUTORIAL_BEARING,
+        distance_gains: Gains = motion.TUTORIAL_DISTANCE,
+        bearing_gains: Gains = motion.TUTORIAL_BEARING,
         dead_band: float = 0.0,
         speed_limit: float | None = None,
         stale_after: Duration | None = None,
@@ -74,13 +74,13 @@ class Follower(Node):
                 f"a limit for stale data must be longer than 0 s, not {as_seconds(stale_after):g} s"
             )
         self.period = require_period(period)
-        self.law = pursuit.Law(distance_gains, bearing_gains, dead_band, speed_limit)
+        self.law = motion.Law(distance_gains, bearing_gains, dead_band, speed_limit)
         super().__init__(world, name)
         self.leader, self.follower = leader, follower
         self.delay, self.fixed_frame = delay, fixed_frame
         self.stale_after = stale_after
         self._spawning = None if spawn is None else Spawning(self, *spawn, follower)
-        self._memory = pursuit.FRESH
+        self._memory = motion.AT_REST
         self._stale = False
 
     async def run(self) -> None:
@@ -94,13 +94,13 @@ class Follower(Node):
         try:
             self_from_leader = self._look(now)
         except TransformException as refusal:
-            self._memory = pursuit.FRESH
+            self._memory = motion.AT_REST
             self.info(f"Could not transform {self.follower} to {self.leader}: {refusal}")
             return
         if self._too_old(self_from_leader.stamp, now):
             return
         goal = self_from_leader.transform.translation
-        command, self._memory = pursuit.steer(
+        command, self._memory = motion.steer(
             self.law, self._memory, goal.x, goal.y, as_seconds(self.period)
         )
         self.publish(f"{self.follower}/cmd_vel", twist(command.linear_x, command.angular_z))
@@ -126,7 +126,7 @@ class Follower(Node):
         age = now - stamp
         stale = age > self.stale_after
         if stale and not self._stale:
-            self._memory = pursuit.FRESH
+            self._memory = motion.AT_REST
             self.warn(
                 f"The newest transform of {self.leader} in {self.follower} is "
                 f"{as_seconds(age):.3f} s old, the limit is {as_seconds(self.stale_after):g} s: "

@@ -12,10 +12,8 @@ from typing import Any, ClassVar
 from tftool.base.errors import TransformException
 from tftool.base.stamps import Duration, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.motion.twist import Twist2D
-from tftool.geometry.motion.unicycle import Placement
-from tftool.geometry.planar import transform_from_pose
-from tftool.geometry.rigid import Transform
+from tftool.geometry.motion import Placement, Twist2D
+from tftool.geometry.rigid import Transform, transform_from_pose
 from tftool.messages.turtle_messages import Pose, Twist, planar_velocity, pose
 from tftool.world.clock import Phase
 from tftool.world.node import Node

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds
-from tftool.buffer.clock_jumps import FELL_BACK, LEAST_FALL
+from tftool.buffer.callbacks import FELL_BACK, LEAST_FALL
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
 from tftool.world.clock import Clock, FollowedClock, Phase

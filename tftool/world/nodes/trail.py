@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Any, Final, NamedTuple
 
 from tftool.base.color import Color
-from tftool.geometry.motion.unicycle import FIELD, PIXELS_PER_METRE, WINDOW
+from tftool.geometry.motion import FIELD, PIXELS_PER_METRE, WINDOW
 from tftool.messages.classes import INTERFACES
 from tftool.world.node import Node
 

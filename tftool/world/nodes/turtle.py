@@ -10,11 +10,11 @@ from typing import Any, TypeVar
 from tftool.base.color import Color
 from tftool.base.errors import TftoolError, UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
-from tftool.geometry.motion.twist import Twist2D
-from tftool.geometry.motion.unicycle import (
+from tftool.geometry.motion import (
     COMMAND_TIMEOUT,
     FIELD,
     Placement,
+    Twist2D,
     advance,
     clamp,
     float32,

@@ -10,7 +10,7 @@ from typing import Any, Final, Literal
 
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, seconds
-from tftool.geometry.motion.unicycle import FIELD, TICK, Placement, float32
+from tftool.geometry.motion import FIELD, TICK, Placement, float32
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import Empty, Pose, RotateAbsolute, Twist, twist
 from tftool.world.node import PATIENCE, Node

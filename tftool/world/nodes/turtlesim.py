@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import UsageError
 from tftool.base.stamps import Stamp
-from tftool.geometry.motion.unicycle import CENTRE, TICK, Placement
+from tftool.geometry.motion import CENTRE, TICK, Placement
 from tftool.messages.classes import build
 from tftool.messages.turtle_messages import ColorMessage, Empty, Kill, Spawn
 from tftool.world.clock import Phase

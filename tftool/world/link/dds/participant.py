@@ -23,7 +23,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 from tftool.base.errors import LinkError
-from tftool.base.escaping import shorten
+from tftool.base.plain_text import shorten
 from tftool.base.stamps import Stamp
 from tftool.world.endpoints import Quality
 from tftool.world.link.dds.dds_types import Raw

@@ -22,9 +22,8 @@ from tftool.messages.codec import Codec
 from tftool.messages.schema import full_name
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel
-from tftool.recordings.foreign_transforms import Decoder, decoder_of, is_foreign
-from tftool.recordings.message_conversion import as_ros2
-from tftool.recordings.schema_text import same_layout, short
+from tftool.recordings.foreign_transforms import FOREIGN, Decoder, decoder_of
+from tftool.recordings.message_conversion import as_ros2, same_layout, short
 
 SUBPROTOCOLS: Final = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 """Names of the protocol's versions for the connection, the newer one first."""
@@ -303,7 +302,7 @@ def ros_topic(channel: FoxgloveChannel) -> RosTopic:
 
 
 def _is_foreign(channel: FoxgloveChannel) -> bool:
-    return channel.encoding in ("protobuf", "json") and is_foreign(channel.type, channel.encoding)
+    return channel.encoding in ("protobuf", "json") and (channel.type, channel.encoding) in FOREIGN
 
 
 def define(channel: FoxgloveChannel) -> bool:

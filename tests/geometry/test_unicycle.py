@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tftool.base.errors import UsageError
-from tftool.geometry.motion.unicycle import (
+from tftool.geometry.motion import (
     CENTRE,
     FIELD,
     PI,

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tftool.base.errors import UsageError
-from tftool.geometry.motion.pid import FRESH, Gains, step
+from tftool.geometry.motion import FRESH, Gains, step
 
 errors = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
 
