@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.doctor.judged import found, ids, turned
-from tests.doctor.robots import LASTS, NO_TURN, START, Robot, drives, robot, stands
+from tests.doctor.robots import LASTS, MOUNT, NO_TURN, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.findings import Confidence, Severity
 from tftool.doctor.judge import CHECKS
@@ -97,6 +97,28 @@ def test_two_publishers_of_a_wheel_at_equal_rates_half_a_period_apart(speed):
     # 1.5 rad apart, and what it turns in half a period.
     assert conflict.facts["turned"] == pytest.approx(1.5, abs=0.026 * speed + 1e-6)
     assert "85.9°" in conflict.evidence[0] or speed
+
+
+def test_a_wheel_that_is_zero_every_other_time_has_joint_states_of_two_sources():
+    made = robot()
+    for tick in range(100):
+        at = tick * 0.05
+        made.sent("base_link", "wheel", at, (0.0, 0.1, 0.0, *turned(2.0 * at, 1)))
+        made.sent("base_link", "wheel", at + 0.02 * (tick % 5 > 0), (0.0, 0.1, 0.0, *NO_TURN))
+    assert ids(made) == ["publisher-conflict"]
+    conflict = found(made, "publisher-conflict")
+    assert conflict.severity is Severity.WARNING
+    assert "one value 101 times, others 99 times, by turns" in conflict.evidence[0]
+    assert "joint_state_publisher that sends zeros" in conflict.fixes[0].text
+
+
+def test_a_mount_with_two_values_that_hardly_differ_is_no_error():
+    for apart, severity in ((0.01, Severity.WARNING), (0.3, Severity.ERROR)):
+        made = robot(laser=False)
+        made.moving("base_link", "laser", pose=stands, node="/stageros")
+        lower = (*MOUNT[:2], MOUNT[2] - apart, *NO_TURN)
+        made.moving("base_link", "laser", pose=lambda _, lower=lower: lower, node="/rsp")
+        assert found(made, "publisher-conflict").severity is severity
 
 
 def test_two_values_at_one_stamp_are_two_publishers_however_near():

@@ -10,7 +10,7 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import quoted
+from tftool.doctor.missing_joins import BASES, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import JOINT_STATES, Places, Track, family, last_part, rate
 from tftool.doctor.wording import span
@@ -107,12 +107,15 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "(a sample belongs to a track within {reach:g} m + {speed:g} m/s, a radian counting"
     " as half a metre). Each track needs {samples:g} samples and a share of {share:g}, "
     "the track must change {changes:g} times or more, and motion at constant velocity "
-    "must explain all samples {worse:g} times worse than each track alone",
+    "must explain all samples {worse:g} times worse than each track alone. A warning if "
+    "nothing is below the frame and no message is in it, or for a mount with two values "
+    "less than {slight:g} m and {slight_degrees:g}° apart",
     headline="{named} {many:is|are} published by {first} and {second} with different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
-    consequence="{child} jumps back and forth in {parent}, and with it everything below",
+    consequence="{named} {many:jumps|jump} back and forth, and so does everything below",
     causes=(
+        "joint_state_publisher sends zeros beside the real source of joint states",
         "a controller or simulator plug-in and a filter publish the odometry",
         "two localisers, or a recorded map to odom replayed beside a live one",
         "two drivers, or two robot_state_publishers",
@@ -135,6 +138,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
         "share": 0.1,
         "changes": 6,
         "worse": 2.0,
+        "slight": 0.05,
+        "slight_degrees": 2.0,
     },
     why="a moving frame continues from its last pose, while the values of two publishers "
     "alternate; the speed limit separates these from fast robots and relocalisations; a"
@@ -151,6 +156,8 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         hit = hit or _values_at_one_stamp(track, limits) or _unnamed_conflict(track, limits)
         if hit is None:
             continue
+        hit = _fed_twice(track, hit, limits) or hit
+        hit = replace(hit, severity=_severity(model, track, hit, limits))
         # What shares messages shares the nodes that send them.
         like = (t for t in apart if np.isin(track.messages, t.messages).mean() > 0.5)
         sent_with = next(like, track)
@@ -173,6 +180,51 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
             hit = replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
         told_of[told.edge] = hit
     yield from told_of.values()
+
+
+def _severity(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
+    """Return a warning for what hardly matters to a robot that drives; None for an error."""
+    worst, turned = hit.facts["worst"], hit.facts["most_turned"]
+    assert isinstance(worst, float)
+    assert isinstance(turned, float)
+    if worst < limits["slight"] and turned < np.radians(limits["slight_degrees"]):
+        poses = np.hstack((track.translations, track.rotations))[track.by_stamp]
+        if len(np.unique(poses.round(6), axis=0)) == 2:
+            return Severity.WARNING
+    has_users = any(one.is_spatial and one.frame == track.child for one in model.heard)
+    is_base = track.is_localisation or _is_odometry(track) or last_part(track.child) in BASES
+    is_drawn_only = not has_users and len(model.below(track.child)) == 1 and not is_base
+    return Severity.WARNING if is_drawn_only else None
+
+
+def _fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
+    """Return the finding about a joint that has one and the same value in every other sample.
+
+    One robot_state_publisher may send both values, if two sources of joint states feed it.
+    """
+    if track.is_localisation or _is_odometry(track) or hit.confidence is Confidence.CERTAIN:
+        return None
+    places = track.by_stamp[:MOST_FOLLOWED]
+    poses = np.hstack((track.translations[places], track.rotations[places]))
+    _, kinds, counts = np.unique(poses, axis=0, return_inverse=True, return_counts=True)
+    rests = kinds.reshape(-1) == counts.argmax()
+    moving, resting = places[~rests], places[rests]
+    changes = np.count_nonzero(np.diff(rests))
+    if changes < 0.3 * len(places) or len(counts) <= limits["samples"]:
+        return None
+    near = np.clip(
+        np.searchsorted(track.stamps[resting], track.stamps[moving]), 0, len(resting) - 1
+    )
+    told = _conflict(track, ("A", "B"), (moving, resting[near]), Confidence.LIKELY)
+    text = f"one value {len(resting):,} times, others {len(moving):,} times, by turns"
+    seen = " (seen from the values; perhaps one publisher, fed by two sources of joint states)"
+    cure = (
+        "find who publishes joint states: `{publishers} /joint_states`; stop a "
+        "joint_state_publisher that sends zeros beside the real source, or name that source in "
+        "its source_list"
+    )
+    facts = {**told.facts, "told": text, "seen": seen}
+    return replace(told, facts=facts, fixes=(Fix(cure),))
 
 
 def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
