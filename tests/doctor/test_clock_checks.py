@@ -9,8 +9,10 @@ from rich.console import Console
 from tests.doctor.judged import found, ids
 from tests.doctor.robots import LASTS, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
+from tftool.doctor.explanation import Cause, traced
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
+from tftool.doctor.trace import Question
 from tftool.drawing import finding_view
 
 
@@ -385,7 +387,11 @@ def test_a_localiser_on_the_recorders_clock_is_off_the_others_and_no_more(hours)
     off = "14.94 s" if hours > 0 else "168 hours"
     assert finding.message.startswith(f"odom in map is {off}")
     assert ("played" in finding.fixes[0].text) == (hours < -1)
-    assert ids(made) == ["clock-offset"]
+    # Nothing else tells of the two clocks.
+    assert ids(made, notes=True) == ["clock-offset"]
+    asked = traced(made.judged().model, Question("map", "laser", seconds(START + 4.0)))
+    assert asked.cause is Cause.CLOCK_OFFSET
+    assert asked.remedies[0].kind == "clock"
 
 
 def test_a_delay_that_varies_is_a_queue_and_no_clock():
@@ -399,3 +405,22 @@ def test_a_delay_that_varies_is_a_queue_and_no_clock():
     steady = robot(odometry=False, scans=False)
     steady.moving("odom", "base_link", latency=0.8)
     assert "clocks" in found(steady, "stale-stamp").fixes[0].text
+
+
+def test_stamps_that_come_in_time_on_another_topic_show_that_tf_queues():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", latency=2.0)
+    made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", latency=0.01)
+    cure = found(made, "stale-stamp").fixes[0].text
+    assert cure.startswith("/odom has the same stamps, 10 ms late: these messages wait in a queue")
+
+
+def test_a_localiser_out_of_order_hangs_on_the_odometry_that_its_scans_wait_for():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", hz=1)
+    for tick in range(70):
+        # Ten scans are released at once, the newest first.
+        released = tick // 10 + 1.1
+        at = tick * 0.1
+        made.sent("map", "odom", at, latency=released - at - 0.01 * (tick % 10))
+    assert found(made, "out-of-order").because_of == "sensor-outruns-tf"

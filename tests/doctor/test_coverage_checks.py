@@ -269,6 +269,48 @@ def test_waits_of_one_period_of_fast_odometry_are_not_reported():
     assert not any("queue" in fix.text for fix in finding.fixes)
 
 
+def test_the_advised_wait_leaves_a_stall_out():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=10, end=20.0, latency=0.08)
+    made.hears("/scan", "laser", latency=0.001, end=20.0)
+    rows = made.messages
+    for number, (log, sender) in enumerate(rows):
+        if seconds(START + 10.0) < log < seconds(START + 10.6):
+            rows[number] = (seconds(START + 13.0), sender)
+    cure = found(made, "sensor-outruns-tf").fixes[0].text
+    assert "is enough for 95 %; the longest wait," in cure
+    assert int(cure.split("timeout of ")[1].split()[0]) < 200
+
+
+def silent(made: Robot, begin: float, end: float, lost: bool) -> None:
+    """Nothing arrives for a time; what is not lost comes at its end."""
+    low, high = made.log(begin), made.log(end)
+    made.messages = [(high if low < log < high else log, sender) for log, sender in made.messages]
+    for topic, (kind, rows) in made.heard.items():
+        late = [(stamp, high if low < log < high else log, frame) for stamp, log, frame in rows]
+        kept = [row for row, (_, log, _) in zip(late, rows, strict=True) if not low < log < high]
+        made.heard[topic] = (kind, kept if lost else late)
+
+
+@pytest.mark.parametrize("lost", [False, True])
+def test_a_network_that_is_gone_for_a_time_is_one_finding(lost):
+    made = robot(scans=False)
+    made.hears("/scan", "laser")
+    silent(made, 3.0, 6.0, lost)
+    finding = found(made, "outage")
+    assert finding.message == "nothing arrived for 3.02 s on 2 of 2 streams"
+    assert ("on 1 of them data of that time never came" in finding.evidence[0]) == lost
+    assert finding.topics == ("/scan",)
+    # The lidar goes on: it is no outage of all.
+    made = robot()
+    made.hears("/points", "laser", kind="sensor_msgs/PointCloud2")
+    made.hears("/image", "laser", kind="sensor_msgs/Image")
+    kept = {topic: made.heard[topic] for topic in ("/scan", "/points", "/image")}
+    silent(made, 3.0, 6.0, lost)
+    made.heard.update(kept)
+    assert "outage" not in ids(made)
+
+
 def test_two_samples_at_once_have_not_stopped():
     made = robot()
     for at in (2.0, 2.02):

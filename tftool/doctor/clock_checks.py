@@ -84,7 +84,7 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
         since=min(int(one.logs[0]) for one in odd),
         count=sum(one.families[0 if sim_is_odd else 1] for one in odd),
         facts={
-            "odd": [_name(one) for one in odd],
+            "odd": [one.name for one in odd],
             "odd_stamp": sample,
             "usual_stamp": usual,
             "odd_clock": "the simulation's clock" if sim_is_odd else "the wall clock",
@@ -113,10 +113,6 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     return int(stamps[mask][0])
 
 
-def _name(stream: "Track | Heard") -> str:
-    return stream.name if isinstance(stream, Track) else stream.topic
-
-
 @check(
     "shifted-clock",
     Severity.NOTE,
@@ -138,8 +134,8 @@ def _name(stream: "Track | Heard") -> str:
 )
 def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     """All stamps differ from their reception by one constant."""
-    if model.shift is None:
-        return
+    if model.shift is None or model.unshifted:
+        return  # `clock-offset` tells of the two clocks
     yield Hit(
         since=model.start,
         count=model.shift.streams,
@@ -210,7 +206,7 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
     others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
     others += [t for t in model.dynamic if t.nodes and not set(t.nodes) & set(track.nodes)]
     also = [
-        _name(other)
+        other.name
         for other in others
         if abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
     ]
@@ -254,7 +250,7 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         worst = int(np.abs(off).argmax())
         place = int(places[worst])
         facts: dict[str, Fact] = {
-            "what": _name(one),
+            "what": one.name,
             "count": len(places),
             "of": len(one.stamps),
             "stamp": int(one.stamps[place]),
@@ -296,30 +292,35 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             least = max(least, track.period)
         if len(track.stamps) > 1 and track.median_latency > least and not stands_still(track):
             severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
-            yield _late(track, track.name, severity)
+            yield _late(model, track, track.name, severity)
     for heard in model.heard:
         # A latched message may be old, and without motion an old message is as good as a new one.
         if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
-            yield _late(heard, heard.topic, Severity.WARNING)
+            yield _late(model, heard, heard.topic, Severity.WARNING)
 
 
 _STEADY = seconds(0.1)
 """Within what a delay that no queue makes varies, from its 10 % to its 90 % quantile."""
 
 
-def _late(stream: "Track | Heard", name: str, severity: Severity) -> Hit:
+def _late(model: Model, stream: "Track | Heard", name: str, severity: Severity) -> Hit:
     low, high = (int(one) for one in np.percentile(stream.latency, (10, 90)))
     cure = (
         "stamp each transform when it is made, not with the last measurement's stamp; compare the "
         "clocks (chronyc tracking)"
     )
-    if high - low > _STEADY:
+    queues = f"the delay varies by {span(high - low)}" if high - low > _STEADY else ""
+    for other in model.heard:
+        # Nobody dates a transform by a message that has not come.
+        soon = 4 * abs(other.median_latency) < stream.median_latency
+        if soon and np.isin(stream.stamps, other.stamps).mean() > 0.5:
+            queues = f"{other.topic} has the same stamps, {span(other.median_latency)} late"
+    if queues:
         cure = (
-            f"the delay varies by {span(high - low)}, as of data that queues, not of a clock: look "
-            "for a slow network, a slow recorder or a busy computer; send less, or record on the "
-            "robot"
+            f"{queues}: these messages wait in a queue, and no clock is wrong; look for a slow "
+            "network, a slow recorder or a busy computer; send less, or record on the robot"
         )
     facts = {"what": name, "late": stream.median_latency}
     return hit_of(stream, facts, severity=severity, fixes=(Fix(cure),))
@@ -356,11 +357,8 @@ def _late(stream: "Track | Heard", name: str, severity: Severity) -> Hit:
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
     """A sensor's stamps are in the future: two clocks differ."""
     alike: dict[int, list[Track | Heard]] = defaultdict(list)
-    by = 0 if model.shift is None else model.shift.by
-    for track in model.dynamic if by else ():
-        # What is merely late is on the clock of the others.
-        if len(track.stamps) > 2 and 4 * abs(track.median_latency + by) < abs(by):
-            alike[-track.median_latency].append(track)
+    for track in model.unshifted:
+        alike[-track.median_latency].append(track)
     for heard in model.heard:
         if len(heard.stamps) < 3 or not heard.is_spatial:
             continue
@@ -376,8 +374,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
             alike[same].append(heard)
     for ahead, streams in alike.items():
-        names = tuple(dict.fromkeys(_name(one) for one in streams))
+        names = tuple(dict.fromkeys(one.name for one in streams))
         heards = [one for one in streams if isinstance(one, Heard)]
+        told = ""
+        if model.shift is not None and len(heards) < len(streams):
+            told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
         yield Hit(
             edges=tuple(one.edge for one in streams if isinstance(one, Track)),
             topics=tuple(dict.fromkeys(heard.topic for heard in heards)),
@@ -389,11 +390,13 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "ahead": ahead,
                 "groups": _offsets(model),
                 "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} off the other "
-                "clocks",
-                "so": "each lookup at these stamps asks for what is not there"
+                "clocks" + told,
+                "so": "no lookup across the two clocks can succeed"
+                if told
+                else "each lookup at these stamps asks for what is not there"
                 + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
             },
-            fixes=_SYNCHRONISE if abs(ahead) < _PLAYED else (_PLAY_AGAIN, *_SYNCHRONISE),
+            fixes=_SYNCHRONISE if abs(ahead) < _PLAYED else (_PLAY_AGAIN,),
             alone=True,
         )
     if not alike:
@@ -413,7 +416,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
         if least < -limits["spread"] * NANOSECONDS or _is_one_period(one):
             continue
         if high - least < limits["spread"] * NANOSECONDS:
-            steady.append((least, _name(one)))
+            steady.append((least, one.name))
     steady.sort()
     groups: list[list[tuple[int, str]]] = []
     for item in steady:
@@ -455,7 +458,7 @@ def _offsets(model: Model) -> list[str]:
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
     for one in streams:
         if len(one.stamps) > 2:
-            grouped[round(one.median_latency / seconds(0.02))].append(_name(one))
+            grouped[round(one.median_latency / seconds(0.02))].append(one.name)
     return [
         f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
         for step, names in sorted(grouped.items())
@@ -514,7 +517,7 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         stamp, count, lasted = frozen
         facts: dict[str, Fact] = {
-            "what": _name(one),
+            "what": one.name,
             "count": count,
             "stamp": stamp,
             "lasted": lasted,
@@ -731,6 +734,7 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
         ("stream", "clock-mixture"),
         ("child", "publisher-conflict two-parents"),
         ("edge", "wild-stamp clock-offset repeated-stamp"),
+        ("frame", "sensor-outruns-tf"),
     ),
 )
 def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -738,4 +742,7 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         count = unsorted_share(track.stamps)
         if count > limits["samples"] and count > limits["share"] * len(track.stamps):
-            yield hit_of(track, {"count": count, "of": len(track.stamps)}, since=None, count=count)
+            # A localiser sends late what it could place late.
+            waited = (track.child,) if track.is_localisation else ()
+            facts = {"count": count, "of": len(track.stamps)}
+            yield hit_of(track, facts, since=None, count=count, frames=waited)

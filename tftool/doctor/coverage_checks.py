@@ -15,7 +15,7 @@ from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hi
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
-from tftool.doctor.wording import ALIKE, arrival, several
+from tftool.doctor.wording import ALIKE, arrival, several, span
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
@@ -134,7 +134,7 @@ def _is_detection(model: Model, track: Track) -> bool:
     "timeouts of consumers cover shorter gaps",
     because_of=(
         ("child", "publisher-conflict two-parents"),
-        ("edge", "edge-stopped nan-transform clock-offset"),
+        ("edge", "edge-stopped nan-transform clock-offset outage"),
     ),
 )
 def gap(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -174,6 +174,81 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             count=len(found),
             severity=Severity.NOTE if on_change else Severity.WARNING,
         )
+
+
+@check(
+    "outage",
+    Severity.WARNING,
+    rule="nothing arrives for more than {seconds:g} s and {periods:g} periods on half or more of "
+    "the streams that come at {hz:g} Hz or more, a topic of messages and a transform among them, "
+    "and they go on afterwards",
+    headline="nothing arrived for {length:span} on {streams} of {of} streams",
+    detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
+    consequence="whatever was stamped then came late, in a burst, or never",
+    fixes=(
+        Fix(
+            "look for what they share: the network, the computer or the recorder; record on the "
+            "robot"
+        ),
+    ),
+    causes=(
+        "a network that was gone",
+        "a recorder or a disk that hung",
+    ),
+    limits={"seconds": 2.0, "periods": 10, "hz": 1.0},
+    needs=("log times",),
+)
+def outage(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Most streams stop arriving at once for a time, and go on."""
+    silent: list[tuple[Track | Heard, int, int]] = []
+    count = 0
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    for stream in streams:
+        steps = np.diff(stream.logs)
+        if len(steps) < 10 or (usual := int(np.median(steps))) > NANOSECONDS / limits["hz"]:
+            continue
+        count += 1
+        place = int(steps.argmax())
+        if steps[place] > max(limits["seconds"] * NANOSECONDS, limits["periods"] * usual):
+            silent.append((stream, int(stream.logs[place]), int(stream.logs[place + 1])))
+    begin = max((begin for _, begin, _ in silent), default=0)
+    end = min((end for _, _, end in silent), default=0)
+    kinds = {type(stream) for stream, _, _ in silent}
+    if len(kinds) < 2 or 2 * len(silent) < count or end - begin < limits["seconds"] * NANOSECONDS:
+        return
+    missed = sum(
+        _is_hole(stream, begin, end, limits["seconds"] * NANOSECONDS) for stream, _, _ in silent
+    )
+    lost = "all of it came afterwards"
+    if missed:
+        lost = f"on {missed} of them data of that time never came"
+    gone = [one.name for one in streams if begin - NANOSECONDS < one.logs[-1] < end]
+    yield Hit(
+        edges=tuple(stream.edge for stream, _, _ in silent if isinstance(stream, Track)),
+        topics=tuple(stream.topic for stream, _, _ in silent if isinstance(stream, Heard)),
+        since=begin,
+        until=end,
+        facts={
+            "begin": begin,
+            "end": end,
+            "length": end - begin,
+            "streams": len(silent),
+            "of": count,
+            "names": [stream.name for stream, _, _ in silent],
+            "lost": f"{lost}; {several(gone)} never came back" if gone else lost,
+        },
+        alone=True,
+    )
+
+
+def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
+    """Whether a stream has a gap of stamps about a time when nothing arrived."""
+    stamps = np.sort(stream.stamps)
+    steps = np.diff(stamps)
+    delay = stream.arrivals - stream.logs
+    near = int(delay[0]) if len(delay) else 0
+    wide = (steps > least) & (stamps[1:] > begin + near) & (stamps[:-1] < end + near)
+    return bool(wide.any())
 
 
 @check(
@@ -595,19 +670,25 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     worst = int(waits.served.max(initial=0))
     if worst < 10_000_000:
         return ()
-    p95 = math.ceil(waits.serves(95) / 1e6)
+    usual = waits.serves(95)
     later = waits.link.median_latency - heard.median_latency
     often = least_rate(waits.link.name, waits.link.period, later, wait)
-    depth = max(1, math.ceil(worst / NANOSECONDS * rate(heard)))
+    depth = max(1, math.ceil((usual if worst > 3 * usual else worst) / NANOSECONDS * rate(heard)))
     ahead = Fix(
         f"or date {waits.link.name} {math.ceil(worst / 1e6)} ms further ahead (transform_tolerance)"
     )
     mount = Fix(f"or, if {waits.link.name} is a mount, as it never moved: send it on /tf_static")
+    wait_for = (
+        f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms is enough for all that can "
+        f"ever be placed ({math.ceil(usual / 1e6)} ms for 95 %)"
+    )
+    if worst > 3 * usual:  # a stall, and no wait to plan for
+        wait_for = (
+            f"wait for it: a timeout of {max(10, rounded_up(usual) // 10**6)} ms is enough for "
+            f"95 %; the longest wait, {span(worst)}, is a stall"
+        )
     return (
-        Fix(
-            f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms is enough for all "
-            f"that can ever be placed ({p95} ms for 95 %)"
-        ),
+        Fix(wait_for),
         *((Fix(f"or {often}") if later < wait * NANOSECONDS else Fix(often),) if often else ()),
         *((ahead,) if waits.link.is_localisation else ()),
         *((mount,) if not waits.link.moves else ()),
@@ -715,7 +796,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     " always loses that time",
     because_of=(
         ("stream", "clock-mixture frozen-stamp"),
-        ("edge", "wild-stamp"),
+        ("edge", "wild-stamp clock-offset"),
     ),
 )
 def late_start(model: Model, limits: Limits) -> Iterator[Hit]:

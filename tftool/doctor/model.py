@@ -150,6 +150,18 @@ class Model:
         return tuple(track for track in self.tracks if track.static)
 
     @cached_property
+    def unshifted(self) -> tuple[Track, ...]:
+        """Moving edges on the recorder's clock, in a recording whose other stamps are shifted."""
+        if self.shift is None:
+            return ()
+        by = self.shift.by
+        return tuple(
+            track
+            for track in self.dynamic
+            if len(track.stamps) > 2 and 4 * abs(track.median_latency + by) < abs(by)
+        )
+
+    @cached_property
     def words(self) -> Mapping[str, str]:
         """Commands and settings for texts, for ROS 1 or ROS 2, whichever made the recording."""
         return ros_words(self.evidence)

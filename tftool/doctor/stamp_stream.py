@@ -342,6 +342,11 @@ class Heard(Stream):
         self.frame = headers.names[number]
 
     @property
+    def name(self) -> str:
+        """Name for messages."""
+        return self.topic
+
+    @property
     def is_spatial(self) -> bool:
         """Whether the topic's messages contain positions."""
         return is_spatial(self.type)
