@@ -205,7 +205,7 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
     streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
     for stream in streams:
         steps = np.diff(stream.logs)
-        if len(steps) < 10 or (usual := int(np.median(steps))) > NANOSECONDS / limits["hz"]:
+        if len(steps) < 10 or (usual := int(np.median(steps))) * limits["hz"] > NANOSECONDS:
             continue
         count += 1
         place = int(steps.argmax())
@@ -397,11 +397,13 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
         missed = [
             (heard, int(np.count_nonzero(heard.logs < first)))
             for heard in spatial
-            if heard.frame in below and not 0 < int(track.stamps[0]) < int(heard.stamps[0])
+            if heard.frame in below
         ]
         missed = [(heard, count) for heard, count in missed if count]
         late = max((first - int(heard.logs[0]) for heard, _ in missed), default=0)
         if late > limits["seconds"] * NANOSECONDS:
+            if track.stamps[0] != 0 and track.latency[0] > late:
+                continue  # it was sent before, and only the recorder heard it late
             yield hit_of(
                 track,
                 {
