@@ -81,7 +81,7 @@ def test_every_order_is_listed_when_asked(tftool):
     ("words", "told"),
     [
         (["0", "0", "0.7", "0.7"], "--as xyzw or --as wxyz"),
-        (["--as", "nonsense", "1"], "no form of a rotation"),
+        (["--as", "nonsense", "1"], "not a notation of a rotation"),
         (["rpy", "0", "0", "1", "--into", "nonsense"], "--into nonsense: there is xyzw"),
         (["rpy", "0", "0", "1", "--into", "xyzw", "--json"], "leave out --json"),
         (["--nonsense", "1", "2", "3"], "'nonsense'"),

@@ -70,8 +70,8 @@ def test_a_homogeneous_matrix_is_read_by_its_upper_left():
     ("matrix", "told"),
     [
         ([[1, 0, 0], [0, 1, 0], [0, 0, -1]], "mirrors"),
-        ([[2, 0, 0], [0, 1, 0], [0, 0, 1]], "no rotation"),
-        ([[math.nan] * 3] * 3, "no rotation"),
+        ([[2, 0, 0], [0, 1, 0], [0, 0, 1]], "not a rotation"),
+        ([[math.nan] * 3] * 3, "not a rotation"),
         ([[1, 0], [0, 1]], "three rows"),
         (7, "three rows"),
     ],
@@ -97,7 +97,7 @@ def test_no_turn_has_an_axis_all_the_same():
 
 @pytest.mark.parametrize("axis", [(0, 0, 0), (math.inf, 0, 0), (math.nan, 0, 0)])
 def test_a_turn_needs_an_axis(axis):
-    with pytest.raises(ValueError, match="is no axis"):
+    with pytest.raises(ValueError, match="is not an axis"):
         conversions.quaternion_from_axis_angle(axis, 1.0)
 
 
@@ -136,9 +136,9 @@ def test_every_order_of_axes_means_three_turns_one_after_the_other(first, second
 def test_there_are_24_orders_of_axes_and_what_is_none_is_refused():
     assert len(set(conversions.AXES)) == 24
     for axes in ("xyz", "sxxz", "qxyz", "", None):
-        with pytest.raises(ValueError, match="is no order of axes: write 's'"):
+        with pytest.raises(ValueError, match="is not an order of axes: write 's'"):
             conversions.quaternion_from_euler((0, 0, 0), axes)
-        with pytest.raises(ValueError, match="is no order of axes"):
+        with pytest.raises(ValueError, match="is not an order of axes"):
             conversions.euler_from_quaternion((0, 0, 0, 1), axes)
         with pytest.raises(ValueError, match="such as 'sxyz'"):
             conversions.euler_from_matrix(((1, 0, 0), (0, 1, 0), (0, 0, 1)), axes)
