@@ -97,8 +97,8 @@ class Buffer(Door):
     Threads: a buffer belongs to one thread, usually the event loop's. Only this thread sets,
     clears, listens, requests, and queries single transforms or snapshots. Other threads may call
     `lookup_transforms`, `lookup_transforms_full` and `samples` at any time: these copy the data of
-    each link in one piece and compute on the copy. Each link is seen in its state at some moment
-    during the call, also across `clear` or a change between static and moving.
+    each link in one step and compute on the copy. The copy of a link shows its state at some time
+    during the call, even if another thread clears the buffer or replaces the link meanwhile.
     """
 
     def __init__(
@@ -563,7 +563,7 @@ class Buffer(Door):
         static.
 
         Raises:
-            TransformException: If a name is unknown or invalid, or no chain of links joins the two
+            TransformException: If a name is unknown or invalid, or no chain of links joins the
                 frames.
         """
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)

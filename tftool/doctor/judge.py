@@ -269,7 +269,7 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
 
 
 def _joined(check: Check, hits: list[Hit], limits: Limits, words: Mapping[str, str]) -> Finding:
-    """Merge similar hits of one check into one finding."""
+    """Merge similar hits (single observations) of one check into one finding."""
     first = hits[0]
     concerned = _concerned(hits)
     named = list(dict.fromkeys(str(hit.facts["named"]) for hit in hits if "named" in hit.facts))

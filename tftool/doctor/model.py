@@ -1,4 +1,4 @@
-"""Model of the evidence that the checks read: streams on one clock, laps, trees.
+"""Model of the evidence that the checks read: streams on one clock, trees, jumps of the clock.
 
 This module reads no files; see `evidence`.
 """
@@ -177,7 +177,7 @@ class Model:
 
     @cached_property
     def start(self) -> Stamp:
-        """Log time of the start of the first lap."""
+        """Log time at which the examined data begins, nanoseconds."""
         return max(self.evidence.start, -(2**61))
 
     @cached_property
@@ -188,7 +188,7 @@ class Model:
 
     @cached_property
     def end(self) -> Stamp:
-        """Log time of the end of the first lap."""
+        """Log time at which the examined data ends: at the clock's first backward jump, if any."""
         return self.laps[0].log if self.laps else min(self.evidence.end, 2**61)
 
     @cached_property

@@ -63,12 +63,12 @@ class Stream:
 
     @property
     def stamps(self) -> Stamps:
-        """Stamps of the first lap, nanoseconds."""
+        """Stamps before the clock first jumped back (the first lap), nanoseconds, shape (n,)."""
         return self.all_stamps[: self.lap]
 
     @property
     def logs(self) -> Stamps:
-        """Log times of the first lap, nanoseconds."""
+        """Log times before the clock first jumped back (the first lap), nanoseconds, shape (n,)."""
         return self.all_logs[: self.lap]
 
     @cached_property
@@ -108,7 +108,7 @@ class Stream:
 
     @cached_property
     def families(self) -> tuple[int, int]:
-        """Return the numbers of stamps on simulation's and on wall clock; zeros are not counted."""
+        """Return how many stamps are on a simulation's clock, and how many on the wall clock."""
         zero = int(np.count_nonzero(self.stamps == 0))
         wall = int(np.count_nonzero(self.stamps >= SIMULATED_BELOW))
         return len(self.stamps) - wall - zero, wall

@@ -304,4 +304,4 @@ class LookupTrace:
 
 
 def _silent(_level: str, _text: str) -> None:
-    """Ignore log lines of the assumed buffer: the checks report its failures."""
+    """Ignore log lines of the buffer that imitates a listener: the checks report its failures."""

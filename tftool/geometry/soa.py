@@ -2,7 +2,7 @@
 
 Batch lookups use these functions with reused arrays: no function allocates memory. Vectors have the
 rows x, y, z, x, y, so that a cross product is three operations on three rows each. Quaternions have
-a row w before these rows. An array with a single column is used for all columns of the other array.
+a row w before these rows. An array with a single column applies to all columns of another array.
 """
 
 from typing import NamedTuple

@@ -415,7 +415,7 @@ class ChunkedReader(File):
         if learns:
             self._count(Counter(found.channels))
         if chunk.cut or len(found):
-            # The chunk may end before the end that its record gives.
+            # The chunk may end before the end stated in its record.
             chunk.start, chunk.end = found.span
 
     # Batches

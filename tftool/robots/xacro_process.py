@@ -117,7 +117,7 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
 def _as_installed(package: Path) -> Path:
     """Return a package's folder as installed: with the nested folders that CMake would install.
 
-    `install(DIRECTORY description/urdf DESTINATION share/…)` puts urdf/ beside package.xml. A
+    `install(DIRECTORY description/urdf DESTINATION share/…)` copies urdf/ beside package.xml. A
     temporary folder of links reproduces this; without such lines the source folder is returned.
     """
     try:

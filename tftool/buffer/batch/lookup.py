@@ -451,7 +451,7 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
 def _workers(threads: int | None) -> int:
     """Return the number of threads: `threads`, or one for each available core if None."""
     if threads is None:
-        # The cores this process may use, if the system tells; the machine may have more.
+        # The number of cores that this process may use, if known; the machine may have more.
         allowed = getattr(os, "sched_getaffinity", None)
         return len(allowed(0)) if allowed else os.cpu_count() or 1
     if threads < 1:

@@ -296,12 +296,11 @@ class _Job:
     # Databases
 
     def _changed_in_place(self) -> list[Sqlite]:
-        """Return the databases if each changes in some rows only; else none."""
+        """Return the databases if only some rows of each change; else an empty list."""
         tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
         alike = len(tapes) == len(self._tapes) and self._container == "db3"
         one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
-        # Messages compressed one by one are compressed again, and damage is searched for row by
-        # row.
+        # Not if messages must be compressed again, or damaged rows must be skipped.
         packed = self._mode == "message" or any(one.mode == "message" for one in self._inputs)
         damaged = any(one.damage for one in self._inputs) or any(tape.damage for tape in tapes)
         if not alike or not one_to_one or packed or damaged or self._heads.wanted:
@@ -328,7 +327,7 @@ class _Job:
         self._changer.counts = Counter()
 
     def _path_in(self, part: Path, number: int) -> Path:
-        """Return the path of an output file."""
+        """Return the path of an output file, by its number."""
         if not self._is_folder:
             return part
         suffix = container_named(self._container).suffix
@@ -357,7 +356,7 @@ class _Job:
                 output.closed_block(block)
 
     def _by_part(self, source: int, table: MessageTable) -> Iterator[tuple[int, MessageTable]]:
-        """Yield the parts of the result that messages belong to, in order of the first ones."""
+        """Yield the number of each output file, with its messages among these."""
         if not self._edits.split_every:
             if len(table):
                 yield self._part_of(source, 0), table
@@ -367,7 +366,7 @@ class _Job:
             yield number, table.chosen(np.flatnonzero(parts == number))
 
     def _in_one_part(self, block: Block) -> bool:
-        """Whether a block is a sound chunk whose messages belong to one part of the result."""
+        """Whether a block can be copied as one chunk, because it belongs to one output file."""
         is_one = self._part_of(0, block.start) == self._part_of(0, block.end)
         return is_one and block.whole and bool(block.counts) and isinstance(block, Chunk)
 
@@ -381,7 +380,7 @@ class _Job:
         return max(0, (log_time - self._start) // self._edits.split_every)
 
     def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
-        """Return the output file of a part; a new one begins with its statics, at `start`."""
+        """Return the output file with a number; a new one begins with its static transforms."""
         found = self._outputs.get(number)
         if found is not None:
             return found
@@ -411,7 +410,7 @@ class _Job:
                 used += tape.schemas
         return max(used) + 1
 
-    # The end
+    # Comparison
 
     def _compare(self) -> None:
         """Read the output back, and compare it with the intended content.

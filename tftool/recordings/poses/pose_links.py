@@ -117,7 +117,7 @@ class PoseFile:
                 yield line.replace(",", " ").split()
 
     def fail(self, expected: str, found: str, path: Path | None = None) -> NoReturn:
-        """Raise an error about the current line: what was expected, and what was found.
+        """Raise an error about the current line, with the expected and the found text.
 
         Raises:
             InputError: Always, with the file and the line.

@@ -82,7 +82,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
 
 
 def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
-    """Parse a chunk info record of the index.
+    """Return the entry of a chunk in the index, from its chunk info record.
 
     Raises:
         KeyError: If the header lacks a field.
