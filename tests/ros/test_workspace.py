@@ -221,6 +221,31 @@ def test_a_packages_own_interfaces_can_be_imported(tmp_path):
         INTERFACES.add("my_shapes", {})
 
 
+def test_a_package_may_have_both_interfaces_and_python_modules(tmp_path):
+    from tftool.ros.host import importing
+
+    folder = package(tmp_path / "both", package__xml="<package><name>both</name></package>")
+    package(folder / "msg", Ball__msg="float64 radius 2.5\n")
+    (package(folder / "both" / "core") / "__init__.py").touch()
+    (folder / "both" / "__init__.py").write_text("KIND = 'own'\n")
+    (folder / "both" / "core" / "sizes.py").write_text("from both.msg import Ball\nBALL = Ball()\n")
+    node = folder / "node.py"
+    node.write_text(
+        "import both, both.msg\nfrom both.core.sizes import BALL\nimport rclpy\nrclpy.init()\n"
+        "rclpy.create_node('n').get_logger().info(f'{both.KIND} {BALL == both.msg.Ball()}')\n"
+    )
+    workspace = Workspace(tmp_path)
+    try:
+        with RosRuntime() as runtime:
+            importing.look_behind(workspace.module_folders)
+            runtime.start(node)
+            runtime.sleep(1.0)
+
+        assert runtime.log("n") == ["own True"]
+    finally:
+        INTERFACES.add("both", {})
+
+
 def test_python_packages_that_cmake_installs_are_found_under_their_own_names(tmp_path):
     folder = package(
         tmp_path / "src" / "robot",

@@ -22,7 +22,7 @@ from tftool.messages.classes import INTERFACES
 from tftool.ros.host import fibers, import_table
 from tftool.ros.host.error_text import missing_module, missing_name
 from tftool.ros.host.shims import IMPORTING, builtins_for_users
-from tftool.ros.host.workspace import TAKEN
+from tftool.ros.host.workspace import TAKEN, WITH_MODULES
 
 DISTRIBUTION = "jazzy"
 """ROS 2 distribution whose behaviour tftool has: the value of `ROS_DISTRO` for programs."""
@@ -176,15 +176,25 @@ class _Finder(MetaPathFinder):
         if not rest and (imported := self.on_import.pop(package, None)) is not None:
             imported()
         if package in INTERFACES.packages():
-            return _spec(fullname) if not rest or _names_in(package, rest) else None
+            if rest and _names_in(package, rest):
+                return _spec(fullname)
+            # The package's own module is the parent of its Python modules and its interfaces.
+            own = self._own(fullname, path, target) if package in WITH_MODULES else None
+            return own if own is not None or rest else _spec(fullname)
         known = import_table.table()
         if fullname in known:
             return _spec(fullname)
         if package in known:
             raise ModuleNotFoundError(missing_module(fullname), name=fullname)
+        return self._own(fullname, path, target)
+
+    def _own(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
+    ) -> importlib.machinery.ModuleSpec | None:
+        """Find a module of the user's."""
         if self.tested is not None:
             return self._tested(fullname, path, target)
-        if package not in TAKEN:
+        if fullname.partition(".")[0] not in TAKEN:
             while self.behind:
                 more = map(Path, self.behind.pop(0)())
                 self.roots += [root for root in more if root not in self.roots]

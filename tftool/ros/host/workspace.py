@@ -68,6 +68,9 @@ _KINDS = ("msg", "srv", "action")
 TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", "pytest"}
 """Names of modules of Python and tftool, which a package of the same name would hide."""
 
+WITH_MODULES: set[str] = set()
+"""Packages with both interfaces and Python modules."""
+
 
 class Workspace:
     """Packages below a folder, and those of the workspace that contains the folder.
@@ -282,6 +285,8 @@ def _add_interfaces(package: Package) -> None:
     }
     if texts:
         INTERFACES.add(package.name, texts)
+        if (package.path / package.name / "__init__.py").is_file():
+            WITH_MODULES.add(package.name)
 
 
 FILES = (".py", ".xml", ".yaml", ".yml")
