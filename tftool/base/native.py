@@ -34,25 +34,26 @@ def built(name: str, interface: int) -> "ModuleType | None":
 
 
 PAGE: Final = 1 << 21
-"""Bytes of a large page of memory."""
+"""Size of a large page, bytes."""
 
 _HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
 
 
 def large_pages(size: int, end: int) -> "mmap.mmap | None":
-    """Allocate memory in large pages, rounded up to a whole page; None if unsupported.
+    """Allocate memory in large pages; None if the system does not support it.
 
     Args:
-        size: Minimum number of bytes. Bytes that are never written occupy no memory.
-        end: Offset from which on no large page is requested, bytes.
+        size: Minimum number of bytes, rounded up to a whole page. Bytes that are never written
+            occupy no memory.
+        end: Offset, bytes, from which on ordinary pages are requested.
     """
     if _HUGE is None:
         return None
     try:
-        # So long a piece recent kernels begin at a large page.
+        # Recent kernels align memory of this length to a large page.
         pages = mmap.mmap(-1, size + PAGE - 1 & -PAGE, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
         pages.madvise(_HUGE, 0, end)
     except OSError:
-        # A kernel without them, or not as many addresses.
+        # The kernel has no large pages, or not enough addresses.
         return None
     return pages

@@ -445,7 +445,7 @@ class Buffer(Door):
                 # The path is cached now, and with it the native kernel takes half the time.
                 return Buffer.lookup_transform(self, target_frame, source_frame, moment)
             pose = path.solve(moment)
-            assert pose is not None, "a link that answers for its parent answers for its pose"
+            assert pose is not None, "a link with a parent at a time has a pose at that time"
         return _new(TransformStamped, (moment, target_frame, source_frame, pose))
 
     @native_first

@@ -26,7 +26,7 @@ _new: Final = tuple.__new__
 class Path(NamedTuple):
     """Links from the source and from the target up to their common ancestor.
 
-    A plain tuple, which the native kernel reads as well: see `native`.
+    It is a tuple because the native kernel reads it by index.
 
     Attributes:
         up: Links from the source upward.
@@ -39,8 +39,8 @@ class Path(NamedTuple):
     moving: tuple[History, ...]
 
     def latest(self) -> Stamp:
-        """Return the newest time for which every link has data; 0 if all are static."""
-        # The smallest of the links' newest stamps; a stamp of 0 is "no sample yet".
+        """Return the newest time for which every link has data; 0 if all links are static."""
+        # The minimum of the links' newest stamps; a link with stamp 0 has no sample yet.
         latest = 0
         for link in self.moving:
             stamp = link.newest_stamp
@@ -49,9 +49,9 @@ class Path(NamedTuple):
         return latest
 
     def covers(self, time: Stamp) -> bool:
-        """Whether every link has data at that time."""
+        """Whether every link of the path has data at a time; 0 is the newest sample."""
         for link in self.moving:
-            # The newest stamp is asked for most, so it is compared first.
+            # Most lookups request the newest stamp, so it is compared first.
             if time != link.newest_stamp and (
                 not link.oldest_stamp <= time < link.newest_stamp and time != 0
             ):
@@ -59,16 +59,16 @@ class Path(NamedTuple):
         return True
 
     def solve(self, time: Stamp) -> Transform | None:
-        """Return the pose of source in target at that time; None if a link has no data."""
+        """Return the pose of source in target at a time; None if a link has no data."""
         pose = chain(self.up, time)
         if self.down:
             pose = poses.between(chain(self.down, time), pose)
         x, y, z, qx, qy, qz, qw = pose
-        # The usual case of both: to call them each time costs 10 % of a lookup.
+        # Usually neither function is needed: calling them each time costs 10 % of a lookup.
         if not (qw > 0.5 and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST):
             if qw != qw:
                 return None
-            # Of length one, as samples are: where several links turn, rounding adds up.
+            # Scale to unit length, because rounding adds up over several rotating links.
             qx, qy, qz, qw = quaternions.canonical(quaternions.unit((qx, qy, qz, qw)))
         return _new(Transform, (_new(Vector3, (x, y, z)), _new(Quaternion, (qx, qy, qz, qw))))
 
@@ -85,13 +85,13 @@ def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
     """
     pose: Sample | None = None
     for link in links:
-        # A row without a pose is NaN throughout, and leaves nothing but NaN.
+        # NO_POSE is all NaN, and so is every product with it.
         pose = link.at(time) if pose is None else poses.compose(link.at(time), pose)
     return IDENTITY if pose is None else pose
 
 
 def folded(links: Iterable[Link]) -> tuple[Link, ...]:
-    """Merge each run of static links into one."""
+    """Merge each run of consecutive static links into one static link."""
     result: list[Link] = []
     run: list[Link] = []
     for link in links:
@@ -110,7 +110,7 @@ def _folded_run(run: list[Link]) -> list[Link]:
 
 
 def path_of(tree: FrameTree, walk: Walk) -> Path:
-    """Return the path of a successful walk."""
+    """Return the path found by a walk that reached a common ancestor."""
     frames = tree.frames
     up = folded([link for number in walk.up if (link := frames[number].link) is not None])
     down = folded([link for number in walk.down if (link := frames[number].link) is not None])

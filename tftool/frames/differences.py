@@ -396,7 +396,7 @@ def _root_mean_square(values: batch.Floats) -> float:
 
 
 Comparable = Frames | Recording | Robot | Buffer | StaticFrames | str | os.PathLike[str]
-"""Source of frames to compare; a path names a recording, a description or a launch file."""
+"""Source of frames to compare; a path must name a recording, a description or a launch file."""
 
 
 def diff(
@@ -408,25 +408,25 @@ def diff(
     rate_percent: float | None = None,
     align_starts: bool = False,
 ) -> Differences:
-    """Compare two sets of frames, link by link; see `compare`::
+    """Compare two sets of frames, link by link; see `differences.compare`::
 
         for one in tftool.diff("monday.mcap", "robot.urdf").changed:
             print(one.child, *one.changes)
 
     Args:
-        a: Frames, or the path of a file of them.
-        b: The other side.
-        mm: Largest distance that a frame may have moved, millimetres.
-        deg: Tolerated rotation, degrees.
+        a: The first set: frames, or the path of a file with frames.
+        b: The second set.
+        mm: Tolerated displacement of a frame, millimetres.
+        deg: Tolerated rotation of a frame, degrees.
         rate_percent: Tolerated difference of rates, percent; None to ignore rates.
-        align_starts: Whether moments count from each one's own start.
+        align_starts: Whether times count from the start of each set.
 
     Returns:
-        All links with their changes; false if there are none.
+        All links with their changes; false if nothing changed.
 
     Raises:
-        InputError: If a path cannot be read, or one of the two has no frames.
-        UsageError: If a path names a scenario, which has to be played first.
+        InputError: If a path cannot be read, or a set has no frames.
+        UsageError: If a path names a scenario, which must be played first.
     """
     allowance = Allowance(mm, deg, rate_percent)
     return compare(side_of(a, "A"), side_of(b, "B"), allowance, align_starts=align_starts)
@@ -437,11 +437,11 @@ def side_of(frames: Comparable, name: str) -> Side:
 
     Args:
         frames: Source of the frames.
-        name: Name for a side without one of its own.
+        name: Name for a side without a name: "A" or "B".
 
     Raises:
         InputError: If a path cannot be read.
-        UsageError: If the word names a scenario.
+        UsageError: If a path names a scenario.
     """
     if isinstance(frames, str | os.PathLike):
         return _opened(os.fspath(frames))
@@ -456,7 +456,7 @@ def side_of(frames: Comparable, name: str) -> Side:
 
 
 def joints_of(robot: Robot) -> frozenset[str]:
-    """Return the links of a robot whose pose depends on a joint."""
+    """Return the names of a robot's links whose pose depends on a joint."""
     return frozenset(one.child for one in robot.joints.values() if one.moves)
 
 

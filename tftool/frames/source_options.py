@@ -1,4 +1,4 @@
-"""Options for reading frames from a file: joint positions, odometry, cache."""
+"""Options for reading frames from a file, and times as users give them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -10,12 +10,11 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 @dataclass(frozen=True, slots=True)
 class At:
-    """A time as for `--at`: seconds since FROM's start, or a stamp.
+    """A time as given for `--at`: seconds since the start of the source, or a stamp.
 
     Attributes:
         nanoseconds: The time, nanoseconds.
-        is_stamp: Whether they count from 1970 (or a recording's own zero), not from the
-            beginning.
+        is_stamp: Whether the time is a stamp; else it counts from the start of the source.
     """
 
     nanoseconds: int
@@ -34,17 +33,17 @@ class At:
 def checked_moment(
     at: At, title: str, epoch: Stamp, duration: Duration | None, received: Duration = 0
 ) -> Stamp:
-    """Return the stamp of a time, checked to be between start and end.
+    """Return the stamp of a time, after checking that it is between start and end.
 
     Args:
-        at: The moment.
+        at: The time.
         title: Name of the recording or session, as the beginning of a sentence.
-        epoch: Start.
-        duration: Length; None for no end.
+        epoch: Stamp of the start.
+        duration: Time from start to end; None for no end.
         received: Time over which a recording received messages of any topic.
 
     Raises:
-        UsageError: If the moment is outside the span.
+        UsageError: If the time is outside the span.
     """
     stamp = at.stamp(epoch)
     if duration is not None and stamp > epoch + duration:
@@ -52,7 +51,7 @@ def checked_moment(
             end = At(epoch + duration, is_stamp=True)
             raise UsageError(f"{title} ends at {end}: {at} is after that.")
         lasts = f"{title} lasts {as_seconds(duration):g} s"
-        # Other topics may go on long after the last transform.
+        # Messages on other topics may continue long after the last transform.
         if received > duration + NANOSECONDS:
             lasts = (
                 f"The transforms of {title} end at {as_seconds(duration):g} s (messages were "

@@ -270,35 +270,33 @@ def canonical(pose: Transform) -> Transform:
 
 
 def distance(pose: Transform) -> float:
-    """Return the length of a pose's translation: the distance between two origins, metres."""
+    """Return the distance to the child frame's origin in the plane, metres."""
     return math.hypot(*pose.translation)
 
 
 def transform_from_pose(x: float, y: float, heading: float) -> Transform:
-    """Return the transform of a pose in the plane, turned by `heading` radians about z."""
+    """Return the transform of a pose in the plane; `heading` is in radians about z."""
     half = 0.5 * heading
     return transform((float(x), float(y), 0.0), (0.0, 0.0, math.sin(half), math.cos(half)))
 
 
 def heading(transform: Transform) -> float:
-    """Return the yaw of a transform, radians from −π to π.
+    """Return the yaw of a transform's rotation, radians from −π to π.
 
-    The yaw belongs to roll, pitch, yaw. For a pose in the plane, it is the direction of the x axis.
+    For a pose in the plane, the yaw is the direction of the child's x axis.
     """
     x, y, z, w = transform.rotation
     return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
 
 
 def bearing(transform: Transform) -> float:
-    """Return the direction of the child frame's origin, radians in the plane; 0 at zero
-    distance.
-    """
+    """Return the direction to the child frame's origin in the plane, radians; 0 at distance 0."""
     return math.atan2(transform.translation.y, transform.translation.x)
 
 
 def wrap(angle: float) -> float:
-    """Wrap an angle to [−π, π)."""
-    # A step of 2π leaves rounding; the two bounds are met exactly when they are given.
+    """Wrap an angle to the range [−π, π)."""
+    # Adding 2π would round, so angles within the range are returned unchanged.
     if -math.pi <= angle < math.pi:
         return angle
     return (angle + math.pi) % math.tau - math.pi

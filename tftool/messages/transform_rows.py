@@ -21,7 +21,7 @@ from tftool.messages.layouts import CDR, Layout
 from tftool.messages.transforms import KIND
 
 SCAN: Final[Any] = built("tftool.messages._scan", 4)
-"""The module; None where it is not used."""
+"""The native module; None if it is not used."""
 
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]

@@ -25,10 +25,10 @@ FIELDS: Final = (
     "double_array_value",
     "string_array_value",
 )
-"""Field of a ParameterValue that holds the value, by the number of its type."""
+"""Names of the fields of a ParameterValue that contain the value, by the number of its type."""
 
 SCALARS: Final[dict[type[Any], int]] = {bool: 1, int: 2, float: 3, str: 4}
-"""Number of the type of each kind of single value."""
+"""Numbers in ParameterValue of the types of single values."""
 
 
 def value_of(message: Any) -> Any:
@@ -38,14 +38,14 @@ def value_of(message: Any) -> Any:
         ValueError: If ROS 2 has no such type of value.
     """
     if message.type >= len(FIELDS):
-        raise ValueError(f"{message.type} is no known type of a parameter")
+        raise ValueError(f"{message.type} is not a known type of a parameter")
     field = FIELDS[message.type]
     value = None if field is None else getattr(message, field)
     return value.tolist() if isinstance(value, array.array) else value
 
 
 def value_message(value: Any, number: int) -> Any:
-    """Return the rcl_interfaces ParameterValue of a value; for None, a value that is not set."""
+    """Return the rcl_interfaces ParameterValue of a Python value; None becomes "not set"."""
     message: Any = INTERFACES.message("rcl_interfaces/ParameterValue")(type=number)
     field = FIELDS[number]
     if field is not None and value is not None:
@@ -54,10 +54,10 @@ def value_message(value: Any, number: int) -> Any:
 
 
 def list_result(names: Iterable[str], prefixes: Sequence[str], depth: int) -> Any:
-    """Return the ListParametersResult of the names below some prefixes.
+    """Return the ListParametersResult with the names of parameters below some prefixes.
 
     Args:
-        names: All parameters.
+        names: Names of all parameters.
         prefixes: Names, or prefixes that end before a dot; an empty list selects all parameters.
         depth: Number of levels below a prefix to list; 0 for all levels.
     """

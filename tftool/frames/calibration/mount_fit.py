@@ -313,16 +313,16 @@ def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
 
 _PAIRS: Final = 4000
 _SMALLEST, _LARGEST = np.radians(12.0), np.radians(150.0)
-"""Turns of a pair: smaller ones drown in noise, larger ones are near the jump at 180°."""
+"""Limits of a pair's turn: smaller turns are mostly noise; near 180° the axis flips."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MotionPairs:
-    """Motions of both bodies between pairs of moments.
+    """Motions of A and B between pairs of times.
 
     Attributes:
         turns_a: Rotation vectors of A, radians about the axes of moving_a, shape (n, 3).
-        turns_b: Rotations of B, about the axes of moving_b.
+        turns_b: Rotation vectors of B, about the axes of moving_b.
         moves_a: Translations of A in moving_a, metres, shape (n, 3).
         moves_b: Translations of B in moving_b.
         rotations_a: Rotations of A, quaternions, shape (n, 4).
@@ -366,7 +366,7 @@ def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPa
 
 
 def kabsch(pairs: MotionPairs) -> tuple[Floats, Floats]:
-    """Return the rotation from B's turns to A's as a quaternion, and each pair's weight."""
+    """Return the quaternion that rotates B's rotation vectors to A's, and each pair's weight."""
     weights = np.ones(len(pairs.turns_a))
     for _ in range(10):
         matrix = _aligned(pairs.turns_a * weights[:, None], pairs.turns_b)
@@ -382,14 +382,12 @@ def _aligned(target: Floats, source: Floats) -> Floats:
 
 
 def _weights(off: Floats) -> Floats:
-    """Return weights near 1 for small errors; an error of twice the median error gets weight
-    0.5.
-    """
+    """Return weights: near 1 for small errors, 0.5 for twice the median error."""
     return np.asarray(1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2))
 
 
 def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tuple[Floats, Floats]:
-    """Solve linear equations of three rows a pair robustly; return the errors by pair as well."""
+    """Solve linear equations, three rows per pair, robustly; return the solution and each error."""
     for _ in range(10):
         square = np.einsum("n,nij,nik->jk", weights, design, design)
         square += ridge * max(np.trace(square), 1e-9) * np.eye(len(square))
@@ -400,10 +398,10 @@ def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tup
 
 
 def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, float]:
-    """Solve (R_A - I) t_X = R_X t_B - t_A robustly.
+    """Solve (R_A - I) t_X = R_X t_B - t_A robustly for the translation t_X of the mount.
 
     Returns:
-        The translation of X, and the median error, metres.
+        The translation, and the median error, metres.
     """
     rows = matrices(pairs.rotations_a) - np.eye(3)
     moves = batch.rotate(np.broadcast_to(turn, pairs.rotations_a.shape), pairs.moves_b)
@@ -413,7 +411,7 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
 
 
 def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Floats, Floats, float]:
-    """Solve for the turn about the only axis of rotation, and the translation across it.
+    """Solve for the mount's turn about the only axis of rotation, and its translation across it.
 
     The rotation vectors do not determine the turn about the axis; the translations do, linearly in
     its cosine and sine.
@@ -421,10 +419,10 @@ def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Flo
     Args:
         pairs: Motions that turn about one axis.
         axis: The axis in moving_a, a unit vector.
-        start: A rotation that takes B's axis to A's, quaternion.
+        start: Quaternion of a rotation from B's axis to A's.
 
     Returns:
-        The rotation of X, its translation with nothing along the axis, and the median error.
+        Rotation of the mount X, translation (0 along the axis), and median error.
     """
     moved = batch.rotate(np.broadcast_to(start, pairs.rotations_a.shape), pairs.moves_b)
     along = (moved @ axis)[:, None] * axis
@@ -446,7 +444,7 @@ def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Flo
 def shortest_turn(source: Floats, target: Floats) -> Floats:
     """Return the quaternion of the smallest rotation from one unit vector to another."""
     half = np.concatenate([np.cross(source, target), [1.0 + source @ target]])
-    if np.linalg.norm(half) < 1e-6:  # opposite: about any axis across
+    if np.linalg.norm(half) < 1e-6:  # opposite vectors: turn about any perpendicular axis
         across = np.cross(source, np.eye(3)[int(np.argmin(np.abs(source)))])
         half = np.concatenate([across, [0.0]])
     return np.asarray(half / np.linalg.norm(half))

@@ -1,4 +1,4 @@
-"""Writers of trajectory files: TUM, KITTI, EuRoC, CSV, npz, Parquet.
+"""Writers of trajectory files (TUM, KITTI, EuRoC, CSV, npz, Parquet), and fast number formatting.
 
 Stamps are always whole nanoseconds, because today's time as float seconds has steps of 238 ns. A
 file is complete, or does not exist.
@@ -30,10 +30,10 @@ Words: TypeAlias = npt.NDArray[np.uint32]
 Stamps: TypeAlias = npt.NDArray[np.int64]
 
 FULL: Final = 17
-"""From this many decimals on, a number is written as the shortest text that reads back to it."""
+"""Number of decimals from which a number is written as the shortest text that reads back equal."""
 
 BLOCK: Final = 4096
-"""Rows that are written at once: their text stays in the processor's cache."""
+"""Number of rows formatted together; their text fits into the processor's cache."""
 
 _SCALE: Final = 10**DECIMALS
 _LARGEST: Final = 9.0e9
@@ -46,7 +46,7 @@ def _table(texts: Sequence[bytes]) -> Words:
 
 _PLAIN: Final = _table([b"%04d" % n for n in range(_FOUR)])
 _LEADING: Final = _table([b"%d" % n for n in range(_FOUR)])
-# Zeros before the first digit leave no trace.
+# Zeros before the first digit become unused bytes.
 _LEADING_OR_NOTHING: Final = np.where(np.arange(_FOUR) == 0, 0, _LEADING).astype(np.uint32)
 _POINT: Final = _table([b".%d" % n for n in range(10)])
 
@@ -54,13 +54,13 @@ _POINT: Final = _table([b".%d" % n for n in range(10)])
 def rows_as_text(
     numbers: Floats, *, stamps: Stamps | None = None, seconds: bool = False, separator: str = ","
 ) -> bytes:
-    """Format a block of rows, a line each; numbers get nine decimals.
+    """Return the text of a block of rows, one line each, with nine decimals per number.
 
     Args:
-        numbers: Finite and below 9e9, shape (n, k).
-        stamps: Stamps at the beginning of rows, nanoseconds, shape (n,); no column if None.
+        numbers: Finite numbers below 9e9, shape (n, k).
+        stamps: Stamps for the beginning of rows, nanoseconds, shape (n,); None for no stamps.
         seconds: Whether stamps are written as seconds with nine decimals, not as nanoseconds.
-        separator: One character.
+        separator: Character between numbers.
     """
     scaled = np.rint(np.abs(numbers) * _SCALE).astype(np.int64)
     scaled = np.where(numbers < 0.0, -scaled, scaled)
@@ -80,7 +80,7 @@ def rows_as_text(
 
 def fits(numbers: Floats) -> bool:
     """Whether `rows` can format these numbers; else use `exact_rows`."""
-    # Asked this way round, NaN does not.
+    # Comparisons with NaN are false, so NaN does not fit.
     return bool((np.abs(numbers) < _LARGEST).all())
 
 
@@ -92,7 +92,7 @@ def exact_rows(
     seconds: bool = False,
     separator: str = ",",
 ) -> bytes:
-    """Format rows with any number of decimals, one number at a time; see `FULL`."""
+    """Return the text of rows with any number of decimals; slower than `rows`. See `FULL`."""
     lines = []
     for place, row in enumerate(numbers.tolist()):
         words = [_shortest(one) if decimals >= FULL else f"{one:.{decimals}f}" for one in row]
@@ -104,24 +104,24 @@ def exact_rows(
 
 
 def stamp_text(stamp: int) -> str:
-    """Format nanoseconds as seconds with nine decimals, without floating point."""
+    """Format a stamp as seconds with nine decimals, without floating point."""
     whole, rest = divmod(abs(stamp), _SCALE)
     return f"{'-' if stamp < 0 else ''}{whole}.{rest:09}"
 
 
 def _shortest(number: float) -> str:
     text = repr(number)
-    # Some readers take no exponents: 1e-09 as decimals.
+    # Some readers do not support exponents: write 1e-09 with decimals.
     return text if "e" not in text or "inf" in text else f"{number:.30f}".rstrip("0")
 
 
 def _whole(values: Stamps) -> Words:
-    """Convert whole numbers, shape (n,), to words of four digits each, shape (n, w)."""
+    """Return the text of whole numbers, shape (n,), as words of four digits, shape (n, w)."""
     return _digits(values[:, np.newaxis], b"")[:, 0]
 
 
 def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
-    """Convert whole numbers of the last decimal, shape (n, k), to text, shape (n, k·w)."""
+    """Return the text of scaled numbers, shape (n, k), as words of four digits, shape (n, k·w)."""
     count, width = scaled.shape
     size = np.abs(scaled)
     whole = size // _SCALE
@@ -148,7 +148,7 @@ def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
 def _digits(
     values: npt.NDArray[np.int64], before: bytes, *, negative: npt.NDArray[np.bool_] | None = None
 ) -> Words:
-    """Convert whole numbers, shape (n, k), to words: prefix, sign, digits."""
+    """Return the text of whole numbers, shape (n, k), as words: `before`, sign and digits."""
     size = np.abs(values)
     signs = _table([before, before + b"-"])
     words = [signs[((values < 0) if negative is None else negative).astype(np.intp)]]

@@ -36,14 +36,14 @@ class EditedInput:
     """One recording to edit; a context manager.
 
     Attributes:
-        name: Name as given.
-        tapes: Files, in order.
-        paths: Paths.
+        name: Name as the user gave it.
+        tapes: Readers of the files, in order.
+        paths: Paths of the files.
         is_folder: Whether the input is a rosbag2 folder.
-        metadata: Contents of its metadata.yaml.
-        mode: "file" or "message" if rosbag2 compressed whole files or each message.
-        damage: Damage of the folder.
-        notes: Further notes on it.
+        metadata: Contents of the folder's metadata.yaml.
+        mode: "file" or "message" if rosbag2 compressed whole files or each message; else "".
+        damage: Sentences about damage of the folder.
+        notes: Other sentences about the folder.
     """
 
     name: str
@@ -64,7 +64,7 @@ class EditedInput:
 
     @property
     def size(self) -> int:
-        """Size of all its files in bytes."""
+        """Size of all files of the input, bytes."""
         return sum(tape.size for tape in self.tapes)
 
     def close(self) -> None:
@@ -75,7 +75,7 @@ class EditedInput:
             folder.cleanup()
 
     def add(self, path: Path) -> None:
-        """Open one of its files.
+        """Open a file of the input.
 
         Raises:
             InputError: If the file cannot be read.
@@ -95,7 +95,7 @@ class EditedInput:
         self.paths.append(path)
 
     def add_poses(self, found: Found) -> None:
-        """Open a pose file as an MCAP file of its messages.
+        """Convert a pose file to a temporary MCAP file, and open it.
 
         Raises:
             InputError: If the file cannot be read.
@@ -112,8 +112,8 @@ def open_input(name: str) -> EditedInput:
     """Open a recording to edit: a file, a rosbag2 folder, or a glob of files.
 
     Raises:
-        InputError: If there is none, or it cannot be read.
-        UsageError: If the name is that of something else.
+        InputError: If there is no such recording, or it cannot be read.
+        UsageError: If the name belongs to something else.
     """
     found = find(name)
     if not found.kind.is_recording:
@@ -158,7 +158,7 @@ def open_input(name: str) -> EditedInput:
 
 
 def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> ContainerReader:
-    """Open one file.
+    """Open a file of a recording for reading from beginning to end.
 
     Raises:
         InputError: If the file is not a recording, or cannot be read.

@@ -44,7 +44,7 @@ class EditReport:
 
     Attributes:
         messages: Number of messages in the result.
-        counts: Number of changes, by kind.
+        counts: Number of changes, by name of the change.
         notes: Further notes, as sentences.
         files: Names of the written files.
         copied: Number of chunks that were copied unchanged.
