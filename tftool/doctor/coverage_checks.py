@@ -805,8 +805,8 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
     """Lookups cannot succeed at first: an edge begins late or is stamped ahead."""
     fixed = model.fixed_frame
     for heard in model.heard:
-        if not heard.is_spatial or last_part(heard.type) in _NOT_PLACED:
-            continue
+        if not heard.is_spatial or last_part(heard.type) == "NavSatFix":
+            continue  # a satellite fix is placed by its numbers, not by its frame
         links = [
             t for t in model.path(heard.frame, fixed) or () if not t.static and len(t.by_stamp)
         ]
