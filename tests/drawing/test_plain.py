@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from tftool.base.fixed_width import fitted, padded, plain
+from tftool.drawing.table_columns import fitted, padded, plain
 
 
 @pytest.mark.parametrize(

@@ -16,13 +16,12 @@ import yaml
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.base.fixed_width import middle_cut
 from tftool.base.plain_text import distinct, finite, short_duration, short_rate, visible
 from tftool.base.stamps import FRAME_TIMEOUT, Stamp, as_seconds, display
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import ASCII, UNICODE, Branch, Forest, Guides, branches, grow
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
-from tftool.drawing.table_columns import Cell, TableColumn, fit
+from tftool.drawing.table_columns import Cell, TableColumn, fit, middle_cut
 from tftool.geometry.rigid import Transform
 
 NOTHING = "No tf data received"

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from rich.cells import cell_len
 
-from tftool.base.fixed_width import fitted
 from tftool.drawing import theme
+from tftool.drawing.table_columns import fitted
 
 FARTHEST_ROWS = 7
 """Largest distance in rows between a label and its frame."""

@@ -9,12 +9,12 @@ import numpy as np
 from rich.text import Text
 
 from tftool.base.color import Color
-from tftool.base.fixed_width import fitted
 from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme
 from tftool.drawing.cells import Dots, packed, woven
+from tftool.drawing.table_columns import fitted
 from tftool.frames.pair_samples import Trajectory, trajectory_of
 from tftool.frames.pair_series import (
     PlotPanel,

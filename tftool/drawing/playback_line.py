@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from rich.text import Text
 
 from tftool.base.color import Color
-from tftool.base.fixed_width import fitted
 from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, as_seconds
 from tftool.drawing import theme
+from tftool.drawing.table_columns import fitted
 
 KEYS = (
     ("space", "pause"),

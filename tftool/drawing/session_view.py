@@ -7,9 +7,8 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.base.fixed_width import middle_cut, wrap_words
 from tftool.base.plain_text import visible
-from tftool.drawing.table_columns import TableColumn, fit
+from tftool.drawing.table_columns import TableColumn, fit, middle_cut, wrap_words
 
 ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
 """Role of a process in the session, in words."""

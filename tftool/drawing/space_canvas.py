@@ -13,11 +13,11 @@ import numpy.typing as npt
 from rich.cells import cell_len
 
 from tftool.base.color import Color
-from tftool.base.fixed_width import plain
 from tftool.drawing import theme
 from tftool.drawing.cells import NONE, CellSheet, Dots, Line, dots_of, packed
 from tftool.drawing.labels import Label, PlacedLabel, Placer, label_text
 from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length
+from tftool.drawing.table_columns import plain
 
 Floats: TypeAlias = npt.NDArray[np.float32]
 Indices: TypeAlias = npt.NDArray[np.int64]

@@ -11,13 +11,13 @@ from rich.style import Style
 from rich.text import Text
 
 from tftool.base.color import Color
-from tftool.base.fixed_width import fitted, padded
 from tftool.base.plain_text import short_duration, visible
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.buffer.traffic import FrameTraffic, Series, Traffic
 from tftool.drawing import theme
 from tftool.drawing.cells import Dots, blended, packed
 from tftool.drawing.sparklines import TrafficHistory, TrafficLook, sparkline
+from tftool.drawing.table_columns import fitted, padded
 from tftool.drawing.traffic_view import (
     NONE,
     bar,

@@ -7,13 +7,12 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.base.fixed_width import middle_cut, wrap_words
 from tftool.base.plain_text import short_duration, visible
 from tftool.base.stamps import FRAME_TIMEOUT, Duration, Stamp, as_seconds
 from tftool.buffer.traffic import FrameTraffic, NetDelay, Series, Traffic
 from tftool.doctor.findings import STALE_AFTER, STOPPED_AFTER, STOPPED_PERIODS
 from tftool.drawing.echo_view import in_words
-from tftool.drawing.table_columns import Cell, TableColumn, fit
+from tftool.drawing.table_columns import Cell, TableColumn, fit, middle_cut, wrap_words
 
 NONE = "-"
 

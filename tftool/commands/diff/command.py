@@ -15,7 +15,6 @@ from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import difference_view as view
 from tftool.drawing import figure
-from tftool.drawing import trajectory_error_view as error_view
 from tftool.drawing.calibration_view import clock_object
 from tftool.frames.calibration.clock_offset import clock_offset
 from tftool.frames.calibration.motion import CalibrationRefused
@@ -144,12 +143,12 @@ def _measure_errors(
     if options.output is not None:
         title = f"errors of {second.name} against {first.name}"
         with whole_file(options.output, force=options.force) as file:
-            figure.write_panels(error_view.panels(found), title, file, _form(options.output))
+            figure.write_panels(view.panels(found), title, file, _form(options.output))
         notice(visible(f"Drew {found.matched} matched poses to {options.output}."))
     if options.for_programs:
-        write_json(error_view.as_object(found, names))
+        write_json(view.errors_as_object(found, names))
     else:
-        sys.stdout.write(error_view.lines(found, names, line_width()))
+        sys.stdout.write(view.error_lines(found, names, line_width()))
 
 
 def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:

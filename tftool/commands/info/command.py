@@ -136,13 +136,11 @@ def _print(recording: Recording, name: str, *, has_urdf: bool) -> None:
 
 
 def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: bool) -> None:
-    from tftool.drawing import robot_view as view
-
     DescriptionOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
         "'info' shows joints at rest"
     )
     robot = load_urdf(path, connection.robot.arguments)
     if for_programs:
-        write_json(view.as_object(name, robot))
+        write_json(recording_view.robot_as_object(name, robot))
     else:
-        sys.stdout.write(view.as_text(name, robot, line_width()))
+        sys.stdout.write(recording_view.robot_as_text(name, robot, line_width()))

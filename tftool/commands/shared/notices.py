@@ -79,7 +79,7 @@ def fitting(sentence: str) -> str:
     # No sign is wider than two cells.
     if width < 20 or all(len(line) <= width // 2 for line in sentence.split("\n")):
         return sentence
-    from tftool.base.fixed_width import wrap_words
+    from tftool.drawing.table_columns import wrap_words
 
     return "\n".join(
         piece

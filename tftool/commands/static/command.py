@@ -12,7 +12,7 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session
 from tftool.commands.shared.notices import notice
 from tftool.commands.static import StaticOptions
-from tftool.drawing.pose_words import lines
+from tftool.drawing.notation_view import static_lines
 from tftool.geometry.notation.static_arguments import StaticArguments, advice, parse
 from tftool.world.link.session_world import Session
 
@@ -44,7 +44,7 @@ async def _published(session: Session, said: StaticArguments, spin: bool) -> Non
         notice(visible(sentence))
     if spin:
         sys.stdout.write("Spinning until stopped - publishing transform\n")
-    sys.stdout.write(lines(said.parent, said.child, said.transform))
+    sys.stdout.write(static_lines(said.parent, said.child, said.transform))
     sys.stdout.flush()
     if spin:
         await session.lasting(None)

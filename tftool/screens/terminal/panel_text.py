@@ -10,12 +10,12 @@ from rich.text import Text
 
 from tftool.base.color import Color
 from tftool.base.errors import TransformException
-from tftool.base.fixed_width import fitted, padded, plain
 from tftool.base.stamps import as_seconds, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.drawing import theme
 from tftool.drawing.drawn_forest import ASCII, UNICODE, branches, grow
 from tftool.drawing.line_plot import PAIR_LABELS, PlotSpan, pair_plot
+from tftool.drawing.table_columns import fitted, padded, plain
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.screens.terminal.scene import Scene, SceneMoment
 from tftool.screens.terminal.screen_options import BLOCK_LINES

@@ -2,10 +2,10 @@
 
 from rich.segment import Segment
 
-from tftool.base.fixed_width import padded
 from tftool.drawing.canvas import Canvas
 from tftool.drawing.cells import Line
 from tftool.drawing.plane import Box, PlanePicture, Viewport, fitted_view
+from tftool.drawing.table_columns import padded
 from tftool.screens.terminal.text_style import Look
 
 STEP = 1.25

@@ -10,10 +10,10 @@ from textual.binding import Binding, BindingType
 from textual.containers import Container
 
 from tftool.base.errors import TransformException
-from tftool.base.fixed_width import fitted, padded
 from tftool.base.plain_text import count
 from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpacePicture
+from tftool.drawing.table_columns import fitted, padded
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.screens.terminal.panel_text import Hint, footer
 from tftool.screens.terminal.screen_options import Setting

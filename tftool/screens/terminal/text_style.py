@@ -7,8 +7,8 @@ from rich.style import Style
 from rich.text import Text
 
 from tftool.base.color import Color
-from tftool.base.fixed_width import fitted, plain
 from tftool.drawing import theme
+from tftool.drawing.table_columns import fitted, plain
 
 
 class Look(NamedTuple):

@@ -9,7 +9,6 @@ from textual import events
 from textual.app import ComposeResult
 from textual.binding import BindingType
 
-from tftool.base.fixed_width import fitted, plain
 from tftool.base.plain_text import count
 from tftool.base.stamps import as_seconds
 from tftool.buffer.sample import Snapshot
@@ -18,6 +17,7 @@ from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
 from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpacePicture
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
+from tftool.drawing.table_columns import fitted, plain
 from tftool.screens.terminal.frames_picture import natural_fixed
 from tftool.screens.terminal.panel_text import Hint, footer, title_bar
 from tftool.screens.terminal.screen_options import Setting
