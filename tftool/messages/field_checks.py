@@ -74,7 +74,7 @@ def array_check(
 
 
 def typecode(kind: str | type[Any]) -> str | None:
-    """Return the letter in `array` of a numeric type stored in arrays; None for types in lists."""
+    """Return a numeric type's typecode in the module `array`; None if a list stores the type."""
     if not isinstance(kind, str):
         return None
     return INTEGERS[kind] if kind in INTEGERS else FLOATS.get(kind)

@@ -209,7 +209,7 @@ class Distance(Between):
     """Question for the distance between two frames' origins."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the distance in metres."""
+        """Return the distance between the two frames' origins in metres."""
         return math.hypot(*self.lookup.answer(scene).translation)
 
     def __str__(self) -> str:

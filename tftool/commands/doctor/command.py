@@ -164,11 +164,11 @@ def _show_checks(name: str, *, markdown: bool) -> ExitStatus:
 
 
 def _show_steps(connection: Connection, options: DoctorOptions, scope: Scope) -> ExitStatus:
-    """Print the steps of every source.
+    """Print the sudden jumps of frames in every source (`--steps`).
 
     Raises:
-        InputError: If one cannot be read.
-        LookupException: If a frame is unknown, or nothing joins the two.
+        InputError: If a source cannot be read.
+        LookupException: If a frame of `--pair` is unknown, or no links join its two frames.
     """
     (ends,), _ = pairs_and_place([], [options.pair]) if options.pair else ([("", "")], None)
     objects = []

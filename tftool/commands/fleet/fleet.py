@@ -125,7 +125,7 @@ class FleetTask:
             return [self.unreadable(source, str(error) or type(error).__name__)]
 
     def read(self, source: str, path: str) -> list[Row]:
-        """Return the rows of a recording on this machine."""
+        """Examine one recording in this process; return its rows of the table."""
         raise NotImplementedError
 
     def unreadable(self, source: str, why: str) -> Row:

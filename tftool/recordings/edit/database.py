@@ -176,7 +176,9 @@ class EditedDatabase:
             for _, table in self._rows(base, self._touched):
                 digest_table(found, table, self.channels, self.container)
         if found != self._wanted:
-            raise InputError(f"'{self.path}' was written wrongly: its rows differ.")
+            raise InputError(
+                f"'{self.path}' was not written correctly: its rows differ from those to write."
+            )
 
     def finish(self) -> None:
         """Close the database; all changes are already written."""

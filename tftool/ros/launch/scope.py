@@ -102,12 +102,12 @@ def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
 
 
 def add_node_name(context: LaunchContext, node_name: str) -> None:
-    """Count one more node that was started with a full name."""
+    """Count a started node with this full name."""
     context.node_names[node_name] += 1
 
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
-    """Return how many nodes were started with a full name."""
+    """Return how many nodes with this full name were started."""
     return context.node_names[node_name]
 
 

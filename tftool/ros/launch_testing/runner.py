@@ -245,7 +245,7 @@ def _run(
 
 
 def _failed(cases: Sequence[Any], reason: str) -> TestResult:
-    """Return the result of tests that could not be run to their end, for one reason."""
+    """Return a result in which every test failed for the given reason."""
     stream = unittest.runner._WritelnDecorator(sys.stderr)
     result = TestResult(stream, descriptions=True, verbosity=0)
     stream.writeln(reason)
@@ -284,7 +284,7 @@ class LaunchTestRunner:
         """Check that each run's description accepts the run's parameters.
 
         Raises:
-            UsageError: If a parameter is not an argument of the description's function.
+            UsageError: If `parametrize` names no argument of `generate_test_description`.
         """
         for run in self._runs:
             run.check()
@@ -359,7 +359,7 @@ def load_tests(path: Path, arguments: Sequence[str]) -> LaunchTestRunner:
 
     Raises:
         InputError: If the file cannot be read or describes no launch.
-        UsageError: If a parameter is not an argument of the description's function.
+        UsageError: If `parametrize` names no argument of `generate_test_description`.
     """
     module = user_code.load_module(path)
     runner = LaunchTestRunner(LoadTestsFromPythonModule(module, name=path.stem), arguments)
@@ -372,7 +372,7 @@ def run_tests(path: Path, arguments: Sequence[str]) -> None:
 
     Raises:
         InputError: If the file cannot be read or describes no launch.
-        UsageError: If a parameter is not an argument of the description's function.
+        UsageError: If `parametrize` names no argument of `generate_test_description`.
         SystemExit: With status 1, if a test fails.
     """
     results = load_tests(path, arguments).run().values()
