@@ -9,7 +9,7 @@ class Above(Protocol):
 
     @property
     def parent(self) -> str:
-        """Return the name of the parent."""
+        """Return the name of the parent node."""
 
 
 EdgeT = TypeVar("EdgeT", bound=Above)

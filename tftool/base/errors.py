@@ -26,7 +26,7 @@ class TftoolError(Exception):
         return _made_again, (type(self), self.args), self._facts()
 
     def _facts(self) -> dict[str, object]:
-        """Return the attributes that are pickled."""
+        """Return the attributes of the error that are pickled, by name."""
         return dict(self.__dict__)
 
 

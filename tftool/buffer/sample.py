@@ -100,7 +100,7 @@ class Snapshot:
         return tuple(self._children.get(name, ()))
 
     def frame(self, name: str) -> FrameInfo:
-        """Return the state of one frame.
+        """Return the state of one frame in the snapshot.
 
         Raises:
             KeyError: If there is no frame with that name.

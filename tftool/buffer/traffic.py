@@ -117,7 +117,7 @@ class Series:
 
 
 class FrameTraffic:
-    """Recent messages about one frame.
+    """Arrival times and delays of the recent messages about one frame.
 
     Attributes:
         frame: Name of the frame.

@@ -362,7 +362,7 @@ def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: 
 
 
 def evidence_of_frames(frames: Frames, scope: Scope | None = None) -> Evidence:
-    """Return the evidence in opened frames.
+    """Return the evidence in opened frames, whatever their source.
 
     Args:
         frames: The frames of a recording, a scenario, a session or a description.

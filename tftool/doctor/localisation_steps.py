@@ -34,7 +34,7 @@ FEWEST = 6
 
 @dataclass(frozen=True, slots=True)
 class LocalisationStep:
-    """One jump of one edge.
+    """One jump of one edge (the pose of a child in its parent).
 
     Attributes:
         edge: Parent and child of the edge.

@@ -343,7 +343,7 @@ class Heard(Stream):
 
     @property
     def name(self) -> str:
-        """Name for messages."""
+        """Name of the stream for sentences: the topic."""
         return self.topic
 
     @property

@@ -76,7 +76,7 @@ class TracedLink:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """A lookup, and the listener that makes it.
+    """A lookup, with the assumed listener that makes it.
 
     Attributes:
         target: Target frame.

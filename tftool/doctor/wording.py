@@ -187,7 +187,7 @@ def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
 
 
 def _line(name: str, rest: str, hits: Sequence[Hit], told: Sequence[tuple[str, str]]) -> str:
-    """Return the common line of similar hits."""
+    """Return the common line of evidence of similar hits."""
     facts = _facts(hits[0])
     for key, _ in told:
         values = [_facts(hit).get(key) for hit in hits]

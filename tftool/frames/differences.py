@@ -29,7 +29,7 @@ MOST_MOMENTS: Final = 2_000_000
 
 
 class Behaviour(StrEnum):
-    """Kind of a link: static, moving, or a joint."""
+    """Kind of a link: static, moving, or a joint of a description."""
 
     static = "static"
     moving = "moving"
@@ -38,7 +38,7 @@ class Behaviour(StrEnum):
 
 
 class Change(StrEnum):
-    """Change of a link from A to B."""
+    """Kind of change of a link from set A to set B."""
 
     added = "added"
     gone = "gone"
@@ -70,7 +70,7 @@ class Allowance:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Side:
-    """One of the two sets of frames.
+    """One of the two sets of frames in a comparison.
 
     Attributes:
         name: Name in messages.
@@ -156,7 +156,7 @@ class LinkDifference:
 
     @property
     def parent(self) -> str:
-        """Return the link's parent: in A, else in B."""
+        """Return the link's parent in A; if the link is new, in B."""
         state = self.before or self.after
         return "" if state is None else state.parent
 
@@ -433,7 +433,7 @@ def diff(
 
 
 def side_of(frames: Comparable, name: str) -> Side:
-    """Return frames as one side of a comparison.
+    """Return frames as one of the two sets of a comparison.
 
     Args:
         frames: Source of the frames.

@@ -69,7 +69,7 @@ class Trajectory:
         return len(self.path) - int(np.count_nonzero(self.path.valid))
 
     def answered(self) -> TransformArray:
-        """Return the rows with a pose."""
+        """Return only the rows with a pose."""
         return self.path if self.path.valid.all() else self.path[self.path.valid]
 
 

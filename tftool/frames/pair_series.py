@@ -28,7 +28,7 @@ LONG_SILENCE: Final = 10.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotCurve:
-    """One curve of a panel.
+    """One curve over time in a panel of a plot.
 
     Attributes:
         label: Label of the curve: "x", or with several pairs "laser in map".
@@ -45,7 +45,7 @@ class PlotCurve:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotPanel:
-    """Curves that share an axis.
+    """Curves of a plot that share an axis.
 
     Attributes:
         title: Title of the panel: "position".

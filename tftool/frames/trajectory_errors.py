@@ -59,7 +59,7 @@ class PieceLength:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ErrorColumn:
-    """Errors of one kind over time.
+    """Errors of one kind over time, as a column.
 
     Attributes:
         name: Kind of error: "ape" (absolute) or "rpe" (relative).

@@ -66,7 +66,7 @@ class Placement(NamedTuple):
 
 
 class Turning(NamedTuple):
-    """Result of one update of the rotate action.
+    """Result of one update of turtlesim's rotate action.
 
     Attributes:
         remaining: Remaining angle to the goal, the short way, in rad.

@@ -71,7 +71,7 @@ def wrench(a_from_b: Transform, force: Vector3, torque: Vector3) -> tuple[Vector
 
 
 def points(a_from_b: Transform, xyz: "npt.ArrayLike") -> "npt.NDArray[np.float64]":
-    """Transform many points in numpy.
+    """Transform many points, as a numpy array.
 
     Args:
         a_from_b: The transform to apply.

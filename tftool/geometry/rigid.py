@@ -257,7 +257,7 @@ def invert(a_from_b: Transform) -> Transform:
 
 
 def apply(a_from_b: Transform, point: Iterable[float]) -> Vector3:
-    """Transform a point from b to a."""
+    """Transform a point from the child frame b to the parent frame a."""
     x, y, z = point
     x, y, z = quaternions.rotate(quaternions.unit(a_from_b.rotation), (x, y, z))
     tx, ty, tz = a_from_b.translation

@@ -35,7 +35,7 @@ _SMALLEST_TEXT: Final = 4
 
 
 class Codec:
-    """Serialiser of one message type in one layout.
+    """Serialiser of one message type in one byte layout.
 
     Any object with the fields as attributes can be written; reading returns a message of the class.
     """

@@ -270,7 +270,7 @@ class TransformRows:
     __slots__ = ("_layout", "_walked", "payload", "rows")
 
     def __init__(self, layout: Layout, payload: bytes) -> None:
-        """Parse the bytes of a message.
+        """Parse the bytes of a TFMessage.
 
         Raises:
             MalformedMessage: If the bytes are not a TFMessage.

@@ -196,7 +196,7 @@ class RecordedWriter(ContainerWriter, Protocol):
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last log time of the messages in the file; 0 if there are none."""
+        """First and last log time of the messages in the file; 0 without messages."""
 
     def flush(self) -> None:
         """Write buffered messages to the file."""

@@ -172,7 +172,7 @@ class ChunkedReader(File):
     magic = b""
 
     def __init__(self, path: Path, style: dict[str, Any]) -> None:
-        """Open the file.
+        """Open the file, and check that it is of this format.
 
         Raises:
             InputError: If the file is another container.
@@ -201,7 +201,7 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Add a sentence about damage of the file."""
+        """Add a sentence about the file's damage to `damage`, unless it is there."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 

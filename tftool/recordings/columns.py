@@ -49,7 +49,7 @@ class Batch:
         return len(self.starts)
 
     def payload(self, number: int) -> bytes:
-        """Return the bytes of one message."""
+        """Return the bytes of one message, by its index in the batch."""
         start = int(self.starts[number])
         return self.buffer[start : start + int(self.lengths[number])].tobytes()
 
@@ -90,7 +90,7 @@ class _Column:
         self.count = 0
 
     def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
-        """Append rows, and return them, to be written.
+        """Append rows, and return them, so that the caller can write them.
 
         Args:
             count: Number of rows.
@@ -106,7 +106,7 @@ class _Column:
         return self._rows[first:needed]
 
     def all(self) -> npt.NDArray[Any]:
-        """Return all rows."""
+        """Return all rows in use."""
         return self._rows[: self.count]
 
 
@@ -126,7 +126,7 @@ def _wanted(needed: int, share: float, freely: int) -> int:
 
 
 def _room(size: int) -> Bytes:
-    """Allocate bytes that the caller will write."""
+    """Allocate memory, as an array of bytes that the caller will write."""
     # The first write to a small page costs as much as a hundred transforms.
     pages = large_pages(size + PAGE, size + PAGE) if size >= PAGE else None
     if pages is None:
@@ -170,7 +170,7 @@ class Growing:
         self.first = _NEVER
 
     def make_room(self, count: int, share: float = 1.0, freely: int = 0) -> int:
-        """Enlarge the columns by `count` rows.
+        """Enlarge the columns of the edge by `count` rows.
 
         Args:
             count: Number of rows to add.
@@ -239,7 +239,7 @@ class Table:
     """Growing columns of all edges, and of the messages that contain their transforms."""
 
     def __init__(self, expected: int = 0) -> None:
-        """Create an empty table.
+        """Create an empty table of edges.
 
         Args:
             expected: Approximate number of messages in the recording; 0 if unknown.

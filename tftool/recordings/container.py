@@ -56,7 +56,7 @@ class Taken(NamedTuple):
 
 
 class MessageHead(NamedTuple):
-    """Header of a message record.
+    """Header of a message's record, with the offsets of its payload.
 
     Attributes:
         channel: Number of the channel.
@@ -145,7 +145,7 @@ class MessageTable:
         return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
 
     def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
-        """Copy the payloads, each after a new header.
+        """Return the payloads as bytes, each after a new header.
 
         Args:
             heads: The header of each message, shape (n,).
@@ -354,7 +354,7 @@ class Container(Protocol):
         """
 
     def close(self) -> None:
-        """Close the files."""
+        """Close the files of the recording."""
 
 
 class ContainerReader(Container, Protocol):

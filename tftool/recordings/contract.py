@@ -25,7 +25,7 @@ Indexes: TypeAlias = npt.NDArray[np.int32]
 
 @dataclass(frozen=True, slots=True)
 class RecordedTopic:
-    """One topic of a recording.
+    """One topic of a recording, with its type and number of messages.
 
     Attributes:
         name: Name as recorded; some ROS 2 recordings have `tf` without a slash.
@@ -191,7 +191,7 @@ class Headers:
 
 @dataclass(frozen=True, slots=True)
 class RawMessage:
-    """One message as recorded.
+    """One message as recorded, not decoded.
 
     Attributes:
         log_time: Time of reception, nanoseconds.

@@ -284,7 +284,7 @@ def check_size(packed: int, size: int) -> None:
 
 
 def zstandard() -> "ModuleType":
-    """Import zstd on first use."""
+    """Return the package for zstd, imported on first use."""
     try:
         import zstandard
     except ImportError:
@@ -294,7 +294,7 @@ def zstandard() -> "ModuleType":
 
 @cache
 def lz4_frame() -> Any:
-    """Import lz4's frames on first use."""
+    """Return the module for lz4's frames, imported on first use."""
     try:
         import lz4.frame
     except ImportError:

@@ -114,7 +114,7 @@ class _Template:
     problem: str = ""
 
     def fits(self, payload: bytes) -> bool:
-        """Whether another message has the same layout."""
+        """Whether another JointState message has the same layout."""
         return len(payload) >= self.end and payload.startswith(self.head, 12)
 
 

@@ -102,7 +102,7 @@ class Cutter:
             begin, done = end, int(most[end - 1])
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages, in any order that is fast."""
+        """Decode messages by the subclass's fast method."""
         raise NotImplementedError
 
     def _walk(self, batch: Batch, numbers: Indexes) -> None:
@@ -144,7 +144,7 @@ class TemplateCutter(Cutter):
             self._cut_equal(batch.chosen(which), numbers[which], length)
 
     def _cut_equal(self, batch: Batch, numbers: Indexes, length: int) -> None:
-        """Decode messages of equal length."""
+        """Decode messages of equal length, as rows of one array."""
         # Each row has whole words around a message, so that numpy compares 8 bytes at a time.
         begin, width = row_span(self._layout, length)
         if width < SMALLEST:

@@ -21,7 +21,7 @@ class Offset:
 
 @dataclass(frozen=True, slots=True)
 class EdgeFacts:
-    """Statistics of one edge.
+    """Statistics of one edge (pair of parent and child).
 
     Attributes:
         parent: Name of the parent.

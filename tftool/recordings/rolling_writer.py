@@ -162,7 +162,7 @@ class RollingRecording:
     # Messages
 
     def take(self, channel: Channel, log_time: Stamp, payload: bytes, transforms: int = 0) -> None:
-        """Append one message.
+        """Append one message to the recording.
 
         Args:
             channel: Channel of the message.

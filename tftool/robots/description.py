@@ -79,7 +79,7 @@ class Surface:
 
 @dataclass(frozen=True, slots=True)
 class LinkShape:
-    """A visual or collision shape of a link.
+    """A visual or collision shape of a link, with its pose.
 
     Attributes:
         name: Name of the shape; often empty.

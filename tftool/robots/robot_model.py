@@ -105,12 +105,12 @@ class Robot:
 
     @property
     def links(self) -> Mapping[str, RobotLink]:
-        """All links, by name."""
+        """All links of the robot, by name."""
         return self.description.links
 
     @property
     def joints(self) -> Mapping[str, RobotJoint]:
-        """All joints, by name."""
+        """All joints of the robot, by name."""
         return self.description.joints
 
     @property

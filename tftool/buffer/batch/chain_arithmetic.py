@@ -117,7 +117,7 @@ class Intervals:
     def fetch(
         self, table: npt.NDArray[T], index: npt.NDArray[np.intp], out: npt.NDArray[T]
     ) -> None:
-        """Gather one table's entries for each time.
+        """Write each time's entry of one table of intervals into `out`.
 
         Args:
             table: Shape (k,) or (k, 4).
@@ -294,7 +294,7 @@ class BlockArrays:
     def _prepare(
         self, edges: Sequence[MovingEdge], times: Stamps, in_order: bool
     ) -> list[tuple[Intervals, Indices, Floats, Floats, Floats]]:
-        """Find the interval of each time in some links.
+        """Find the interval of each time in some links, and the fractions for interpolation.
 
         Returns:
             For each link its intervals and four arrays with one entry per time: the index of the

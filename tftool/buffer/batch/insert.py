@@ -127,7 +127,7 @@ def insert(
     translations: npt.ArrayLike,
     rotations: npt.ArrayLike,
 ) -> tuple[Insertion, CheckedRows]:
-    """Insert many samples of one link.
+    """Insert many samples of one link into a tree, after checking each.
 
     Args:
         tree: The tree to insert into.

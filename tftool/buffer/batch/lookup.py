@@ -340,7 +340,7 @@ class _Batch:
             self.put(rows, self.latest)
 
     def put(self, rows: "Indices | int", answer: tuple[Stamp, Sample]) -> None:
-        """Write one result into one or more rows."""
+        """Write one result (time and pose) into one or more rows of the output."""
         stamp, sample = answer
         self.stamps[rows] = stamp
         self.translations[rows] = sample[:3]

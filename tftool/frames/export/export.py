@@ -52,7 +52,7 @@ class Exported:
 
 
 def buffer_of(frames: Framed) -> Buffer:
-    """Return the buffer with the given frames."""
+    """Return the buffer of a recording, a robot or opened frames; return a buffer itself."""
     if isinstance(frames, Buffer):
         return frames
     if not hasattr(frames, "buffer"):

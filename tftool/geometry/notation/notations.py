@@ -53,7 +53,7 @@ class Notation:
 
     @property
     def is_quaternion(self) -> bool:
-        """Whether the notation has no angles."""
+        """Whether the notation is a quaternion: it has no angles."""
         return self.plain == self.count
 
     def scaled(self, numbers: Numbers, scale: Callable[[float], float]) -> list[float]:

@@ -183,7 +183,7 @@ class Changer:
     def __init__(
         self, edits: Edits, window: Window | None = None, reparenting: Reparenting | None = None
     ) -> None:
-        """Create an editor.
+        """Create an editor that makes some changes.
 
         Args:
             edits: Changes to make.

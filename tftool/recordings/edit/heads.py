@@ -61,7 +61,7 @@ class StaticHeads:
         by_tape: bool,
         ros2: bool,
     ) -> None:
-        """Create an empty collection.
+        """Create the collection; `collect` fills it.
 
         Args:
             edits: The changes.

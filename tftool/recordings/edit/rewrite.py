@@ -40,7 +40,7 @@ _AHEAD: Final = 3  # chunks that are verified ahead of writing
 
 @dataclass(slots=True)
 class EditReport:
-    """Result of an edit.
+    """Result of an edit: counts of changes, and the files written.
 
     Attributes:
         messages: Number of messages in the result.

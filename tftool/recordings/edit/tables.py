@@ -93,7 +93,7 @@ class Kinds:
     def __init__(
         self, layout: Layout, learn: "Callable[[bytes], tuple[Result, Counter[str]]]"
     ) -> None:
-        """Create an empty collection.
+        """Create an empty collection of kinds.
 
         Args:
             layout: Byte layout of the channel's messages.
@@ -106,7 +106,7 @@ class Kinds:
     def groups(
         self, table: MessageTable, which: Stamps
     ) -> "tuple[list[tuple[MessageKind, Stamps, Bytes]], Stamps]":
-        """Group messages by kind.
+        """Group messages by kind: by their frames.
 
         Args:
             table: The messages.
@@ -181,7 +181,7 @@ class TableChange:
     """Table of messages while an edit changes or drops some of them."""
 
     def __init__(self, table: MessageTable) -> None:
-        """Start with all messages unchanged."""
+        """Start with all messages of a table unchanged."""
         self.table = table
         self.keep: npt.NDArray[np.bool_] = np.ones(len(table), dtype=np.bool_)
         self._starts, self._lengths = table.starts.copy(), table.lengths.copy()
@@ -197,7 +197,7 @@ class TableChange:
         self._end += payloads.size
 
     def put_one(self, number: int, payload: bytes) -> None:
-        """Replace the bytes of one message."""
+        """Replace the bytes of one message, by its index."""
         self.put(np.array([number]), np.frombuffer(payload, np.uint8).reshape(1, -1))
 
     def finished(self) -> MessageTable:

@@ -74,7 +74,7 @@ class SingleMessages:
     """Messages read one by one from the file, and collected into batches."""
 
     def __init__(self, file: File, chosen: Mapping[int, int], head: int | None) -> None:
-        """Create an empty collection.
+        """Create an empty collection for chosen channels.
 
         Args:
             file: The file.
@@ -102,7 +102,7 @@ class SingleMessages:
         return len(self) >= _MOST_SINGLY or self._bytes >= _LARGEST_BATCH
 
     def read(self, places: list[int], offset: int, end: int) -> None:
-        """Read the messages at some offsets.
+        """Read the messages at some offsets of the file, and collect them.
 
         Args:
             places: Offset of each message's record, relative to `offset`.

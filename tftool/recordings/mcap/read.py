@@ -384,7 +384,7 @@ class Mcap(ChunkedReader):
         return chunk
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Read the message indexes after a chunk."""
+        """Read the message indexes after a chunk into the chunk's fields."""
         counts: dict[int, int] = {}
         position = chunk.behind
         while position + 15 <= self.size:

@@ -62,7 +62,7 @@ class Head:
 
 @dataclass(frozen=True, slots=True)
 class PoseFormat:
-    """One format of pose files.
+    """One format of pose files: how it is recognised and read.
 
     Attributes:
         name: Name for --pose-format.
@@ -226,7 +226,7 @@ FORMATS: Final = (
 
 
 def format_named(name: str) -> PoseFormat:
-    """Return the format of pose files with a name.
+    """Return the format of pose files with the given name.
 
     Raises:
         UsageError: If there is no such format.
