@@ -100,14 +100,13 @@ def read_package(folder: Path) -> Package | None:
     text = read_text(cmake).replace("${PROJECT_NAME}", name) if cmake.is_file() else ""
     modules = _modules_of_cmake(text)
     programs = {}
-    for kind, place, source in _installed_by_cmake(text, folder):
-        target, base = PurePosixPath(place), f"share/{name}"
-        if not source.is_file() or ".." in target.parts:
+    for kind, place, source in _installed_by_cmake(text, folder, f"share/{name}"):
+        if not source.is_file() or ".." in place.parts:
             continue
-        if kind == "PROGRAMS" and (source.suffix == ".py" or _is_python(source)):
-            programs[target.name] = source
-        elif target.is_relative_to(base) and folder / target.relative_to(base) != source:
-            moved[str(target.relative_to(base))] = source
+        if kind != "PROGRAMS":
+            moved[str(place)] = source
+        elif source.suffix == ".py" or _is_python(source):
+            programs[place.name] = source
     return Package(name, folder, scripts, moved, modules, programs, _listed_files(installed))
 
 
@@ -125,10 +124,13 @@ def _listed_files(data_files: Any) -> frozenset[str] | None:
     return frozenset(listed)
 
 
-def _installed_by_cmake(text: str, folder: Path) -> Iterator[tuple[str, str, Path]]:
-    """Return what a CMakeLists.txt installs: the kind, the place from the prefix, and the file.
+def _installed_by_cmake(
+    text: str, folder: Path, share: str
+) -> Iterator[tuple[str, PurePosixPath, Path]]:
+    """Yield what a CMakeLists.txt installs: the kind, the place, and the file.
 
-    The kind is PROGRAMS, FILES or DIRECTORY; a directory's files are listed one by one.
+    Programs in `lib` have the kind PROGRAMS and a place below the prefix. All others have a place
+    below the share directory; those that keep their place are left out.
     """
     pattern = r"^[ \t]*install\(\s*(PROGRAMS|FILES|DIRECTORY)\s+([^)]*)\)"
     for kind, call in re.findall(pattern, re.sub(r"#.*", "", text), re.M):
@@ -137,12 +139,17 @@ def _installed_by_cmake(text: str, folder: Path) -> Iterator[tuple[str, str, Pat
         renamed = more[more.index("RENAME") + 1] if "RENAME" in more[:-1] else None
         for source in sources.replace("${CMAKE_CURRENT_SOURCE_DIR}/", "").split():
             top = folder / source
-            if kind != "DIRECTORY":
-                yield kind, f"{target.rstrip('/')}/{renamed or top.name}", top
+            inside = kind == "DIRECTORY" and source.endswith("/")
+            place = PurePosixPath(target) if inside else PurePosixPath(target, renamed or top.name)
+            if kind == "PROGRAMS" and place.is_relative_to("lib"):
+                yield kind, place, top
+            if not place.is_relative_to(share):
                 continue
-            base = top if source.endswith("/") else top.parent
-            for file in sorted(top.rglob("*")):
-                yield kind, str(PurePosixPath(target, file.relative_to(base).as_posix())), file
+            place = place.relative_to(share)
+            if folder / place == top:
+                continue
+            for file in sorted(top.rglob("*")) if kind == "DIRECTORY" else [top]:
+                yield "FILES", place / file.relative_to(top).as_posix(), file
 
 
 def _modules_of_cmake(text: str) -> list[str]:
