@@ -18,8 +18,8 @@ def test_a_curve_goes_from_nothing_to_its_largest_value():
     assert sparkline([0.0, -1.0], 2) == "▁▁"
 
 
-@pytest.mark.parametrize(("width", "cells"), [(100, 12), (200, 50)])
-def test_rate_and_delay_are_counted_from_look_to_look(width, cells):
+@pytest.mark.parametrize(("room", "cells"), [(30, 13), (104, 50), (400, 60)])
+def test_rate_and_delay_are_counted_from_look_to_look(room, cells):
     traffic, history = Traffic(), TrafficHistory()
     now = seconds(100)
     for look in range(20):
@@ -30,10 +30,12 @@ def test_rate_and_delay_are_counted_from_look_to_look(width, cells):
             traffic.receive(now, [sample], "driver", is_static=False)
         history.look(now, traffic)
 
-    rate, delay = history.columns(["base", "map"], width)
+    rate, delay = history.columns(["base", "map"], room)
 
     assert rate.cells[0][0].strip().endswith("▁")
     assert "▇" in rate.cells[0][0]
     assert set(delay.cells[0][0].strip()) == {"▇"}
     assert rate.cells[1][0] == delay.cells[1][0] == ""
-    assert rate.width == max(cells, len("rate, lately"))
+    assert rate.width == delay.width == cells
+    assert [one.heading for one in history.columns(["base"], 20)] == ["rate, lately"]
+    assert history.columns(["base"], 12) == []

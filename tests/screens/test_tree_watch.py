@@ -145,7 +145,8 @@ def test_it_fits_into_any_terminal(size, frames):
 
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux")
 def test_in_a_terminal_it_takes_keys_and_leaves_it_as_it_was(tmp_path):
-    terminal = Terminal(tmp_path, 80, 24, ("-m", "tftool", "tree", "robot", "--watch"), {})
+    # So low that no picture with the names of all frames is below the tree.
+    terminal = Terminal(tmp_path, 80, 18, ("-m", "tftool", "tree", "robot", "--watch"), {})
     try:
         terminal.shows("laser_point")
         terminal.press("s")

@@ -21,7 +21,7 @@ from tftool.base.stamps import FRAME_TIMEOUT, Stamp, as_seconds, display
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import ASCII, UNICODE, Branch, Forest, Guides, branches, grow
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
-from tftool.drawing.table_columns import Cell, TableColumn, fit, middle_cut
+from tftool.drawing.table_columns import GAP, Cell, TableColumn, fit, middle_cut
 from tftool.geometry.rigid import Transform
 
 NOTHING = "No tf data received"
@@ -359,13 +359,14 @@ def compact(
     more = "~" if ascii_only else "…"
     drawing = _Drawing(rows, distinct(forest.info), width, ascii_only, order)
     longest = max(drawing.longest(drawing.guides), cell_len(told), LEAST_NAME)
+    wished = min(longest, drawing.most)
+    facts = _link_columns(rows, width, moving, marks or {})
+    used = sum(one.width + GAP for one in facts if any(text for text, _ in one.cells))
+    names = [one.info.frame for one in rows]
     columns = fit(
-        [
-            *_link_columns(rows, width, moving, marks or {}),
-            *history.columns([one.info.frame for one in rows], width, ascii_only=ascii_only),
-        ],
+        [*facts, *history.columns(names, width - wished - used, ascii_only=ascii_only)],
         width,
-        wanted=min(longest, drawing.most),
+        wanted=wished,
         longest=longest,
         more=more,
     )

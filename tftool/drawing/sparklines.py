@@ -6,13 +6,14 @@ from typing import Final, NamedTuple
 
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.traffic import Traffic
-from tftool.drawing.table_columns import TableColumn
+from tftool.drawing.table_columns import GAP, TableColumn
 
 LOOKS: Final = 240
 """Number of moments that are stored per frame."""
 
 CELLS: Final = 60
-"""Width in cells of the longest curve beside a tree."""
+LEAST_CELLS: Final = 13
+"""Cells of the longest curve beside a tree, and of the shortest, which has room for its heading."""
 
 # The full block is not used, because curves of neighbouring rows would merge.
 _SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇"}
@@ -83,16 +84,19 @@ class TrafficHistory:
         return tuple(self._looks.get(frame, ()))
 
     def columns(
-        self, frames: Iterable[str], width: int, *, ascii_only: bool = False
+        self, frames: Iterable[str], room: int, *, ascii_only: bool = False
     ) -> list[TableColumn]:
-        """Return a column of rate curves and one of delay curves; none if the table is too narrow.
+        """Return a column of rates and one of delays that take the room beside a table.
 
         Args:
-            frames: Frame of each row.
-            width: Width of the table in cells.
-            ascii_only: Whether to draw with ASCII characters only.
+            frames: The frame of each row.
+            room: Cells that the table leaves; for one column alone that of the rates comes.
+            ascii_only: Draw with ASCII characters alone.
         """
-        cells = max(12, min(CELLS, (width - 100) // 2))
+        count = 2 if room >= 2 * (LEAST_CELLS + GAP) else 1
+        cells = min(CELLS, room // count - GAP)
+        if cells < LEAST_CELLS:
+            return []
         kept = [self.looks(name) for name in frames]
         return [
             TableColumn(
@@ -101,15 +105,13 @@ class TrafficHistory:
                     (sparkline([one[part] for one in looks], cells, ascii_only=ascii_only), style)
                     for looks in kept
                 ],
-                # The heading is above the newest value, at the right.
+                # The heading stands above the newest value.
                 stands_right=True,
-                # Curves are dropped before any column of numbers.
-                goes=goes,
             )
-            for heading, part, style, goes in (
-                ("rate, lately", 1, "green", -1),
-                ("delay, lately", 2, "yellow", -2),
-            )
+            for heading, part, style in (
+                ("rate, lately", 1, "green"),
+                ("delay, lately", 2, "yellow"),
+            )[:count]
         ]
 
 
