@@ -1,7 +1,7 @@
 """Display of values in notebooks: trees as pictures, poses and recordings as tables, a 3-D view.
 
-`import tftool` registers these formatters if IPython runs. Classes are given by name and not
-imported: an unused class costs nothing.
+`import tftool` registers these formatters if IPython runs. Their classes are registered by name and
+not imported, so an unused class costs nothing.
 """
 
 import sys
@@ -29,7 +29,7 @@ _HEADS: Final = ("stamp", "x", "y", "z", "qx", "qy", "qz", "qw")
 
 
 def register() -> None:
-    """Register the displays with the running notebook; does nothing elsewhere."""
+    """Register the displays with the running notebook; do nothing outside a notebook."""
     module = sys.modules.get("IPython")
     shell = module.get_ipython() if module is not None else None
     if shell is None or shell.display_formatter is None:
@@ -83,14 +83,14 @@ def _row(poses: "TransformArray", index: int | None) -> Sequence[str]:
 
 
 def recording_table(recording: "Recording") -> str:
-    """Return a recording's contents as `tftool info` prints them."""
+    """Return a recording's contents as HTML, with the text that `tftool info` prints."""
     from tftool.drawing import recording_view as info
 
     return f"<pre>{escape(info.as_text(recording))}</pre>"
 
 
 def finding_table(finding: "Finding") -> str:
-    """Return a finding with evidence and remedies as HTML."""
+    """Return a finding of the doctor, with evidence and remedies, as HTML."""
     rows = [("", finding.message), *(("", line) for line in finding.evidence)]
     rows.append(("so", finding.consequence))
     rows.extend(("fix", f"{fix.text} {fix.command}".rstrip()) for fix in finding.fixes)
@@ -102,7 +102,7 @@ class PageView:
     """Page of `tftool view` with its data, for a notebook's output or a file.
 
     Attributes:
-        html: The page, which needs nothing from elsewhere.
+        html: Text of the page, which loads nothing else.
         height: Height in a notebook, pixels.
     """
 
@@ -123,11 +123,11 @@ class PageView:
         """Write the page to a file that any browser opens.
 
         Args:
-            path: Name of the file, in .html.
+            path: Path of the file, ending in .html.
             force: Whether to replace an existing file.
 
         Raises:
-            UsageError: If something has that name and `force` is not given.
+            UsageError: If the file exists and `force` is not set.
             InputError: If the file cannot be written.
         """
         from tftool.frames.export.trajectory_files import whole_file
@@ -146,13 +146,13 @@ def view(
     """Show frames in 3-D: in a notebook below the cell, elsewhere by `.save("view.html")`.
 
     Args:
-        shown: Source of the frames: a buffer, a recording, opened frames.
-        robot: A robot to draw; that of the recording if None.
-        meshes: Folders of its meshes.
+        shown: Source of the frames: a buffer, a recording, or opened frames.
+        robot: Robot to draw; None for the recording's.
+        meshes: Folders with the robot's meshes.
         height: Height in a notebook, pixels.
 
     Returns:
-        The page as `tftool view -o` writes it.
+        Page as `tftool view -o` writes it.
 
     Raises:
         InputError: If nothing of the recording can be read.
@@ -187,7 +187,7 @@ def view(
 
 
 def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return an HTML table; cells are escaped."""
+    """Return an HTML table of these cells, which are escaped."""
 
     def cells(tag: str, texts: Sequence[str]) -> str:
         inner = "".join(f"<{tag}>{escape(visible(text))}</{tag}>" for text in texts)

@@ -1,8 +1,8 @@
-"""The door to frames: FROM becomes `Frames`, for Python and for the command line.
+"""Opening of frames from any source: `open_frames`, for Python and the command line.
 
-FROM names a scenario, a recording, a robot description, a file of static transforms, or the address
-of a robot (`ws://robot:8765`); without it, the running session of this machine is used. A file is
-read; a scenario is played on simulated time; a session is heard.
+FROM (the argument `place`) names a scenario, a recording, a robot description, a file of static
+transforms, or the address of a robot (`ws://robot:8765`). Without it, the running session of this
+machine is used. A file is read, a scenario is played on simulated time, a session is listened to.
 """
 
 import math
@@ -67,38 +67,38 @@ def open_frames(
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
 
-    Several recordings are joined in order of time. It also works inside a running event loop.
+    Several recordings are merged in order of time. It also works inside a running event loop.
 
     Args:
-        place: Source of the frames, ws://robot:8765 too; None for the session that runs.
-        listen_for: Time to listen to a session, seconds.
-        until: Second up to which to play a scenario; 5 s if None, all of it if infinite.
-        margin: Seconds to play on after it, for transforms that arrive after their stamp.
-        cache_time: Cache time of a scenario's or session's buffer; unlimited if None.
+        place: Source of the frames, also an address ws://robot:8765; None for the running session.
+        listen_for: Seconds to listen to a session.
+        until: Second up to which to play a scenario; None for 5 s, infinity for all of it.
+        margin: Seconds to play on after `until`, for transforms that arrive after their stamp.
+        cache_time: Cache time of a scenario's or session's buffer, nanoseconds; None for no limit.
         joints: Positions of a description's joints, radians or metres.
         arguments: Values of xacro arguments.
-        urdf: The description of the robot in a recording that has none inside.
-        with_odometry: Whether odometry and poses of a recording count as transforms.
-        no_cache: Whether to read a recording anew, and keep no columns for the next time.
-        tf_topics: Topics of transforms of a recording, in place of all; see `open_recording`.
+        urdf: File with the robot's description, for a recording that contains none.
+        with_odometry: Whether odometry and poses in a recording count as transforms.
+        no_cache: Whether to read the whole recording, and store no columns for the next time.
+        tf_topics: Topics whose transforms to read; all if empty. See `open_recording`.
         frames: Names of parent and child in a pose file: "odom:base_link".
-        pose_rate: Poses in a second, for a pose file without stamps.
-        pose_format: Format of a pose file; decided by content if None.
-        inverted: Whether to take the inverse of each pose that a pose file has.
-        axes: Axes of a pose file's cameras: "opencv" or "opengl".
-        domain: Number of the session's ROS domain; ROS_DOMAIN_ID, else 0, if None.
-        connects: Endpoints of other machines' sessions: "tcp/192.168.1.5:7448".
-        session: A session that was joined already, to listen to.
-        watch: Called with the world of a scenario or session before it lives.
-        glance: Called in another thread, again and again while a session is listened to, with
-            the frames heard so far and for how long, nanoseconds.
-        progress: Called with how many bytes of how many are read.
+        pose_rate: Poses per second, for a pose file without stamps.
+        pose_format: Format of a pose file; None to detect it.
+        inverted: Whether to invert each pose of a pose file.
+        axes: Axes of the cameras in a pose file: "opencv" or "opengl".
+        domain: Number of the session's ROS domain; None for ROS_DOMAIN_ID, or else 0.
+        connects: Endpoints of sessions on other machines: "tcp/192.168.1.5:7448".
+        session: Session to listen to, already joined; None to join one.
+        watch: Function called with the world of a scenario or session before it runs.
+        glance: Function called in another thread, repeatedly while a session is listened to, with
+            the frames received so far and the nanoseconds since the start.
+        progress: Function called with the number of bytes read, and their total number.
         reach: Options for reaching a session, by the names of the command line's options.
 
     Raises:
         InputError: If `place` names nothing, or it cannot be read.
         LinkError: If there is no session to listen to.
-        UsageError: If an option does not fit FROM, or an extra is not installed.
+        UsageError: If an option does not fit the source, or an optional package is not installed.
     """
     poses = PoseOptions(frames, pose_rate, pose_format, inverted, axes)
     if poses != PoseOptions():
@@ -147,9 +147,9 @@ def open_frames(
 
 
 def named(word: str) -> Found:
-    """Return the path or scenario that a word names.
+    """Return the files or scenario that a word names, with their kind.
 
-    A built-in scenario's name wins; `./turtles` and `turtles.yaml` are paths.
+    A built-in scenario's name takes precedence; `./turtles` and `turtles.yaml` are paths.
 
     Raises:
         InputError: If the word names nothing, or a file that cannot be read.
@@ -170,12 +170,12 @@ def scenario_named(
     """Read the scenario that a word names.
 
     Args:
-        word: A built-in scenario's name, or a file.
-        arguments: Values for arguments it declares.
-        expects: Whether the expectations are judged.
+        word: Name of a built-in scenario, or a file.
+        arguments: Values for arguments that the scenario declares.
+        expects: Whether the expectations are needed.
 
     Raises:
-        InputError: If there is none, or it cannot be read.
+        InputError: If there is no such scenario, or it cannot be read.
         UsageError: If the word names something else, or an argument is not declared.
     """
     from tftool.scenario.load import load
@@ -187,7 +187,7 @@ def scenario_named(
 
 
 def kind_in_words(found: Found) -> str:
-    """Return what FROM is, with an article."""
+    """Return the kind of a source with an article, such as "a robot description"."""
     if found.kind is Kind.SEVERAL:
         return "several recordings"
     article = "an" if found.kind is Kind.MCAP else "a"
@@ -197,7 +197,7 @@ def kind_in_words(found: Found) -> str:
 def refuse_options_of_files(
     robot: DescriptionOptions, recording: RecordingOptions, word: str | None
 ) -> None:
-    """Refuse the options of recordings and descriptions if FROM is neither.
+    """Raise an error for options of recordings and descriptions if FROM is neither.
 
     Raises:
         UsageError: If one was given.
@@ -209,7 +209,7 @@ def refuse_options_of_files(
 
 
 def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, Any]) -> None:
-    """Refuse the options of other middlewares and domains together with a session's address.
+    """Raise an error for options of other middlewares and domains beside a session's address.
 
     Raises:
         UsageError: If one was given.
@@ -222,7 +222,7 @@ def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, 
 
 
 def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
-    """Refuse --cache-time if FROM is complete, since lookups then use all data.
+    """Raise an error for --cache-time if FROM is complete, because lookups then use all data.
 
     Raises:
         UsageError: If --cache-time was given.
@@ -232,7 +232,7 @@ def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
 
 
 def nanoseconds(time: float) -> Duration:
-    """Convert seconds to nanoseconds; values made by `seconds` are kept."""
+    """Convert seconds to nanoseconds; an int from 10⁶ on is in nanoseconds already."""
     if not time > 0:
         raise UsageError(f"{time} s is too short to listen or to play: give more than 0.")
     # Nobody listens for eleven days.

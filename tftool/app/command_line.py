@@ -1,4 +1,4 @@
-"""A command line: parsed by typer, its help laid out by subject, its refusals as sentences."""
+"""Command line of one command: parsed by typer, with help grouped by subject and short errors."""
 
 import gc
 import math
@@ -83,7 +83,7 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
 
 
 def refuse_option(word: str, known: Iterable[str]) -> UsageError:
-    """Return the refusal of an option that `tftool` itself does not have."""
+    """Return the error for an option that `tftool` itself does not have."""
     return UsageError(_did_you_mean(f"No such option: {word}", word, known))
 
 
@@ -94,7 +94,7 @@ def _did_you_mean(refusal: str, word: str, known: Iterable[str], quote: str = ""
 
 
 def _sentence_of(error: Any) -> str:
-    """Return click's reason as a plain sentence."""
+    """Return the text of an error of click as a plain sentence."""
     sentence: str = error.format_message()
     near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
     if hasattr(error, "possibilities"):
@@ -109,7 +109,7 @@ def _sentence_of(error: Any) -> str:
 
 
 def _nearest(written: str, near: Iterable[str]) -> list[str]:
-    """Return the options nearly as similar to the written word as the best match, best first."""
+    """Return the options nearly as similar to the typed word as the best match, best first."""
 
     def likeness_of(one: str) -> float:
         # The first letter is the one that is seldom mistyped.
@@ -125,7 +125,7 @@ def _nearest(written: str, near: Iterable[str]) -> list[str]:
 
 
 def made(name: str) -> Any:
-    """Build one command with all its options."""
+    """Build the typer command of one name, with all its options."""
     command = load(name)
     # Help in plain text: rich would cost more than everything else at start-up.
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
@@ -145,7 +145,7 @@ def _laid_out(docstring: str) -> str:
 
 
 class LaidOutCommand(TyperCommand):
-    """A command that groups its options by subject, and lists session options only on request."""
+    """Command whose help groups the options by subject, and lists session options on request."""
 
     def __init__(self, name: str | None, **words: Any) -> None:
         super().__init__(name, **words)
@@ -153,7 +153,7 @@ class LaidOutCommand(TyperCommand):
             self.params.append(_help_session())
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
-        """Parse the command line; a word like NAME:=VALUE is an argument of a robot description."""
+        """Parse the command line; NAME:=VALUE becomes an argument of a robot description."""
         if any(param.name == "argument" for param in self.params):
             args = [
                 part
@@ -168,9 +168,7 @@ class LaidOutCommand(TyperCommand):
         return super().parse_args(ctx, args)
 
     def _pose_options(self, args: list[str]) -> "Iterator[tuple[str | None, str, Any]]":
-        """Collect the options of each pose file: the file before the option, its name and its
-        value.
-        """
+        """Yield each option for pose files: the file before it, the option's name, its value."""
         options = {one: param for param in self.params for one in param.opts if one[0] == "-"}
         file: str | None = None
         words = iter(args)
@@ -187,7 +185,7 @@ class LaidOutCommand(TyperCommand):
                 file = word
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; the options behind a pose file apply to that file only."""
+        """Run the command; options that follow a pose file apply to that file only."""
         given = ctx.meta.get(_POSES)
         if not given:
             return super().invoke(ctx)
@@ -195,12 +193,12 @@ class LaidOutCommand(TyperCommand):
             return super().invoke(ctx)
 
     def get_help(self, ctx: Any) -> str:
-        """Show the help, and end the command."""
+        """Print the help, and end the command."""
         show_help(super().get_help(ctx))
         raise typer.Exit
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Write the arguments, then the options by their headings."""
+        """Write the arguments, then the options below their headings."""
         sections: dict[str, list[tuple[str, str]]] = {"Arguments": [], "Options": []}
         for param in self.get_params(ctx):
             title = _title(param)
@@ -218,7 +216,7 @@ class LaidOutCommand(TyperCommand):
 
 
 def _number(word: str) -> float:
-    """Parse a number; return invalid text unchanged, for the parser to refuse."""
+    """Parse a number; return NaN for other text, which the parser then rejects."""
     try:
         return float(word)
     except ValueError:
@@ -232,7 +230,7 @@ SESSION = "Session and network"
 
 
 def _title(param: Any) -> str:
-    """Return the heading under which a parameter is listed."""
+    """Return the heading below which the help lists a parameter."""
     if param.param_type_name == "argument":
         return "Arguments"
     if param.name in ("help", _SESSION):
@@ -243,7 +241,7 @@ def _title(param: Any) -> str:
 
 
 def _help_session() -> Any:
-    """Return the option that shows the help including the options of sessions."""
+    """Return the option that prints the help with the options of sessions."""
 
     def show(ctx: Any, param: Any, value: bool) -> None:
         if value:
@@ -271,5 +269,5 @@ class HelpOptions(Command, shares=False):
 
 
 def run(options: HelpOptions) -> ExitStatus:
-    """Run `tftool help`."""
+    """Run `tftool help`: print the list of commands, or the help of one."""
     return ExitStatus(main(["--help"] if options.name is None else [options.name, "--help"]))

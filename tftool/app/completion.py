@@ -1,4 +1,4 @@
-"""Words the shell offers when Tab is pressed: commands, options, frames, scenarios, packages.
+"""Completion in the shell: words offered at Tab, such as commands, options, frames, packages.
 
 The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; each
 printed line is a proposal. Completion neither hosts nor joins a session: it reads the frames of a
@@ -69,11 +69,11 @@ Offer = tuple[str, str]
 
 
 def complete(words: Sequence[str], shell: str) -> None:
-    """Print the completions of the words typed so far, in the form the shell's script reads.
+    """Print the completions of a command line, in the form that the shell's script reads.
 
     Args:
-        words: The words after `tftool`; the last is the one that is being typed.
-        shell: The shell whose script asks.
+        words: Words after `tftool`, of which the last one is being typed.
+        shell: Name of the shell, whose script runs `tftool`.
     """
     offered: Sequence[Offer] = ()
     with contextlib.suppress(TftoolError, OSError, ValueError):
@@ -92,10 +92,10 @@ def _line(word: str, about: str, shell: str) -> str:
 
 
 def offers(words: Sequence[str]) -> list[Offer]:
-    """Return the completions of the words typed so far, in the order to show them.
+    """Return the completions of a command line, in the order to show them.
 
     Args:
-        words: The words after `tftool`; the last is the one that is being typed.
+        words: Words after `tftool`, of which the last one is being typed.
     """
     *before, current = words
     if not before:
@@ -111,12 +111,12 @@ def offers(words: Sequence[str]) -> list[Offer]:
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Whether an option is offered before the user types a dash; most options are not."""
+    """Return whether to offer a word: options only after the user has typed a dash."""
     return word.startswith("-") == current.startswith("-")
 
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
-    """Return the completions that one command offers for the current word."""
+    """Yield the completions that one command offers for the word being typed."""
     from tftool.app.command_line import made
 
     params = made(name).params
@@ -147,7 +147,7 @@ def _takes_value(option: Any) -> bool:
 
 
 def _count(before: Sequence[str], options: dict[str, Any]) -> int:
-    """Count the words that are neither an option nor an option's value."""
+    """Count the words that are neither options nor values of options."""
     words, is_value = 0, False
     for word in before:
         if is_value:
@@ -160,12 +160,12 @@ def _count(before: Sequence[str], options: dict[str, Any]) -> int:
 
 
 def _called(param: Any) -> str:
-    """Return the name that the help shows for the value of an option or argument."""
+    """Return the name that the help shows for an option's or argument's value."""
     return str(param.metavar or "")
 
 
 def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
-    """Return completions for a value which the help shows under this name."""
+    """Yield the completions of a value that the help shows under a name, such as FRAME."""
     bare = called.strip("[]{}<>.…")
     choices = getattr(kind, "choices", None)
     if choices is not None:
@@ -187,7 +187,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _frames(before: Sequence[str]) -> list[str]:
-    """Return the frames of the file on the command line, else of the running session."""
+    """Return the frames of the file on the command line; without a file, of the running session."""
     named = _frames_of_a_file([*_words_behind(), *before])
     if named is not None:
         return named
@@ -200,12 +200,12 @@ def _frames(before: Sequence[str]) -> list[str]:
 
 
 def _words_behind() -> list[str]:
-    """Return the words after the word being typed, because FROM is often among them."""
+    """Return the words after the one being typed, because FROM is often among them."""
     return os.environ.get(BEHIND, "").split("\n")
 
 
 def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
-    """Return the frames of the first word that names a file with frames; None if no word does."""
+    """Return the frames of the first word that names a file with frames; else None."""
     for word in words:
         # Unlike `Path.expanduser` it leaves a user alone that is none.
         path = Path(os.path.expanduser(word))
@@ -217,7 +217,7 @@ def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
 
 
 def _read_frames(word: str) -> list[str]:
-    """Read frames from a column cache, a short recording, or a description."""
+    """Read the frame names of a file: from a column cache, a short recording, or a description."""
     from tftool.recordings.cache_heads import default_folder, frames_kept, key_of
     from tftool.recordings.find import Kind, find
 
@@ -242,14 +242,14 @@ def _read_frames(word: str) -> list[str]:
 
 
 def _workspace_here() -> "Workspace":
-    """Return the packages below this folder and in the workspace that contains it."""
+    """Return the workspace around the current folder, which finds packages."""
     from tftool.ros.host.workspace import Workspace
 
     return Workspace(Path.cwd())
 
 
 def _packages(before: Sequence[str]) -> Iterator[Offer]:
-    """Return the packages below this folder; after a package, its executables."""
+    """Yield the packages below this folder; after a package, its executables."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -258,7 +258,7 @@ def _packages(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _launches(before: Sequence[str]) -> Iterator[Offer]:
-    """Return the packages below this folder; after a package, its launch files."""
+    """Yield the packages below this folder; after a package, its launch files."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -268,7 +268,7 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
-    """Return the commands of ROS 2's command line; after a command, its verbs."""
+    """Yield the commands of ROS 2's command line; after a command, its verbs."""
     from tftool.ros.host.ros2_words import verbs
 
     if len(before) < 2:
@@ -300,10 +300,10 @@ def shell_here() -> str:
 
 
 def install(shell: str) -> list[Path]:
-    """Install the completion script for a shell, keeping the text of the shell's start-up file.
+    """Install the completion script of a shell; other text in the shell's start-up file stays.
 
     Returns:
-        The files that were written or changed.
+        Files that were written or changed.
 
     Raises:
         InputError: If a file cannot be written.

@@ -1,6 +1,6 @@
-"""Table of commands, and the help of `tftool` that lists them.
+"""Table of commands, and the help of `tftool` that lists the commands.
 
-typer is imported for a command alone: the list of commands does without it.
+The list of commands does not need typer, which is imported when a command runs.
 """
 
 import os
@@ -68,9 +68,10 @@ COMMANDS = {name: summary for group in GROUPS.values() for name, summary in grou
 
 
 def load(name: str) -> "type[Command]":
-    """Import the declaration of a command.
+    """Import the class that declares a command.
 
-    Help and completion list every command, but import only the commands they describe in detail.
+    Help and completion list every command, but import only the commands that they describe in
+    detail.
     """
     # Only `help` asks for other commands.
     home = "tftool.app.command_line" if name == "help" else f"tftool.commands.{name}"
@@ -125,7 +126,7 @@ def _rows(rows: list[tuple[str, str]], width: int) -> Iterator[str]:
 
 
 def show_help(text: str) -> None:
-    """Print a help text: coloured on a terminal, and paged if it is longer than the screen."""
+    """Print a help text: coloured on a terminal, and in a pager if longer than the screen."""
     if sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
         is_long = text.count("\n") + 2 > shutil.get_terminal_size().lines
         if not os.environ.get("NO_COLOR"):
@@ -136,7 +137,7 @@ def show_help(text: str) -> None:
 
 
 def _page(text: str) -> bool:
-    """Show a text in the user's pager, else in less; return False if there is no pager."""
+    """Show a text in the user's pager, or in less; return False without a pager."""
     import shlex
     import subprocess
 
@@ -156,7 +157,7 @@ def _page(text: str) -> bool:
 
 
 def painted(text: str) -> str:
-    """Colour headings, names of options and commands, and examples."""
+    """Colour the headings, the names of options and commands, and the examples of a help text."""
     head, colon, lists = text.partition("\n\nArguments:")
     for title in ("Options", *GROUPS):
         if not colon:

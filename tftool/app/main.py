@@ -1,6 +1,6 @@
-"""The `tftool` command: its own options, and the one place where errors become exit statuses.
+"""Command `tftool`: its own options, and the conversion of errors to exit statuses.
 
-Each command is a typer app of its own, made when it is named: nothing of the others is imported.
+Each command is a typer app, made when the command is called, so that no other command is imported.
 """
 
 import codecs
@@ -38,7 +38,7 @@ DESCRIPTORS = 32
 
 
 def _set_up_completion(*, show: bool) -> None:
-    """Install completion for this shell, or print the script that would be installed."""
+    """Install completion for the user's shell, or print the script that would be installed."""
     from tftool.app import completion
 
     shell = completion.shell_here()
@@ -50,14 +50,14 @@ def _set_up_completion(*, show: bool) -> None:
 
 
 def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:
-    """Run the command and return its exit status; never raise for anything the user typed.
+    """Run `tftool` and return its exit status; never raise for anything that the user typed.
 
     Args:
-        argv: The words after `tftool`; None for the words of this process.
+        argv: Words after `tftool`; None for this process's arguments.
         providers: Sources of clocks and links; None for the real ones.
 
     Returns:
-        An `ExitStatus`, or the status of the program that `tftool run` ran.
+        An `ExitStatus`, or the exit status of the program that `tftool run` ran.
     """
     status: int
     is_own = argv is None
@@ -105,7 +105,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
 
 def _complete(argv: list[str]) -> int:
-    """Print the completions of these words."""
+    """Print the completions of a command line."""
     from tftool.app import completion
 
     completion.complete(argv, os.environ[completion.VARIABLE])
@@ -169,7 +169,7 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
 
 
 def _own_options(words: list[str]) -> list[str] | None:
-    """Act on the options of `tftool` itself; return the words of a command, or None if it is done.
+    """Process the options of `tftool` itself; return a command's words, or None without one.
 
     Raises:
         UsageError: If there is no such option.
@@ -223,7 +223,7 @@ def _prepare_streams() -> None:
 
 
 def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
-    """Encode characters that an encoding lacks: tftool's own signs as ASCII, others as escapes."""
+    """Encode characters that an encoding lacks: tftool's symbols as ASCII, others as escapes."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     char = error.object[error.start]
@@ -257,7 +257,7 @@ def _require_descriptors() -> None:
 
 
 def _has_no_reader() -> bool:
-    """Whether stdout is a pipe without a reader."""
+    """Return whether stdout is a pipe that no process reads."""
     import select
 
     if not hasattr(select, "poll"):
@@ -271,7 +271,7 @@ def _has_no_reader() -> bool:
 
 
 def _forget_output() -> None:
-    """Discard the text buffered for stdout."""
+    """Discard the text that is buffered for stdout."""
     from contextlib import suppress
 
     with suppress(OSError, ValueError):  # a stdout that is no file has no number

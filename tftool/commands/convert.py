@@ -1,4 +1,4 @@
-"""`tftool convert`: one rotation, or pose, in every notation."""
+"""Command `tftool convert`: one rotation, or pose, in every notation."""
 
 import sys
 
@@ -59,7 +59,7 @@ class ConvertOptions(
 
 
 def _text(words: list[str] | None) -> str:
-    """Return the text from the command line, else from stdin."""
+    """Return the text to convert: from the command line, else from stdin."""
     if words and words != ["-"]:
         return " ".join(words)
     if not words and sys.stdin.isatty():
@@ -72,7 +72,7 @@ def _text(words: list[str] | None) -> str:
 
 
 def run(options: ConvertOptions) -> ExitStatus:
-    """Run `tftool convert`."""
+    """Run `tftool convert`: print a rotation or pose in every notation."""
     if options.target is not None and options.target not in view.TARGETS:
         known = ", ".join((*NAMED_FORMS, *view.POSE_FORMS))
         raise UsageError(

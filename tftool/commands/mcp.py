@@ -1,4 +1,4 @@
-"""`tftool mcp`: answers agents' questions about the recordings of a folder."""
+"""Command `tftool mcp`: server through which AI agents query the recordings of a folder."""
 
 import json
 import os
@@ -56,7 +56,7 @@ with how many are missing: `part` names one key of an answer, `skip` leaves out 
 
 
 def run(options: McpOptions) -> ExitStatus:
-    """Run `tftool mcp`."""
+    """Run `tftool mcp`: serve the tools over stdin and stdout until stdin is closed."""
     if not options.root.is_dir():
         raise InputError(f"'{options.root}' is no folder: name the folder of the recordings.")
     try:
@@ -68,7 +68,7 @@ def run(options: McpOptions) -> ExitStatus:
         raise UsageError("'mcp' needs an extra: pip install 'tftool-tf2[mcp]'") from missing
 
     def answered(question: Callable[..., str]) -> Callable[..., str]:
-        """Convert our errors to the protocol's error answers."""
+        """Wrap a tool so that tftool's errors become the protocol's error responses."""
 
         @wraps(question)
         def answer(**words: Any) -> str:
@@ -92,14 +92,10 @@ def run(options: McpOptions) -> ExitStatus:
 
 
 class Questions:
-    """Tools for the files below one folder; each method is a tool, and its docstring the tool's
-    help.
-    """
+    """Tools for the files below one folder; each public method's docstring is the tool's help."""
 
     def __init__(self, root: Path, sessions: str) -> None:
-        """Answer questions about files below `root`; `sessions` is an empty folder, to find no
-        session.
-        """
+        """Serve files below `root`; `sessions` is an empty folder, so that no session is found."""
         self._root = root
         self._environment = {**os.environ, "TFTOOL_SESSION_DIR": sessions, "NO_COLOR": "1"}
 
@@ -205,7 +201,7 @@ class Questions:
         """Run a command on a file; return its output within the size limits.
 
         Raises:
-            InputError: If the file may not be asked about, or the command cannot read it.
+            InputError: If the file may not be read here, or the command cannot read it.
         """
         file = self._file(source)
         cached = [] if file.endswith(".urdf") or command == "doctor" else ["--no-cache"]
@@ -244,11 +240,11 @@ class Questions:
         return fitted(answer[skip:] if isinstance(answer, list) else answer)
 
     def _file(self, source: str) -> str:
-        """Return a file name below the root in a form that cannot be read as an option.
+        """Return a file's name below the root, in a form that cannot be read as an option.
 
         Raises:
-            InputError: If it is elsewhere, or a link in it leads elsewhere, or it is not of a
-                kind that is read here.
+            InputError: If the file, or a link in it, is outside the root, or the file's type is
+                not read here.
         """
         try:
             path = (self._root / source).resolve(strict=True)
@@ -268,7 +264,7 @@ class Questions:
         return word
 
     def _stays_inside(self, path: Path) -> bool:
-        """Whether a file, and all files read with it, are below the root."""
+        """Return whether a file, and all files that are read with it, are below the root."""
         places = (path, *_read_with(path.resolve()))
         return all(one.resolve().is_relative_to(self._root) for one in places)
 
@@ -289,10 +285,10 @@ def _below(folder: Path) -> Iterator[Path]:
 
 
 def _read_with(path: Path) -> list[Path]:
-    """Return the files that are read along with one: a folder's content, or the doctor's baseline.
+    """Return the files read along with a path: a folder's content, or the doctor's baseline.
 
     Raises:
-        InputError: If a folder has too many entries to look at.
+        InputError: If a folder has more than `MOST_ENTRIES` entries.
     """
     if not path.is_dir():
         from tftool.scenario.doctor_expectations import ENDING
@@ -318,9 +314,10 @@ def _version() -> str:
 
 
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
-    """Convert an answer to JSON of at most `most` characters, with a count of what is left out.
+    """Convert output of a command to JSON of at most `most` characters; count omitted items.
 
-    Lists deep in the answer are cut first: all findings are more useful than all evidence of one.
+    Deeply nested lists are cut first: all findings are more useful than all evidence of one
+    finding.
     """
     sizes = [(outer, inner) for outer in (200, 20) for inner in (20, 8, 3, 1)]
     sizes += [(outer, inner) for outer in (12, 8, 5, 3, 2, 1) for inner in (3, 1, 0)]
@@ -335,7 +332,7 @@ def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
 
 
 def _cut(value: Any, outer: int, inner: int, depth: int) -> Any:
-    """Shorten the lists of a value: `outer` items at the first levels, `inner` below."""
+    """Shorten the lists in a value: to `outer` items on the first two levels, to `inner` below."""
     keep = outer if depth < 2 else inner
     if isinstance(value, dict):
         return {key: _cut(one, outer, inner, depth + 1) for key, one in value.items()}

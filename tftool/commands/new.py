@@ -1,4 +1,4 @@
-"""`tftool new`: a new workspace package, or a new scenario."""
+"""Command `tftool new`: create a package of nodes, or a scenario."""
 
 import ast
 import keyword
@@ -129,7 +129,7 @@ if __name__ == "__main__":
 
 
 def _check_name(name: str) -> None:
-    """Refuse a package name that ROS 2 or Python would not accept."""
+    """Raise an error for a package name that ROS 2 or Python would not accept."""
     if not re.fullmatch(r"[a-z](_?[a-z0-9])*", name):
         hint = " With --scenario it is a scenario." if name.endswith((".yaml", ".yml")) else ""
         raise UsageError(
@@ -144,7 +144,7 @@ def _check_name(name: str) -> None:
 
 
 def _check_node(name: str) -> None:
-    """Refuse a node name that Python could not import."""
+    """Raise an error for a node name that Python could not import."""
     if not name.isidentifier() or not name.isascii() or keyword.iskeyword(name):
         raise UsageError(
             f"'{name}' is no valid node name: use letters, digits and underscores, a letter first, "
@@ -158,7 +158,7 @@ def _refuse_existing(path: Path) -> None:
 
 
 def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
-    """Return every file of a tutorial step's package as text, by its path in the package."""
+    """Return the text of every file in a tutorial step's package, by its path in the package."""
     nodes = EXAMPLES[example]
     sources = {f"{TEMPLATE}/{node}.py": node for node in nodes}
     step = (f"launch/{example}.launch.py", f"test/test_{example}.py", f"scenarios/{example}.yaml")
@@ -180,7 +180,7 @@ def _files_of_node(package: str, node: str) -> dict[str, str]:
 
 
 def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str, str]:
-    """Return the files common to every package, and `more`; setup.py installs `nodes`."""
+    """Return the text of every package's files and the files `more`; setup.py installs `nodes`."""
     source = shipped("examples", TEMPLATE) / TEMPLATE
     every = ("package.xml", "setup.cfg", "setup.py", f"resource/{TEMPLATE}")
     files = {}
@@ -197,7 +197,7 @@ def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str,
 
 
 def _write(path: Path, files: dict[str, str]) -> None:
-    """Write the whole package, or nothing."""
+    """Write the files of a package, all or none."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".new-", dir=path.parent) as place:
@@ -246,7 +246,7 @@ def _say_what_next(
 def _tell(
     path: Path, todo: str, files: Collection[str], *lines: tuple[str, str], as_json: bool
 ) -> None:
-    """Print the new files and the next commands with their purpose."""
+    """Print the new files, and the commands to continue with, each with its purpose."""
     if as_json:
         following = [{"command": line, "purpose": purpose} for line, purpose in lines]
         told = {"schema": "tftool.new/1", "made": str(path), "files": sorted(files)}
@@ -259,7 +259,7 @@ def _tell(
 
 
 def run(options: NewOptions) -> ExitStatus:
-    """Run `tftool new`."""
+    """Run `tftool new`: create a package or a scenario."""
     refuse(
         (
             options.scenario and (options.exercise or options.node_name),

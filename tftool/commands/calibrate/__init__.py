@@ -1,4 +1,4 @@
-"""`tftool calibrate`: the mount of a sensor and its clock offset, from recorded motion."""
+"""Command `tftool calibrate`: a sensor's mount and clock offset, from recorded motion."""
 
 from pathlib import Path
 

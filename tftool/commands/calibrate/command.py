@@ -1,4 +1,4 @@
-"""Find a mount from recorded motion; print it, compare it, write it, draw it on an HTML page."""
+"""Run of `tftool calibrate`: find a mount; print, compare and write it, draw an HTML page."""
 
 import json
 import math
@@ -62,7 +62,7 @@ Curve = tuple[str, Floats, Floats]
 
 
 def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
-    """Return the page: result, trajectories before and after, residuals, correlation, axes."""
+    """Return the HTML page: result, trajectories before and after the fit, residuals, axes."""
     parts = [f"<pre>{escape(calibration_view.lines(found))}</pre>"]
     first, second = BodyMotion.of(a), BodyMotion.of(b)
     if found.inverted[1]:
@@ -80,7 +80,7 @@ def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
 
 
 def _aligned(found: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
-    """Draw the two aligned trajectories, A · X and Y · B, whose difference the fit minimises."""
+    """Return drawings of the aligned trajectories A · X and Y · B, whose difference is minimal."""
     assert found.mount is not None
     assert found.fixed_mount is not None
     assert found.clock_offset is not None
@@ -246,7 +246,7 @@ def _refuse_outputs(
 
 
 def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
-    """Print a calibration; return whether the mount to check is outside of its interval."""
+    """Print a calibration; return whether the published mount is outside its 95 % interval."""
     outside, compared = ((), None) if checked is None else _compared(found, checked)
     if for_programs:
         written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
@@ -269,10 +269,10 @@ Chain = tuple[Frames, str]
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
-    """Assign the values of --moving to the opened files.
+    """Assign each value of --moving to the file that has its frames.
 
     Raises:
-        UsageError: If there are too few, or the chains share the mount.
+        UsageError: If values are missing, or both chains contain the mount.
     """
     if len(opened) == 1:
         if len(words) != 2:
@@ -287,7 +287,7 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
 
 
 def _has(frames: Frames, word: str) -> bool:
-    """Whether a motion can be one of these frames."""
+    """Return whether a value of --moving names frames or a topic of a file."""
     if word.startswith("/"):
         return frames.recording is not None and word in _topics(frames)
     return all(frames.buffer.frame_exists(name) for name in _pair(word))
@@ -299,7 +299,7 @@ def _topics(frames: Frames) -> list[str]:
 
 
 def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
-    """Refuse two chains of one tree if one contains the wanted mount.
+    """Raise an error if a chain between two frames of one tree contains the wanted mount.
 
     Raises:
         UsageError: If one chain contains the mount.
@@ -399,7 +399,7 @@ LEAST_DIFFERENCE: Final = (0.001, 0.1)
 def _compared(
     found: Calibration, published: PublishedMount
 ) -> tuple[list[str], dict[str, object] | None]:
-    """Compare the published mount with the estimated one."""
+    """Compare the published mount with the estimated one; return sentences and the JSON object."""
     if published.mount is None or found.mount is None or found.interval95 is None:
         return [], None
     shift, turn = np.split(difference(found.mount, published.mount), 2)

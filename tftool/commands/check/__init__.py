@@ -1,4 +1,4 @@
-"""`tftool check`: play scenarios on simulated time and judge their expectations."""
+"""Command `tftool check`: play scenarios on simulated time and judge their expectations."""
 
 from pathlib import Path
 

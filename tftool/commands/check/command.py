@@ -1,4 +1,4 @@
-"""`tftool check`: play scenarios on simulated time and judge their expectations."""
+"""Run of `tftool check`: play scenarios on simulated time and judge their expectations."""
 
 import glob
 import os
@@ -41,7 +41,7 @@ SUFFIXES = (".yaml", ".yml")
 
 
 def _unfolded(word: str) -> list[str]:
-    """Return the scenarios of a glob or folder; not every shell expands globs."""
+    """Return the scenario files of a glob or folder, because not every shell expands globs."""
     files: list[str] = []
     if builtin.path_of(word) is None:
         if os.path.isdir(word):
@@ -56,7 +56,7 @@ def _unfolded(word: str) -> list[str]:
 def _judge(
     word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
-    """Judge one scenario and print the outcome; return its report, or None if it is unreadable."""
+    """Judge a scenario and print the outcome; return the report, and whether it was readable."""
     try:
         scenario = scenario_named(word)
     except InputError as error:
@@ -80,7 +80,7 @@ def _judge(
 
 
 class _Heard:
-    """Transforms recorded during one run, which the doctor reads if an expectation failed."""
+    """Transforms recorded during one run of a scenario, for the doctor if an expectation fails."""
 
     def __init__(self, scenario: Scenario) -> None:
         self._scenario = scenario
@@ -89,7 +89,7 @@ class _Heard:
 
     @contextmanager
     def watching(self, world: World) -> Iterator[None]:
-        """Record a world's transforms until it ends."""
+        """Record a world's transforms until the block ends."""
         self._log, stop = logged_in(world)
         stops = [stop]
         if sys.stderr.isatty():
@@ -102,7 +102,7 @@ class _Heard:
                 one()
 
     def _progress(self, simulated: Clock) -> Callable[[object], None]:
-        """Return a function to call with each message, which prints the progress of a long run."""
+        """Return a function, called with each message, that prints the progress of a long run."""
         real = WallClock()
         told, start = real.now(), simulated.now()
 
@@ -117,7 +117,7 @@ class _Heard:
         return tell
 
     def findings(self) -> tuple[str, ...]:
-        """Return the doctor's findings without notes: a sentence each, with its first remedy."""
+        """Return the doctor's errors and warnings: one sentence each, with the first remedy."""
         # The checks take as long to import as most scenarios to play.
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
@@ -139,14 +139,14 @@ class _Heard:
 
 
 class _Kept:
-    """Folder for the recordings of one run, each under its own name."""
+    """Folder for the recordings of failed scenarios, each with its own file name."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._names: set[str] = set()
 
     def place(self, name: str) -> Path:
-        """Return the path for a scenario's recording: its name, numbered if already used."""
+        """Return the path for a scenario's recording: its name, with a number if already used."""
         plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
         number = 1
         while free in self._names:
@@ -159,7 +159,7 @@ class _Kept:
 def _recorded(
     scenario: Scenario, judge: Callable[..., Verdict], kept: Path, heard: _Heard
 ) -> Verdict:
-    """Judge a scenario, and keep its recording if an expectation failed."""
+    """Judge a scenario while recording it; keep the recording only if an expectation failed."""
     try:
         kept.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -188,14 +188,14 @@ def _recorded(
 
 
 def _strictly(report: Report) -> Report:
-    """Return a report in which warnings count as failures."""
+    """Return a report in which warnings count as failures, for --strict."""
     if not report.warnings or not report.ok:
         return report
     return replace(report, failure="\n".join(("warnings fail (--strict):", *report.warnings)))
 
 
 def run(options: CheckOptions) -> ExitStatus:
-    """Run `tftool check`."""
+    """Run `tftool check`: judge scenarios and packages, and print the outcomes."""
     if not options.scenarios and not options.packages:
         raise UsageError("which scenario? Give its name or file, or a package as --as-ros PACKAGE")
     kept = None if options.recordings is None else _Kept(options.recordings)

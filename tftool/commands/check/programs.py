@@ -1,4 +1,4 @@
-"""A user's programs that replace nodes of a scenario while it is judged."""
+"""Users' programs that replace nodes of a scenario while it is judged."""
 
 import re
 import shlex
@@ -29,13 +29,13 @@ def judge_with(
     """Return a function that judges a scenario with the user's programs.
 
     Args:
-        programs: "FILE", or "NODE=FILE" to run it in the place of one of the scenario's nodes.
-        launched: A launch file and its arguments, as one text.
-        force: Run without ROS although one is sourced.
-        verbose: Whether every line of their logs is shown.
+        programs: Values of --run: "FILE", or "NODE=FILE" to run the file in place of a node.
+        launched: Value of --launch: a launch file and its arguments.
+        force: Whether to run without ROS although a ROS environment is sourced.
+        verbose: Whether to print every line of the programs' logs.
 
     Raises:
-        UsageError: If a text is not a command line.
+        UsageError: If a value is not a command line.
     """
     entrants = [_entrant(text) for text in programs]
     launch = () if launched is None else _words("--launch", launched)
@@ -63,17 +63,17 @@ def judge_with(
 
 
 def _entrant(text: str) -> Entrant:
-    """Parse [NODE=]WORDS."""
+    """Parse a value of --run, [NODE=]WORDS."""
     match = _IN_PLACE.fullmatch(text)
     node, rest = (match[1], match[2]) if match else ("", text)
     return Entrant(_words("--run", rest), node)
 
 
 def _words(option: str, text: str) -> tuple[str, ...]:
-    """Split words as a shell does.
+    """Split an option's value into words as a shell does.
 
     Raises:
-        UsageError: If there is none, or a quote is not closed.
+        UsageError: If there is no word, or a quote is not closed.
     """
     try:
         words = tuple(shlex.split(text))
@@ -85,11 +85,11 @@ def _words(option: str, text: str) -> tuple[str, ...]:
 
 
 def judge_packages(names: Sequence[str]) -> list[Report]:
-    """Check packages given by name or folder, and return the report.
+    """Check the packages named by name or folder; return a report for each.
 
     Raises:
         UsageError: If there is no such package.
-        InputError: If a file of one cannot be read.
+        InputError: If a file of a package cannot be read.
     """
     workspace = Workspace(Path.cwd())
     return [_report(_package(workspace, name), workspace) for name in names]

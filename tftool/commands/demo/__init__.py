@@ -1,4 +1,4 @@
-"""`tftool demo`: a scenario on the screen; without a terminal it is played and summarised."""
+"""Command `tftool demo`: a scenario on the screen; without a terminal, its outcome as text."""
 
 from pathlib import Path
 

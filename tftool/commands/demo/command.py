@@ -1,4 +1,4 @@
-"""`tftool demo`: a scenario on the screen; without a terminal it is played and summarised."""
+"""Run of `tftool demo`: a scenario on the screen; without a terminal, its outcome as text."""
 
 import asyncio
 import sys
@@ -50,12 +50,12 @@ from tftool.world.world import World
 def _show(
     connection: Connection, options: DemoOptions, chosen: Scenario, wanted: str | None
 ) -> str | None:
-    """Show a scenario or the running session; return the scenario the user chose next, if any.
+    """Show a scenario or the running session; return the scenario that the user chose next, if any.
 
     Args:
-        connection: The command's connection.
-        options: Options.
-        chosen: The scenario.
+        connection: Connection of the command.
+        options: Options of the command.
+        chosen: Scenario to show.
         wanted: Name of the scenario; None to show the running session, if there is one.
     """
     found = join_or_host(connection, wanted, needs_turtles=True)
@@ -77,7 +77,7 @@ def _show(
 
 
 def _end(options: DemoOptions, world: World) -> Stamp | None:
-    """Return the end time, counted from now because the screen takes time to start."""
+    """Return the time at which the demo ends, counted from now: the screen takes time to start."""
     return None if options.lasting is None else world.clock.now() + options.lasting
 
 
@@ -88,7 +88,7 @@ def _setting(options: DemoOptions, title: str) -> Setting:
 def _show_hosted(
     connection: Connection, options: DemoOptions, chosen: Scenario, found: JoinDecision
 ) -> str | None:
-    """Show a scenario in a new world that other processes can join."""
+    """Show a scenario in a new world that others can join; return the user's next choice."""
     around: Watch = nullcontext
     if options.recording is not None:
         around = partial(recorded, path=options.recording)
@@ -155,10 +155,10 @@ def _show_recording(connection: Connection, options: DemoOptions, word: str) -> 
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:
-    """Parse NAME=VALUE words.
+    """Parse the NAME=VALUE words of --set into a mapping.
 
     Raises:
-        UsageError: If one is something else, or a name is given twice.
+        UsageError: If a word is not NAME=VALUE, or a name is given twice.
     """
     found: dict[str, str] = {} if source_frame is None else {"source_frame": source_frame}
     for setting in settings:
@@ -172,7 +172,7 @@ def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None
 
 
 def run(connection: Connection, options: DemoOptions) -> ExitStatus:
-    """Run `tftool demo`."""
+    """Run `tftool demo`: show or play a scenario, a recording or the running session."""
     if options.listing:
         _list(for_programs=options.for_programs)
         return ExitStatus.DONE
@@ -203,7 +203,7 @@ def run(connection: Connection, options: DemoOptions) -> ExitStatus:
 def _play(
     connection: Connection, options: DemoOptions, chosen: Scenario, lacking: str
 ) -> ExitStatus:
-    """Play a scenario on simulated time, and print what came of it."""
+    """Play a scenario on simulated time, and print the outcome."""
     if connection.needs_link:
         raise UsageError(
             "Without a terminal the demo plays on simulated time, which cannot be "

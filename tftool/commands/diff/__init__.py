@@ -1,4 +1,4 @@
-"""`tftool diff`: what differs between two sets of frames."""
+"""Command `tftool diff`: differences between two sets of frames."""
 
 from pathlib import Path
 from typing import Literal

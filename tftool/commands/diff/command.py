@@ -1,4 +1,4 @@
-"""Compare two sets of frames, and print what differs."""
+"""Run of `tftool diff`: compare two sets of frames, and print the differences."""
 
 import sys
 from pathlib import Path
@@ -30,7 +30,7 @@ SESSION = "session"
 
 
 def run(connection: Connection, options: DiffOptions) -> ExitStatus:
-    """Run `tftool diff`."""
+    """Run `tftool diff`: compare frames, trajectories or clocks of two sources."""
     _refuse_contradictions(options)
     pairs, step = _pairs(options.pairs or []), PieceLength.read(options.per)
     words = options.first, options.second
@@ -54,7 +54,7 @@ def run(connection: Connection, options: DiffOptions) -> ExitStatus:
 
 
 def _refuse_contradictions(options: DiffOptions) -> None:
-    """Refuse contradicting options, and an output that cannot be written.
+    """Raise an error for contradicting options, and for an output that cannot be written.
 
     Raises:
         UsageError: If two were given.
@@ -128,7 +128,7 @@ def _measure_errors(
     pairs: tuple[Pair | None, Pair | None],
     step: PieceLength,
 ) -> None:
-    """Measure the errors of --ape and --rpe, print them, and draw them on request."""
+    """Compute the errors of --ape and --rpe, print them, and draw them if requested."""
     first, second = sides
     found = trajectory_errors(
         first.buffer,
@@ -152,11 +152,11 @@ def _measure_errors(
 
 
 def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
-    """Open one side's FROM.
+    """Open the frames of one of the two sources.
 
     Raises:
         InputError: If the word names nothing, or the file cannot be read.
-        LinkError: If the word means the session, and none runs.
+        LinkError: If the word is "session", and no session runs.
     """
     if word != SESSION:
         return side_of(open_from(connection, word, lasting, until=WHOLE, shares=True), word)
@@ -167,10 +167,10 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
 
 
 def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
-    """Return the pairs of A and of B named by --pair; without it, the only chain of each.
+    """Return the frames to compare in A and in B, from --pair; None for the only chain.
 
     Raises:
-        UsageError: If there are more than two, or a word is not a pair.
+        UsageError: If --pair is given more than twice, or a value is not TARGET:SOURCE.
     """
     pairs, _ = pairs_and_place([], words)
     if len(pairs) > 2:

@@ -1,4 +1,4 @@
-"""`tftool doctor`: what is wrong with the frames, why, and what to do about it."""
+"""Command `tftool doctor`: what is wrong with the frames, why, and how to fix it."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -22,7 +22,7 @@ from tftool.frames.source_options import At
 
 
 class FailOn(StrEnum):
-    """Severity from which the exit status is 1."""
+    """Least severity of a finding with which the exit status is 1."""
 
     error = "error"
     warning = "warning"

@@ -1,4 +1,4 @@
-"""Run the doctor over one source or several, and report what it finds."""
+"""Run of `tftool doctor`: examine one source or several, and report the findings."""
 
 import json
 import sys
@@ -44,10 +44,10 @@ Baseline: TypeAlias = Mapping[str, frozenset[str]]
 
 
 def _read_baseline(path: Path) -> Baseline:
-    """Read the output of `tftool doctor --json` for one source or several.
+    """Read a baseline: the output of an earlier `tftool doctor --json`.
 
     Raises:
-        InputError: If the file cannot be read, or is no such report.
+        InputError: If the file cannot be read, or is not such a report.
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -67,7 +67,10 @@ def _read_baseline(path: Path) -> Baseline:
 
 
 def _marked(baseline: Baseline, source: str, diagnosis: Diagnosis | str) -> Diagnosis | str:
-    """Mark the findings in the baseline, by this source or, if it is missing there, by any."""
+    """Mark the findings that the baseline has for this source.
+
+    If the baseline does not have the source, findings of any of its sources count.
+    """
     if isinstance(diagnosis, str):
         return diagnosis
     known = baseline.get(source)
@@ -92,7 +95,7 @@ def _no_report(path: Path, what: str) -> InputError:
 
 
 def run(connection: Connection, options: DoctorOptions) -> ExitStatus:
-    """Run `tftool doctor`."""
+    """Run `tftool doctor`: print or write the findings, and return the exit status."""
     if options.listed or options.explain:
         return _show_checks("" if options.listed else options.explain, markdown=options.markdown)
     _refuse_contradictions(options)
@@ -116,10 +119,10 @@ def run(connection: Connection, options: DoctorOptions) -> ExitStatus:
 
 
 def _examination(connection: Connection, options: DoctorOptions) -> Examination:
-    """Return the checks to run, their thresholds, and the part of a source to look at.
+    """Return the checks to run, their thresholds, and the part of the source to examine.
 
     Raises:
-        UsageError: If a value of --limit is not a threshold.
+        UsageError: If a value of --limit is not ID.NAME=NUMBER.
     """
     limits: dict[str, dict[str, float]] = {}
     for text in options.limits or ():
@@ -190,7 +193,7 @@ def _sources(options: DoctorOptions) -> list[str | None]:
 
 
 def _refuse_contradictions(options: DoctorOptions) -> None:
-    """Refuse contradicting options.
+    """Raise an error for contradicting options.
 
     Raises:
         UsageError: If two were given.
@@ -234,14 +237,14 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
 
 
 def _words(given: Sequence[str] | None) -> tuple[str, ...]:
-    """Split an option's comma-separated values over all its uses."""
+    """Return the comma-separated values of all uses of an option."""
     return tuple(word.strip() for one in given or () for word in one.split(",") if word.strip())
 
 
 def _sweep(
     options: DoctorOptions, output: Path, task: Examination, fails: Severity | None
 ) -> ExitStatus:
-    """Write rows for each recording; return the worst exit status."""
+    """Write rows about many recordings to a file; return the worst exit status."""
     workers = workers_of(options.processes, options.scheduler)
     counts = fleet.swept_into(options.places or [], output, workers, task, resume=options.resume)
     if UNREADABLE in counts:
@@ -252,7 +255,7 @@ def _sweep(
 
 
 def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination) -> Judged:
-    """Return the diagnosis of each source; an unreadable one does not stop the others."""
+    """Return the diagnosis of each source; an unreadable source does not stop the others."""
     sources = _sources(options)
     judged: Judged = []
     before: list[MeasuredMount] = []
@@ -288,7 +291,7 @@ def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination
 
 
 def _print(judged: Judged, options: DoctorOptions) -> None:
-    """Print every diagnosis; for several sources in text form, also a comparison at the end."""
+    """Print every diagnosis; in text form, followed by a comparison if there are several."""
     diagnoses = [found for _, found in judged if not isinstance(found, str)]
     if options.for_programs:
         objects = [view.as_object(one) for one in diagnoses]

@@ -1,4 +1,4 @@
-"""`tftool echo`: one transform, printed repeatedly as tf2_echo does."""
+"""Command `tftool echo`: one transform, printed repeatedly as tf2_echo does."""
 
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command

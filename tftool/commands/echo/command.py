@@ -1,4 +1,4 @@
-"""`tftool echo`: one answer from a file, repeated answers from a session."""
+"""Run of `tftool echo`: a transform at times of a file, or repeatedly from a session."""
 
 import json
 import sys
@@ -25,14 +25,14 @@ from tftool.recordings.find import Kind
 
 @dataclass(frozen=True, slots=True)
 class Printer:
-    """Printer of answers to stdout."""
+    """Printer of transforms, or of failed lookups, to stdout."""
 
     precision: int = 3
     with_distance: bool = False
     for_programs: bool = False
 
     def found(self, now: Stamp, found: TransformStamped) -> None:
-        """Print an answer."""
+        """Print a transform."""
         if self.for_programs:
             self._line(view.as_object(found, with_distance=self.with_distance))
         elif sys.stdout.isatty():
@@ -49,14 +49,14 @@ class Printer:
             )
 
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
-        """Print an error."""
+        """Print the error of a failed lookup."""
         if self.for_programs:
             self._line(view.failure_as_object(now, refusal))
         else:
             self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
 
     def aged(self, now: Stamp) -> None:
-        """Do nothing: printed answers stay."""
+        """Do nothing, because printed transforms stay unchanged."""
 
     def _line(self, what: object) -> None:
         self._write(json.dumps(what, allow_nan=False) + "\n")
@@ -67,7 +67,7 @@ class Printer:
 
 
 def run(connection: Connection, options: EchoOptions) -> ExitStatus:
-    """Run `tftool echo`."""
+    """Run `tftool echo`: print transforms of a file or a session."""
     frames = options.target, options.source
     options.place, options.rate = _place_or_rate(options.place, options.rate)
     place = options.place
@@ -119,7 +119,7 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
 def _print_moment(
     connection: Connection, options: EchoOptions, pair: FramePair, printer: Printer
 ) -> None:
-    """Print one answer from complete frames."""
+    """Print one transform of a file, at --at or the newest."""
     at = options.at
     frames = open_from(connection, options.place, until=at, cache_time=options.cache_time)
     heading = in_words(pair.target, pair.source)
@@ -142,7 +142,7 @@ def _print_moment(
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
-    """Read a third word as tf2_echo's rate if it can be nothing else."""
+    """Interpret a third word that is a number as tf2_echo's rate, unless it names a source."""
     if place is None:
         return place, rate
     try:
@@ -168,14 +168,14 @@ def _check_names(*frames: str) -> None:
 
 
 def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
-    """Print a pair at many moments; report on stderr at how many there is no answer.
+    """Print a pair's transforms at many times; report on stderr how many lookups failed.
 
-    The moments are those of --at-stamps-of, else --rate a second, from the first stamp on.
+    The times are those of --at-stamps-of, or else evenly spaced by --rate from the first stamp on.
 
     Raises:
         InputError: If the recording has no such topic.
-        UsageError: If there are more moments than can be asked for at once.
-        TransformException: If the pair cannot be looked up at any of them.
+        UsageError: If there are more times than can be looked up at once.
+        TransformException: If every lookup fails.
     """
     pair, topic = (options.target, options.source), options.stamps_of
     # Needs numpy, which an answer about one moment does without.

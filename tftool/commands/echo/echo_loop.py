@@ -1,4 +1,4 @@
-"""Repeated lookups of one pair, printed to stdout as tf2_echo prints them."""
+"""Repeated lookups of one transform in a session, printed as tf2_echo prints them."""
 
 import asyncio
 import contextlib
@@ -27,7 +27,7 @@ from tftool.world.world import World
 def print_live(
     connection: Connection, options: EchoOptions, pair: FramePair, printer: Printer
 ) -> None:
-    """Look up a pair of a session repeatedly; print each answer, or replace the last one."""
+    """Look up a transform in a session repeatedly; print each one, or redraw it on a terminal."""
     session = open_session(connection, options.place, cache_time=options.cache_time)
     count = 1 if options.once else options.count
     redraws = count is None and not printer.for_programs and can_redraw()
@@ -53,12 +53,12 @@ def print_live(
 
 
 class LivePrinter:
-    """Printer that replaces the previous answer on the terminal."""
+    """Printer that replaces the previous transform on the terminal."""
 
     def __init__(
         self, redrawing: Redrawing, pair: FramePair, precision: int, with_distance: bool
     ) -> None:
-        """Make a printer for answers about `pair`."""
+        """Create a printer for transforms of `pair`."""
         self.redrawing = redrawing
         self.pair = pair
         self.precision = precision
@@ -66,7 +66,7 @@ class LivePrinter:
         self._shown: TransformStamped | None = None
 
     def found(self, now: Stamp, found: TransformStamped) -> None:
-        """Show an answer and its age."""
+        """Show a transform and its age."""
         self._shown = found
         age = now - found.stamp if found.stamp else None
         heading = view.live_heading(self.pair.target, self.pair.source, age)
@@ -75,12 +75,12 @@ class LivePrinter:
         self.redrawing.show(heading.append_text(answer))
 
     def aged(self, now: Stamp) -> None:
-        """Show the last answer again with its present age."""
+        """Redraw the last transform with its present age."""
         if self._shown is not None:
             self.found(now, self._shown)
 
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
-        """Show an error, as far as there is room."""
+        """Show the error of a failed lookup, cut to the terminal's height."""
         self._shown = None
         words = view.in_words(self.pair.target, self.pair.source)
         told = view.failure(now, refusal, buffer.all_frames_as_string()).rstrip()
@@ -89,7 +89,7 @@ class LivePrinter:
 
 
 class Echo:
-    """Lookups of one pair in one world until enough answers are printed."""
+    """Lookups of one transform in one world until enough were printed."""
 
     def __init__(
         self,
@@ -102,17 +102,17 @@ class Echo:
         patience: Duration | None = None,
         departures: Callable[[], int] = lambda: 0,
     ) -> None:
-        """Prepare to ask.
+        """Prepare the lookups.
 
         Args:
-            world: Source of the frames.
-            pair: The pair to look up.
-            printer: Printer of the answers.
-            period: Nanoseconds between two answers.
-            count: Number of answers to print; None for no end.
-            patience: Time to wait for the first answer, nanoseconds; None for ever.
-            departures: Gives how many processes that sent transforms have left; after each
-                further departure the wait starts again, for something new.
+            world: World whose buffer has the frames.
+            pair: Frames to look up.
+            printer: Printer of the results.
+            period: Nanoseconds between two lookups.
+            count: Number of transforms to print; None for no end.
+            patience: Longest wait for the first transform, nanoseconds; None for no limit.
+            departures: Function that returns how many processes with transforms have left; after
+                each departure, `Echo` waits for new data.
         """
         self.world = world
         self.pair = pair
@@ -123,10 +123,10 @@ class Echo:
         self.waiter = PairWait(world, pair, patience=patience)
 
     async def run(self) -> None:
-        """Print answers until there are enough.
+        """Print transforms until there are enough.
 
         Raises:
-            TransformException: If the first does not come in time, or never will.
+            TransformException: If the first transform is not available in time, or never will be.
         """
         clock, pace = self.world.clock, pace_of(self.world.clock)
         await self.waiter.wait()
@@ -157,7 +157,7 @@ class Echo:
             due = max(due, pace.now() - self.period)
 
     async def _renewed(self) -> None:
-        """Wait for new data after a publisher left, while the age of the shown answer grows.
+        """Wait for new data after a publisher left, and show the growing age meanwhile.
 
         Raises:
             TransformException: If the transform does not become available in time, or never will.

@@ -1,4 +1,4 @@
-"""`tftool edit`: change the frames of recordings; repair, join and cut."""
+"""Command `tftool edit`: change the frames of recordings; repair, join and cut them."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""`tftool edit`: change the frames of recordings; repair, join and cut."""
+"""Run of `tftool edit`: change the frames of recordings; repair, join and cut them."""
 
 import math
 import sys
@@ -49,7 +49,7 @@ def _tell(report: EditReport, output: Path, *, dry_run: bool, for_programs: bool
 def _moments(
     names: list[str], start: At | None, end: At | None, *, by_record_time: bool
 ) -> tuple[int | None, int | None]:
-    """Return the first and last time as stamps."""
+    """Return the values of --from and --to as stamps; None where not given."""
     if start is None and end is None:
         if by_record_time:
             raise UsageError("--record-time goes with --from or --to.")
@@ -140,9 +140,7 @@ def _reparented(text: str) -> "tuple[LinkName, str]":
 
 
 def _statics(name: str) -> "tuple[TransformStamped, ...]":
-    """Return another recording's static transforms, the last of each child, or a robot's fixed
-    joints.
-    """
+    """Return the static transforms of a recording (each child's last one) or a description."""
     found = find(name)
     samples: dict[str, TransformStamped] = {}
     if found.kind is Kind.DESCRIPTION:
@@ -166,7 +164,7 @@ def _statics(name: str) -> "tuple[TransformStamped, ...]":
 
 
 def run(options: EditOptions) -> ExitStatus:
-    """Run `tftool edit`."""
+    """Run `tftool edit`: write the changed recording."""
     if options.restamp not in (None, "log"):
         raise UsageError("--restamp takes 'log': the time a message was received.")
     low, high = _moments(

@@ -1,4 +1,4 @@
-"""`tftool explain`: why one lookup succeeds or fails, link by link."""
+"""Command `tftool explain`: why a lookup succeeds or fails, link by link."""
 
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command

@@ -1,4 +1,4 @@
-"""Explain one lookup: in a description joint by joint, else link by link over time."""
+"""Run of `tftool explain`: in a description joint by joint, else link by link over time."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
-    """Run `tftool explain`."""
+    """Run `tftool explain`: print why a lookup succeeds or fails."""
     source, at = options.source, options.at
     refuse_file_as_frame(options.target, source, options.place)
     if options.place is not None and named(options.place).kind is Kind.DESCRIPTION:
@@ -72,7 +72,7 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
 def _explain_joints(
     connection: Connection, place: str, frames: tuple[str, str], *, for_programs: bool
 ) -> ExitStatus:
-    """Explain a lookup in a robot description joint by joint."""
+    """Explain a lookup in a robot description, joint by joint."""
     opened = open_from(connection, place, tells=False)
     robot, joints = opened.robot, connection.robot.joints
     assert robot is not None

@@ -1,4 +1,4 @@
-"""`tftool export`: write frames to files of other tools."""
+"""Command `tftool export`: write frames to files of other tools."""
 
 from pathlib import Path
 

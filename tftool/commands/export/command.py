@@ -1,4 +1,4 @@
-"""Write the frames of FROM to files of other tools."""
+"""Run of `tftool export`: write the frames of a source to files of other tools."""
 
 from dataclasses import replace
 
@@ -25,7 +25,7 @@ from tftool.recordings.target import refuse_existing
 
 
 def run(connection: Connection, options: ExportOptions) -> ExitStatus:
-    """Run `tftool export`."""
+    """Run `tftool export`: write trajectories or links to a file."""
     style = Style(
         options.precision, options.rpy, options.foxglove, options.with_moving, options.root
     )
@@ -63,10 +63,10 @@ def run(connection: Connection, options: ExportOptions) -> ExitStatus:
 
 
 def _refuse_misfits(form: Format, pairs: list[tuple[str, str]], options: ExportOptions) -> None:
-    """Refuse options that contradict the output.
+    """Raise an error for options that do not fit the output format.
 
     Raises:
-        UsageError: If one does.
+        UsageError: If an option does not fit.
     """
     has_root = options.root is not None
     has_at = options.at is not None and not options.with_moving
@@ -95,7 +95,7 @@ def _refuse_misfits(form: Format, pairs: list[tuple[str, str]], options: ExportO
 
 
 def _as_object(done: Exported) -> dict[str, object]:
-    """Return the written files and the times without an answer, for --json."""
+    """Return the written files and the number of failed lookups as a mapping, for --json."""
     return {
         "schema": "tftool.export/1",
         "files": [str(path) for path in done.paths],
@@ -116,7 +116,7 @@ def _as_object(done: Exported) -> dict[str, object]:
 
 
 def _tell(done: Exported) -> None:
-    """Report on stderr how many rows were written and omitted."""
+    """Report on stderr how many rows were written, and how many were omitted."""
     for one in done.trajectories:
         if one.refused:
             reason = one.refusals[0].reason.strip()

@@ -1,7 +1,7 @@
-"""Work on many recordings in one process, several, or a cluster; the results are rows.
+"""Processing of many recordings in one process, several processes, or a cluster.
 
-All three use one executor of `concurrent.futures`. A recording that cannot be read gives a row too,
-and one that kills its process is tried again alone.
+All three use an executor of `concurrent.futures`. Results are rows of a table: a recording that
+cannot be read gets a row too, and one that kills its process is tried again alone.
 """
 
 import glob
@@ -97,10 +97,10 @@ UNREADABLE = "unreadable"
 
 
 class FleetTask:
-    """A task for one recording; it is pickled for other processes.
+    """Work to do for one recording; it is pickled for other processes.
 
     Attributes:
-        columns: The columns of a row.
+        columns: Names and types of the columns of a row.
         judged: Names of the columns that `outcome` reads.
     """
 
@@ -110,11 +110,11 @@ class FleetTask:
     judged: ClassVar[Sequence[str]]
 
     def rows(self, source: str, place: str) -> list[Row]:
-        """Return the rows of one recording; an unreadable one gives a row too, and raises nothing.
+        """Return the rows of one recording; also for an unreadable one, without raising.
 
         Args:
-            source: Name.
-            place: Path or URL.
+            source: Name of the recording in the rows.
+            place: Path or URL of the recording.
         """
         try:
             with fetched(place) as path:
@@ -129,22 +129,22 @@ class FleetTask:
         raise NotImplementedError
 
     def unreadable(self, source: str, why: str) -> Row:
-        """Return the row of an unreadable recording."""
+        """Return the row of an unreadable recording; `why` is the reason."""
         raise NotImplementedError
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Return the outcome for one recording, a word that `told` counts."""
+        """Return a recording's outcome as a word, such as "error", which `told` counts."""
         raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
 class Examination(FleetTask):
-    """Task of `doctor`: a row for each finding.
+    """Work of `tftool doctor`: a row for each finding.
 
     Attributes:
-        settings: Settings of the listener.
-        select: Checks to run.
-        ignore: Checks to leave out.
+        settings: Settings with which the doctor judges.
+        select: Checks to run; all if empty.
+        ignore: Checks not to run.
         scope: Part of a recording to examine.
     """
 
@@ -215,7 +215,7 @@ class Examination(FleetTask):
 
 @dataclass(frozen=True, slots=True)
 class Inventory(FleetTask):
-    """Task of `info`: one row per recording."""
+    """Work of `tftool info`: one row per recording."""
 
     columns = FACTS
     judged = ("damage", "unreadable")
@@ -248,7 +248,7 @@ class Inventory(FleetTask):
         return {"source": source, "unreadable": why}
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Return whether the recording is readable and complete."""
+        """Return "whole", "damaged" or "unreadable"."""
         if rows[0].get("unreadable") is not None:
             return UNREADABLE
         return "damaged" if rows[0]["damage"] else "whole"
@@ -263,13 +263,13 @@ def sweep(
     """Process many recordings, and write each result as soon as it is known.
 
     Args:
-        sources: The recordings; those that the output holds already are passed over.
+        sources: Recordings; those that the output already has are skipped.
         output: File for the rows; None to return them.
-        workers: The executor.
-        task: Work to do for each.
+        workers: Executor to use.
+        task: Work to do for each recording.
 
     Returns:
-        The number of recordings by outcome, and the rows if there is no output.
+        Number of recordings by outcome, and the rows if there is no output.
     """
     from rich.console import Console
     from rich.progress import (
@@ -329,7 +329,7 @@ def _results(
 def _worked(
     pool: Executor, sources: Sequence[str], workers: Workers, task: FleetTask
 ) -> Iterator[tuple[str, list[Row]]]:
-    """Yield the outcome of each recording as soon as it is known.
+    """Yield each recording with its rows as soon as they are known.
 
     Raises:
         BrokenExecutor: If a process was killed, after the results of the others.
@@ -362,8 +362,8 @@ def _failure(error: Exception) -> str:
     """Return why a worker of a cluster failed on one recording.
 
     Raises:
-        UsageError: If the cluster cannot do this work at all.
-        InputError: If the cluster is gone: nothing is wrong with the recording.
+        UsageError: If the cluster's workers lack tftool.
+        InputError: If the cluster cannot be reached any more, so that no recording is to blame.
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):
         raise UsageError("The workers of the cluster do not have this tftool installed.") from error
@@ -377,7 +377,7 @@ def _failure(error: Exception) -> str:
 
 
 def _alone(source: str, task: FleetTask) -> list[Row]:
-    """Process a recording alone in a new process, so that a crash affects no other recording."""
+    """Process a recording in a new process, so that a crash affects no other recording."""
     with processes(1) as pool:
         try:
             return pool.submit(task.rows, source, source).result()
@@ -389,12 +389,12 @@ def _alone(source: str, task: FleetTask) -> list[Row]:
 
 
 def expanded(words: Sequence[str]) -> list[str]:
-    """Return each recording named by files, folders, globs and URLs once.
+    """Return the recordings that files, folders, globs and URLs name, each once.
 
-    Files of a glob with the suffix of a recording count as recordings, even if they cannot be read.
+    Files that match a glob and have the suffix of a recording count, even if they cannot be read.
 
     Raises:
-        InputError: If a glob or a folder of the web names nothing, or cannot be listed.
+        InputError: If a glob or web folder names nothing, or cannot be listed.
     """
     found: list[str] = []
     for word in words:
@@ -434,7 +434,7 @@ def _is_recording(path: str) -> bool:
 
 
 def told(counts: dict[str, int]) -> str:
-    """Format the counts of outcomes."""
+    """Format the number of recordings by outcome as text."""
     words = {
         "error": "with errors",
         "warning": "with warnings",
@@ -448,7 +448,7 @@ def told(counts: dict[str, int]) -> str:
 
 
 def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
-    """Print the summary of a sweep and of the recordings it skipped."""
+    """Print the summary of processed recordings, and of those skipped as already done."""
     total = sum(counts.values())
     passed = sum(earlier.values())
     over = f" ({passed:,} were in it already: {told(earlier)})" if passed else ""
@@ -463,7 +463,7 @@ def swept_into(
     """Process many recordings, write a file of rows, and print the summary.
 
     Returns:
-        The number of recordings by outcome, in all of the file.
+        Number of recordings in the whole file, by outcome.
     """
     sources = expanded(words)
     if not sources:

@@ -1,4 +1,4 @@
-"""File of result rows that grows during the work: JSON lines, CSV, or Parquet."""
+"""Table of results that grows during the work: JSON lines, CSV or Parquet."""
 
 import csv
 import io
@@ -21,7 +21,7 @@ Row = dict[str, Any]
 
 
 class ColumnKind(Enum):
-    """Type of a column's cells."""
+    """Type of the cells in a column."""
 
     TEXT = "text"
     TEXTS = "a list of texts"
@@ -36,12 +36,12 @@ SUFFIXES = (".jsonl", ".csv", ".parquet")
 class RowFile:
     """File of rows; the rows of one recording are written together.
 
-    Parquet files cannot grow: rows are collected as JSON lines in a file beside it, `NAME.part`,
-    which is converted when it is closed, and continued after a crash.
+    Parquet files cannot grow, so rows are collected as JSON lines in a file beside it, `NAME.part`.
+    This file is converted when the output is closed, and continued after a crash.
 
     Attributes:
-        path: The file.
-        source: The column that names the recording.
+        path: Path of the file.
+        source: Name of the column that names the recording.
     """
 
     source = "source"
@@ -57,13 +57,13 @@ class RowFile:
         """Open the file.
 
         Args:
-            path: Path; the suffix selects the format: .jsonl, .csv or .parquet.
-            columns: The columns of a table.
-            judged: The columns that are kept of its existing rows; see `earlier`.
-            resume: Whether to keep existing rows and append.
+            path: Path of the file, whose suffix selects the format: .jsonl, .csv or .parquet.
+            columns: Names and types of the columns.
+            judged: Names of the columns to load of existing rows; see `earlier`.
+            resume: Whether to keep existing rows and append to them.
 
         Raises:
-            UsageError: If the suffix is another, or an extra is not installed.
+            UsageError: If the suffix is unknown, or an optional package is not installed.
             InputError: If the file cannot be opened, or was not written by this command.
         """
         self.path = path
@@ -94,20 +94,18 @@ class RowFile:
             self._file.write(self._table([self._columns]))
 
     def holds(self, source: str) -> bool:
-        """Whether the file already had rows of a recording when it was opened."""
+        """Return whether the file had rows of a recording when it was opened."""
         return bool(self.earlier(source))
 
     def earlier(self, source: str) -> list[Row]:
-        """Return the rows a recording had when the file was opened, in the columns that `outcome`
-        reads.
-        """
+        """Return a recording's rows of when the file was opened, in the `judged` columns."""
         written = _cell(source) if self._suffix == ".csv" else source
         return self._done.get(str(written)) or (
             self._done.get(_utf8(source), []) if self._is_parquet else []
         )
 
     def _held(self) -> Iterator[Row]:
-        """Return the existing rows, at least in those columns; cut an incomplete last line."""
+        """Yield the existing rows, in the `judged` columns or more; cut off a partial last line."""
         if self._is_parquet and self.path.exists() and self.path.stat().st_size:
             arrow = _arrow()
             try:
@@ -136,7 +134,7 @@ class RowFile:
         """Write all rows of one recording together.
 
         Raises:
-            InputError: If the disk is full, or gone.
+            InputError: If the file cannot be written, for example on a full disk.
         """
         if self._suffix == ".csv":
             content = self._table([_cell(row.get(c)) for c in self._columns] for row in rows)
@@ -154,7 +152,7 @@ class RowFile:
         return text.getvalue().encode("utf-8", "backslashreplace")
 
     def close(self) -> None:
-        """Close the file; for Parquet, write the table.
+        """Close the file; for Parquet, convert the collected rows first.
 
         Raises:
             InputError: If the file cannot be written.
@@ -171,7 +169,7 @@ class RowFile:
             ) from error
 
     def _make_parquet(self) -> None:
-        """Merge the existing table and the new rows into one table."""
+        """Merge the rows of the existing file and the new rows into one Parquet file."""
         arrow = _arrow()
         schema = arrow.schema([(name, _type(kind)) for name, kind in self._columns.items()])
         whole = self.path.with_name(f"{self.path.name}.tmp")
@@ -206,7 +204,7 @@ def _blocks(lines: BinaryIO, size: int = 10_000) -> Iterator[list[Row]]:
 
 
 def _arrow() -> Any:
-    """Import the package that writes Parquet.
+    """Import pyarrow, which reads and writes Parquet.
 
     Raises:
         UsageError: If the package is not installed.
@@ -234,7 +232,7 @@ def _type(kind: ColumnKind) -> "pyarrow.DataType":
 
 
 def _clean(value: Any, kind: ColumnKind) -> Any:
-    """Escape invalid UTF-8 in a cell of Parquet."""
+    """Return a Parquet cell with invalid UTF-8 escaped."""
     if value is None or kind in (ColumnKind.INTEGER, ColumnKind.NUMBER):
         return value
     if kind is ColumnKind.EDGES:
@@ -247,7 +245,7 @@ def _utf8(text: str) -> str:
 
 
 def _cell(value: object) -> object:
-    """Convert a value to a cell of a table."""
+    """Convert a value to a cell of a CSV file."""
     if isinstance(value, list):
         return json.dumps(value) if value else ""
     if isinstance(value, str):

@@ -25,16 +25,16 @@ ANSWERS_WITHIN = "20s"
 
 @contextmanager
 def connected(address: str) -> Iterator[Executor]:
-    """Connect to the scheduler of a cluster.
+    """Connect to the scheduler of a Dask cluster.
 
-    If a worker ends, another one gets its work.
+    If a worker ends, another worker repeats its work.
 
     Args:
-        address: "tcp://HOST:8786".
+        address: Address of the scheduler, "tcp://HOST:8786".
 
     Raises:
-        UsageError: If Dask is not installed, or this is not an address.
-        InputError: If no scheduler answers there.
+        UsageError: If Dask is not installed, or the address is invalid.
+        InputError: If no scheduler responds at the address.
     """
     try:
         import distributed
@@ -71,13 +71,13 @@ _ON_CLUSTER = 512
 
 @dataclass(frozen=True, slots=True)
 class Workers:
-    """Executors of one kind.
+    """Executors of one kind: this process, a process pool, or a cluster.
 
     Attributes:
-        count: Number of recordings processed at once.
-        window: Number of recordings submitted at once.
-        open: Returns an executor; after a failure, a new one.
-        is_remote: Whether they need whole paths: all workers share the file system.
+        count: Number of recordings processed at the same time.
+        window: Number of recordings submitted at the same time.
+        open: Function that returns an executor; called again after a failure.
+        is_remote: Whether recordings need absolute paths, on a file system that all workers share.
     """
 
     count: int
@@ -86,12 +86,12 @@ class Workers:
     is_remote: bool = False
 
     def place(self, source: str) -> str:
-        """Return the path or URL under which the workers open a recording."""
+        """Return the path or URL at which workers open a recording."""
         return os.path.abspath(source) if self.is_remote and not is_url(source) else source
 
 
 class _Here(Executor):
-    """Executor that does all work in this process, at once."""
+    """Executor that does all work in this process, during `submit`."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         future: Future[Any] = Future()
@@ -111,7 +111,7 @@ def processes(count: int) -> ProcessPoolExecutor:
 
 
 def workers_of(count: int, scheduler: str) -> Workers:
-    """Return the workers that a command's options choose.
+    """Return the executors that the options --jobs and --scheduler select.
 
     Raises:
         UsageError: If both are given.

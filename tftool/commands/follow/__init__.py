@@ -1,4 +1,4 @@
-"""`tftool follow`: a turtle that follows a frame."""
+"""Command `tftool follow`: a turtle that follows a frame."""
 
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.declaration import Command

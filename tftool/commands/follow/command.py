@@ -1,4 +1,4 @@
-"""`tftool follow`: a turtle that follows a frame."""
+"""Run of `tftool follow`: a turtle that follows a frame."""
 
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
@@ -23,13 +23,13 @@ SETTLE = seconds(0.5)
 
 
 def _tell(record: LogRecord) -> None:
-    """Print the follower's log and its errors; the session prints those of the connection."""
+    """Print the follower's log and other nodes' errors; the session prints those of the link."""
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)
 
 
 async def _last(session: Session, follower: str, run_for: Duration | None) -> None:
-    """Run the world for a duration; broadcast a guest's follower if nobody does yet."""
+    """Run the world for a duration; in a joined session, broadcast the follower if no node does."""
     if not session.is_hosted:
         # Another process may broadcast the follower already: two would be one too many.
         await session.lasting(SETTLE)
@@ -39,7 +39,7 @@ async def _last(session: Session, follower: str, run_for: Duration | None) -> No
 
 
 def run(connection: Connection, options: FollowOptions) -> ExitStatus:
-    """Run `tftool follow`."""
+    """Run `tftool follow`: spawn a turtle and let it follow a frame."""
     connection.refuse_read_only("drive")
     session = open_session(
         connection,

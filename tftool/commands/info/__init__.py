@@ -1,4 +1,4 @@
-"""`tftool info`: contents of a recording or robot description."""
+"""Command `tftool info`: contents of a recording or robot description."""
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Jobs, Json, Resume, Rows, Scheduler, argument

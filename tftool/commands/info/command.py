@@ -1,4 +1,4 @@
-"""Print the contents of recordings and robot descriptions."""
+"""Run of `tftool info`: contents of recordings and robot descriptions."""
 
 import sys
 from pathlib import Path
@@ -21,7 +21,7 @@ from tftool.robots.static_publishers import read_statics
 
 
 def run(connection: Connection, options: InfoOptions) -> ExitStatus:
-    """Run `tftool info`."""
+    """Run `tftool info`: print the contents of one file, or a line or row for each of several."""
     if options.output is None and (options.resume or options.scheduler):
         raise UsageError("--resume and --scheduler make rows: add -o FILE.")
     if (
@@ -55,7 +55,7 @@ def _is_launch_file(place: str) -> bool:
 
 
 def _is_text(place: str) -> bool:
-    """Whether a file is a robot description, launch file or script, and no recording."""
+    """Return whether a file is a robot description, launch file or script, not a recording."""
     try:
         return Path(place).is_file() and named(place).kind in (Kind.DESCRIPTION, Kind.STATICS)
     except InputError:
@@ -63,7 +63,7 @@ def _is_text(place: str) -> bool:
 
 
 def _list_texts(connection: Connection, places: list[str], *, for_programs: bool) -> ExitStatus:
-    """Print a line for each robot description or launch file, and every mistake in them."""
+    """Print a line for each robot description or launch file, and every mistake in the files."""
     rows: list[dict[str, object]] = []
     for place in places:
         kind, path = named(place).kind, Path(place)
@@ -91,7 +91,7 @@ def _list_texts(connection: Connection, places: list[str], *, for_programs: bool
 
 
 def _show(connection: Connection, place: str, name: str, *, for_programs: bool) -> ExitStatus:
-    """Print everything about one recording or description."""
+    """Print everything about one recording or robot description."""
     found = named(place)
     if found.kind is Kind.DESCRIPTION:
         _show_robot(connection, found.paths[0], name, for_programs=for_programs)

@@ -1,4 +1,4 @@
-"""`tftool launch`: launch files without ROS."""
+"""Command `tftool launch`: run launch files without ROS."""
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (

@@ -1,4 +1,4 @@
-"""`tftool launch`: launch files without ROS."""
+"""Run of `tftool launch`: run launch files without ROS."""
 
 import sys
 
@@ -19,7 +19,7 @@ from tftool.ros.launch.engine import Launch
 
 
 def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
-    """Run `tftool launch`."""
+    """Run `tftool launch`: start the nodes of a launch file, or print its arguments."""
     if options.simulated and options.run_for is None and not options.show_args:
         raise UsageError("on simulated time a launch needs --for SECONDS")
     if options.simulated:

@@ -1,4 +1,4 @@
-"""`tftool monitor`: rate and delay of received transforms."""
+"""Command `tftool monitor`: rate and delay of received transforms."""
 
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command

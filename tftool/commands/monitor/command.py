@@ -1,4 +1,4 @@
-"""Report on a session, live or at its end, or on the messages of a recording."""
+"""Run of `tftool monitor`: reports about a session, or about the messages of a recording."""
 
 import json
 import os
@@ -58,14 +58,14 @@ class ReportStyle(Enum):
 
 
 class TrafficReport:
-    """Received transforms, the delay of one chain, and the report about them."""
+    """Received transforms, the delay of one chain, and their output as a report."""
 
     def __init__(self, frames: tuple[str, str] | None, style: ReportStyle) -> None:
-        """Make an empty report.
+        """Create an empty report.
 
         Args:
             frames: Target and source of the chain to report on; None for all frames.
-            style: Form of the report.
+            style: Output format.
         """
         self.frames = frames
         self.style = style
@@ -73,7 +73,7 @@ class TrafficReport:
         self.chain: view.Chain | None = None
 
     def begin(self, buffer: Buffer, now: Stamp) -> None:
-        """Find the chain, and insert static transforms as a late subscriber receives them."""
+        """Find the chain, and insert static transforms, as a late subscriber receives them."""
         if self.frames is not None:
             chain = tuple(buffer.chain(*self.frames)) or self.frames[:1]
             self.chain = view.Chain(*self.frames, chain, NetDelay())
@@ -83,7 +83,7 @@ class TrafficReport:
                 self.traffic.receive(now, [sample], info.authority or "", is_static=True)
 
     def measure(self, buffer: Buffer, now: Stamp) -> None:
-        """Record the age of the chain's newest answer; a static chain has none."""
+        """Record the age of the chain's newest transform; a static chain has no age."""
         if self.chain is None:
             return
         try:
@@ -95,7 +95,7 @@ class TrafficReport:
             self.chain.delay.add(as_seconds(now - found.stamp))
 
     def announce(self, period: Duration, duration: Duration | None) -> None:
-        """Print the subject and the interval of reports to stderr."""
+        """Print to stderr which frames are reported on, and how often."""
         about = "all frames" if self.frames is None else in_words(*self.frames)
         if period == duration:
             notice(f"Gathering data on {about} for {round(as_seconds(duration), 3):g} s ...")
@@ -144,18 +144,18 @@ class TrafficReport:
 async def watch_session(
     world: World, report: TrafficReport, *, period: Duration, lasting: Duration | None
 ) -> None:
-    """Listen to a world and report, once a period.
+    """Listen to a world and write a report once a period.
 
-    The time begins once the frames are connected; the last report is at its end.
+    Time is counted from when the frames are connected; the last report is written at the end.
 
     Args:
         world: World to listen to.
-        report: The report to fill and to write.
+        report: Report to fill and to write.
         period: Nanoseconds between two reports.
-        lasting: Duration, nanoseconds; None for ever.
+        lasting: Nanoseconds to listen; None for no end.
 
     Raises:
-        TransformException: If the frames are not connected in as much time, or never will be.
+        TransformException: If the frames are not connected within `lasting`, or never will be.
     """
     clock, pace = world.clock, pace_of(world.clock)
     if report.frames is not None:
@@ -208,7 +208,7 @@ async def watch_session(
 
 
 async def _shown(world: World, report: TrafficReport, life: Coroutine[Any, Any, None]) -> None:
-    """Show the report on a full screen until q is pressed or `life` is over."""
+    """Show the report on a full screen until q is pressed or the coroutine `life` ends."""
     from tftool.screens.terminal.screen_options import Setting, setting_from
     from tftool.screens.terminal.traffic_app import TrafficWatch
     from tftool.screens.terminal.world_app import show
@@ -230,17 +230,17 @@ def report_recording(
     lasting: Duration | None,
     cache_time: Duration | None,
 ) -> None:
-    """Report on a recording.
+    """Write reports about a recording.
 
     Args:
-        frames: The recording.
-        report: The report to fill and to write.
-        period: Nanoseconds between two reports; one report about all of it if None.
-        lasting: Duration of the reported part, from the moment the frames are connected.
+        frames: Frames of the recording.
+        report: Report to fill and to write.
+        period: Nanoseconds between two reports; None for one report about everything.
+        lasting: Nanoseconds to report on, counted from when the frames are connected.
         cache_time: Cache time of the lookups, as in a session.
 
     Raises:
-        TransformException: If the frames are not connected in as much time.
+        TransformException: If the frames are not connected within `lasting`.
     """
     recording = frames.recording
     assert recording is not None
@@ -280,8 +280,8 @@ class Arrivals:
         """Start before the first message; static transforms are known from the start.
 
         Args:
-            timeline: The messages.
-            buffer: Takes their transforms.
+            timeline: Messages of the recording.
+            buffer: Buffer into which their transforms are inserted.
         """
         self.buffer = buffer
         self._timeline = timeline
@@ -309,7 +309,7 @@ class Arrivals:
             self._place += 1
 
     def connect(self, pair: tuple[str, str], end: Stamp) -> Stamp:
-        """Receive messages until a pair can be looked up; return that time.
+        """Receive messages until a pair can be looked up; return the time of the last message.
 
         Raises:
             TransformException: If the frames are not connected at the end.
@@ -331,14 +331,14 @@ class Arrivals:
         return moment
 
     def measure(self, report: TrafficReport, moments: Stamps) -> None:
-        """Record the age of the newest answer of a report's chain at each of these moments.
+        """Record the age of the newest transform of the report's chain at each of these times.
 
-        Lookups need the messages received up to each moment, and receiving a few hundred at a
-        time takes twice as long as receiving all. The arrival times alone give the same ages
-        wherever every link has one publisher whose stamps increase.
+        Lookups would need the messages received up to each time, and receiving a few hundred
+        messages at a time takes twice as long as receiving all. The arrival times alone give the
+        same ages if every link has one publisher whose stamps increase.
 
         Args:
-            report: The report to fill.
+            report: Report to fill.
             moments: Nanoseconds, shape (n,), increasing.
         """
         assert report.chain is not None
@@ -367,7 +367,7 @@ class Arrivals:
             report.chain.delay.add(delay)
 
     def _receive_many(self, first: int, last: int, traffic: Traffic) -> None:
-        """Receive plain messages in bulk: first by frame, then by publisher."""
+        """Receive messages of moving frames in bulk: grouped by frame, then by publisher."""
         timeline = self._timeline
         rows = timeline.rows(first, last)
         if not len(rows.edges):
@@ -417,7 +417,7 @@ class Arrivals:
 
 
 def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
-    """Run `tftool monitor`."""
+    """Run `tftool monitor`: report on a session or a recording."""
     if options.as_tf2 and options.for_programs:
         raise UsageError("--tf2 and --json are two output formats: choose one.")
     frames, place = _sorted_out(options.words or [])
@@ -452,7 +452,7 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
 
 
 def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
-    """Interpret the words: two are frames, one is a world, three are all."""
+    """Split the words into frames and FROM: two words are frames, one is FROM, three are both."""
     if len(words) > 3:
         raise UsageError(
             f"{len(words)} words are too many: no frames or two of them, then a scenario."

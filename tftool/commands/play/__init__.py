@@ -1,4 +1,4 @@
-"""`tftool play`: a recording as a live session."""
+"""Command `tftool play`: play a recording as a live session."""
 
 from typing import Literal
 

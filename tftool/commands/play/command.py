@@ -1,4 +1,4 @@
-"""`tftool play`: a recording as a live session."""
+"""Run of `tftool play`: play a recording as a live session."""
 
 import asyncio
 import os
@@ -68,9 +68,9 @@ def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> Non
     """Handle a key: pause, next message, seek, rate, quit; ignore other keys.
 
     Args:
-        player: The player.
-        key: The key.
-        marks: Findings that "n" goes to, one after the other, and "N" back.
+        player: Player to control.
+        key: Name of the key.
+        marks: Findings to seek to: "n" the next one, "N" the previous one.
     """
     if key == "space":
         if player.is_paused:
@@ -105,14 +105,14 @@ _SEEKS: Final[dict[str, Duration]] = {
 
 
 class Display:
-    """Position of the playback on stderr, if that is a terminal; below it a finding, if any."""
+    """Lines on stderr with the playback's position and a finding, if stderr is a terminal."""
 
     def __init__(self, player: "Player", clock: Clock, marks: Sequence[PlaybackMark] = ()) -> None:
-        """Start without a picture.
+        """Start without drawing.
 
         Args:
-            player: The player.
-            clock: Clock by which to draw.
+            player: Player whose position is shown.
+            clock: Clock that times the drawing.
             marks: Findings of the doctor.
         """
         self._marks = marks
@@ -128,7 +128,7 @@ class Display:
         self._ascii_only = not encoding.startswith("utf")
 
     def tell(self, record: "LogRecord") -> None:
-        """Print messages of the link and the player."""
+        """Print log messages of the link and the player."""
         if is_news(record):
             self.clear()
             notice(visible(record.text))
@@ -173,7 +173,7 @@ class Display:
             self._erase = ""
 
     async def keep(self) -> None:
-        """Redraw the lines for as long as this runs."""
+        """Redraw the lines repeatedly until cancelled."""
         while True:
             self.draw()
             await self._clock.sleep(REDRAW, Phase.WATCH)
@@ -187,10 +187,10 @@ MOST_MARKS = 200
 
 
 def _refuse_to_mix(link: Link) -> None:
-    """Refuse to mix a recording's transforms into the graph of a robot that publishes its own.
+    """Raise an error if a robot publishes transforms, with which the recording's would mix.
 
     Raises:
-        UsageError: If transforms are published there.
+        UsageError: If another node publishes transforms.
     """
     nodes = sorted({one.node for one in link.graph.entities(PUBLISHER, name="tf")})
     if nodes:
@@ -207,7 +207,7 @@ def _span(
     """Return the start and the end of the playback.
 
     Raises:
-        UsageError: If there is nothing between.
+        UsageError: If the recording has nothing between them.
     """
     # Received later than it was stamped, the last message lies behind the last stamp.
     low, high = min(timeline.start, recording.start), max(timeline.end, recording.end)
@@ -270,7 +270,7 @@ def _feed(recording: Recording, timeline: Timeline, link: Link | None) -> TopicF
 async def _until_over(
     world: World, pace: Clock, display: Display, duration: Duration | None
 ) -> None:
-    """Show the playback position until it is over; then end the world."""
+    """Show the position until the playback or the duration ends; then end the world."""
     showing = asyncio.ensure_future(display.keep())
     try:
         if duration is None:
@@ -301,7 +301,7 @@ def _marks(recording: Recording, start: Stamp) -> list[PlaybackMark]:
 
 
 def run(connection: Connection, options: PlayOptions) -> ExitStatus:
-    """Run `tftool play`."""
+    """Run `tftool play`: play a recording until its end or a key."""
     connection.refuse_read_only("play")
     found = named(options.file)
     if not found.kind.is_recording:

@@ -1,4 +1,4 @@
-"""`tftool plot`: a pair of frames over time, in the terminal or as a picture."""
+"""Command `tftool plot`: a transform over time, in the terminal or as a picture."""
 
 from pathlib import Path
 

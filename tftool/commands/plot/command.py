@@ -1,4 +1,4 @@
-"""Plot pairs of frames: of a file as a whole, of a session live."""
+"""Run of `tftool plot`: transforms over time, complete from a file, live from a session."""
 
 import math
 import sys
@@ -38,16 +38,16 @@ def drawn(
     span: tuple[float, float] | None = None,
     hidden: frozenset[int] | None = None,
 ) -> Text:
-    """Draw pairs at the width of a console.
+    """Draw transforms over time for a console.
 
     Args:
-        options: The command's options.
-        found: The pairs.
-        start: The moment that is 0 on the axis.
-        console: The console to print on; 80 columns wide unless it is a terminal.
-        height: Lines there are; as many as are good if None.
-        span: Seconds since `start` that the axis covers; from data to data if None.
-        hidden: Numbers of the curves that keys have hidden; None where there are no keys.
+        options: Options of the command.
+        found: Transforms over time.
+        start: Time that is 0 on the axis.
+        console: Console to print on; drawn 80 columns wide unless it is a terminal.
+        height: Number of lines; None for a suitable number.
+        span: Seconds since `start` that the axis covers; None for all data.
+        hidden: Numbers of the curves that keys have hidden; None without keys.
     """
     width = console.width if console.is_terminal else 80
     ascii_only = options.ascii_only or console.options.ascii_only
@@ -60,16 +60,16 @@ def drawn(
 
 
 def _quantities(options: PlotOptions) -> Sequence[str]:
-    """Return what --only names.
+    """Return the quantities that --only names.
 
     Raises:
-        UsageError: If it names no quantity.
+        UsageError: If --only has a word that is no quantity.
     """
     return chosen([one for text in options.only or () for one in text.split(",") if one.strip()])
 
 
 def run(connection: Connection, options: PlotOptions) -> ExitStatus:
-    """Run `tftool plot`."""
+    """Run `tftool plot`: draw, print or write the plot."""
     asked, place = pairs_and_place(options.words or [], options.pairs or [])
     if not asked:
         raise UsageError("Name what to plot: tftool plot TARGET SOURCE [FROM].")
@@ -135,7 +135,7 @@ def _curve(curve: PlotCurve, pair: Trajectory) -> dict[str, object]:
 def _as_object(
     found: list[Trajectory], start: Stamp, quantities: Sequence[str]
 ) -> dict[str, object]:
-    """Return the curves for --json; null where a curve is interrupted."""
+    """Return the curves as a mapping, for --json, with null where a curve is interrupted."""
     return {
         "schema": "tftool.plot/1",
         "start_ns": start,

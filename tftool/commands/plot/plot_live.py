@@ -1,4 +1,4 @@
-"""Live plot of a session."""
+"""Live plot of a session on the terminal."""
 
 from rich.console import Console
 from rich.live import Live
@@ -30,7 +30,7 @@ _STEP = 1.5
 
 
 class PlotSight:
-    """State that keys change: the visible time of a live plot, and its hidden curves.
+    """Visible time span and hidden curves of a live plot, which keys change.
 
     Attributes:
         hidden: Numbers of the curves that are not drawn.
@@ -44,7 +44,7 @@ class PlotSight:
         self._back: Duration = 0
 
     def press(self, key: str) -> None:
-        """Handle a key: + - zoom, left and right move in time, 0 shows all, digits hide."""
+        """Handle a key: + and - zoom, arrows move in time, 0 shows all, digits hide curves."""
         quarter = self._span // 4
         if key in ("q", "Q"):
             self.ended = True
@@ -68,7 +68,7 @@ class PlotSight:
 
     @property
     def hint(self) -> str:
-        """Return a line about the keys and the time shown."""
+        """Line that lists the keys and says how far back the shown time is."""
         back = f"{as_seconds(self._back):.1f} s back   " if self._back else ""
         return f"{back}q quit  + - zoom  left right time  0 all  1-9 hide a curve"
 
@@ -114,11 +114,11 @@ def _newest(
     console: Console,
     height: int,
 ) -> Text:
-    """Draw the visible time, or say which data is still missing."""
+    """Draw the visible time span, or report which data is still missing."""
     first, now = sight.span(world.clock.now())
 
     def arrived(target: str, source: str) -> Stamp:
-        """Return the time up to which poses can be known; later samples are still on their way."""
+        """Return the last time with known poses; later samples may not have arrived yet."""
         newest = world.buffer.newest_common(target, source)
         return newest if now - ON_ITS_WAY < newest < now else now
 

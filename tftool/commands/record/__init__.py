@@ -1,4 +1,4 @@
-"""`tftool record`: a session as a recording."""
+"""Command `tftool record`: record a session."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""`tftool record`: a session as a recording."""
+"""Run of `tftool record`: record a session."""
 
 import json
 import os
@@ -48,7 +48,7 @@ _ERASE: Final = "\r\x1b[K"
 
 
 class RecordingRun:
-    """One run of a recorder, on one clock."""
+    """Loop that writes a recorder's messages to a file until a time, a finding or a stop."""
 
     def __init__(
         self,
@@ -57,13 +57,13 @@ class RecordingRun:
         clock: Clock,
         finding: str | None = None,
     ) -> None:
-        """Make a run of a recorder.
+        """Prepare the recording.
 
         Args:
-            recorder: The recorder.
+            recorder: Recorder, which receives the messages.
             rolling: Writer of the recording.
-            clock: Clock by which to look.
-            finding: Id of the finding that ends recording; None for none.
+            clock: Clock that times the writing.
+            finding: Id of the doctor's finding that ends the recording; None for none.
         """
         self.recorder = recorder
         self.rolling = rolling
@@ -76,10 +76,10 @@ class RecordingRun:
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     async def run(self, duration: Duration | None) -> None:
-        """Record for `duration` nanoseconds or until a finding; without either until stopped.
+        """Record for `duration` nanoseconds or until the finding; without either until stopped.
 
         Raises:
-            InputError: If the file cannot be written any more; the data so far is readable.
+            InputError: If the file cannot be written any more; what was written is readable.
         """
         clock = self._clock
         end = None if duration is None else clock.now() + duration
@@ -96,7 +96,7 @@ class RecordingRun:
                 self.found = self._look(now)
 
     def _look(self, now: Stamp) -> "Finding | None":
-        """Whether the doctor reports the finding for the content of the ring buffer."""
+        """Return the finding if the doctor reports it for the ring buffer's content."""
         assert self._finding is not None
         held = self.rolling.held()
         material = evidence_of_log(
@@ -110,7 +110,7 @@ class RecordingRun:
         return next(iter(diagnosis.findings), None)
 
     def _draw(self, now: Stamp) -> None:
-        """Redraw the line, if stderr is a terminal."""
+        """Redraw the line with the progress, if stderr is a terminal."""
         if not self._is_terminal:
             return
         then, count = self._before
@@ -128,14 +128,14 @@ class RecordingRun:
         sys.stderr.flush()
 
     def clear(self) -> None:
-        """Erase the line."""
+        """Erase the line with the progress."""
         if self._is_terminal:
             sys.stderr.write(_ERASE)
             sys.stderr.flush()
 
 
 def heard(messages: list[Kept]) -> TransformLog:
-    """Return the content of some messages in the doctor's form."""
+    """Return the transforms of recorded messages as a log for the doctor."""
     hearing = TransformLog()
     for channel, log_time, payload, _ in messages:
         if channel.type != "tf2_msgs/msg/TFMessage":
@@ -173,7 +173,7 @@ RING = seconds(60)
 
 @contextmanager
 def _ended_by_hangup() -> Iterator[None]:
-    """End the recording as Ctrl-C does when the terminal is closed."""
+    """Within this block, end the recording as Ctrl-C does when the terminal is closed."""
     if not hasattr(signal, "SIGHUP") or threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -206,7 +206,7 @@ def _summed_up(rolling: RollingRecording) -> str:
 
 
 def _size(text: str | None) -> int:
-    """Parse a size such as 500MB."""
+    """Parse a size in bytes, such as 500MB."""
     if text is None:
         return 0
     match = _SIZE.fullmatch(text.strip())
@@ -219,10 +219,10 @@ def _size(text: str | None) -> int:
 
 
 def _refuse_places(topics: Sequence[str]) -> None:
-    """Refuse a scenario or file given in place of a topic's name.
+    """Raise an error for a scenario or file given in place of a topic's name.
 
     Raises:
-        UsageError: If one does.
+        UsageError: If a word is a scenario or file.
     """
     for word in topics:
         if word.startswith("/"):
@@ -245,7 +245,7 @@ def _check_finding(name: str) -> None:
 
 
 def run(connection: Connection, options: RecordOptions) -> ExitStatus:
-    """Run `tftool record`."""
+    """Run `tftool record`: record a session to a file."""
     ring = options.ring
     if options.finding is not None:
         _check_finding(options.finding)

@@ -1,4 +1,4 @@
-"""`tftool robot`: a robot description as a live robot whose joints keys move."""
+"""Command `tftool robot`: publish a robot description, whose joints the keys move."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""`tftool robot`: a robot description as a live robot whose joints keys move."""
+"""Run of `tftool robot`: publish a robot description, whose joints the keys move."""
 
 import os
 import sys
@@ -70,7 +70,7 @@ def _show(
     run_for: Duration | None,
     solids: tuple[Solids, Sequence[str]],
 ) -> None:
-    """Show the sliders while the session runs."""
+    """Show the joints' sliders while the session runs."""
     world = session.world
     sliders = Sliders(described, mover, seed=world.clock.now())
     if mover is None:
@@ -132,7 +132,7 @@ def _tell_missing(sentences: Sequence[str]) -> None:
 
 
 def run(connection: Connection, options: RobotOptions) -> ExitStatus:
-    """Run `tftool robot`."""
+    """Run `tftool robot`: publish, show or draw a robot."""
     connection.refuse_read_only("publish")
     found = named(options.place)
     if found.kind is not Kind.DESCRIPTION:

@@ -1,4 +1,4 @@
-"""`tftool ros2`: the verbs of ROS 2's command line for our sessions."""
+"""Command `tftool ros2`: commands of ROS 2's command line, for tftool's sessions."""
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Json, RunFor, argument, option

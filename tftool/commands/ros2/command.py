@@ -1,4 +1,4 @@
-"""`tftool ros2`: the verbs of ROS 2's command line for our sessions."""
+"""Run of `tftool ros2`: commands of ROS 2's command line, for tftool's sessions."""
 
 import json
 from collections.abc import Sequence
@@ -37,7 +37,7 @@ _ELSEWHERE = {
 
 
 class _JsonLines:
-    """Printer that converts each YAML document of `ros2` to one line of JSON."""
+    """Printer that converts each YAML document that a command prints to one line of JSON."""
 
     def __init__(self, words: Sequence[str]) -> None:
         self._lines: list[str] = []
@@ -45,14 +45,14 @@ class _JsonLines:
         self._is_endless = words[1:2] in (["hz"], ["bw"], ["delay"])
 
     def __call__(self, line: str) -> None:
-        """Take one line; `---` ends a document."""
+        """Add a printed line to the document; `---` ends the document."""
         if line != "---":
             self._lines.append(line)
         if line == "---" or self._is_endless:
             self.finish()
 
     def finish(self) -> None:
-        """Print the last, unfinished document."""
+        """Print the last document, which no `---` has ended."""
         if not self._lines:
             return
         try:
@@ -67,7 +67,7 @@ class _JsonLines:
 
 
 def run(connection: Connection, options: Ros2Options) -> int:
-    """Run `tftool ros2`."""
+    """Run `tftool ros2`: run a command of ROS 2's command line, and return its exit status."""
     words = options.words
     for length in (2, 1):
         asked = " ".join(words[:length])
@@ -109,7 +109,7 @@ def run(connection: Connection, options: Ros2Options) -> int:
 
 
 def _run_launch_tests(connection: Connection, words: list[str]) -> int:
-    """Run `tftool ros2 test FILE [name:=value …]` in a session of its own, in real time.
+    """Run `tftool ros2 test FILE [name:=value …]` in a new session, in real time.
 
     Raises:
         UsageError: If no file is named.

@@ -1,4 +1,4 @@
-"""`tftool run`: a user's own node, without ROS."""
+"""Command `tftool run`: run a user's node without ROS."""
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (

@@ -1,4 +1,4 @@
-"""`tftool run`: a user's own node, without ROS."""
+"""Run of `tftool run`: run a user's node without ROS."""
 
 import itertools
 import shlex
@@ -42,11 +42,11 @@ SIMULATED = "Simulated time is a world's own, and shares no session"
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
-    """Return hints about words for the node that look like options of this command or of ROS 2.
+    """Return hints about words for the node that look like options of `tftool run` or of ROS 2.
 
     Args:
-        words: The words after FILE.
-        own: The names of this command's options.
+        words: Words after FILE.
+        own: Names of the options of `tftool run`.
     """
     told = []
     before = ""
@@ -67,10 +67,10 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
 
 
 def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
-    """Refuse --simulated and --for after FILE unless the program itself contains that word.
+    """Raise an error for --simulated or --for after FILE, unless the program's text has that word.
 
     Raises:
-        UsageError: If one is there: the run would last for ever, on real time, without a word.
+        UsageError: If such a word is there: the run would never end, on real time, without a hint.
     """
     file = Path(target)
     given = [word for word in ("--simulated", "--for") if word in _own_words(words)]
@@ -85,7 +85,7 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
 
 
 def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
-    """Open the session of a node; with `alone` it hosts a complete world of its own."""
+    """Open the session of a node; with `alone`, host an empty world for it."""
     if alone:
         return open_empty_session(connection, simulated=simulated)
     if place is not None:
@@ -96,17 +96,17 @@ def _opened(connection: Connection, place: str | None, *, alone: bool, simulated
 
 
 def _own_words(words: Sequence[str]) -> list[str]:
-    """Return the words before `--ros-args` or `--`; the others belong to the program."""
+    """Return the words before `--ros-args` or `--`."""
     return list(itertools.takewhile(lambda word: word not in ("--ros-args", "--"), words))
 
 
 def _run_other(
     connection: Connection, target: str, words: list[str], *, refused: bool
 ) -> int | None:
-    """Run the command of tftool that a program of ROS stands for; None if it is a node.
+    """Run tftool's own command in place of a known ROS program; return None for other programs.
 
     Raises:
-        UsageError: If `refused`: options that go with nodes were given.
+        UsageError: If the program is known and `refused`: options for nodes were given.
     """
     if (target, *words[:1]) == KEYBOARD:
         if refused:
@@ -127,10 +127,10 @@ def _run_other(
 
 
 def _run_command(connection: Connection, words: list[str]) -> int:
-    """Run another tftool command in the same session, and name it.
+    """Print and run another tftool command, in the same session.
 
     Raises:
-        UsageError: If the session is another machine's: the command itself takes those options.
+        UsageError: If options reach another machine: the user must give them to that command.
     """
     if connection.reach.is_asked:
         raise UsageError(f"give the options of the session to 'tftool {shlex.join(words)}' itself")
@@ -147,7 +147,7 @@ def _context(connection: Connection) -> Context:
 
 
 def run(connection: Connection, options: RunOptions) -> int:
-    """Run `tftool run`."""
+    """Run `tftool run`: run a user's node, and return its exit status."""
     if options.simulated and options.run_for is None:
         raise UsageError("on simulated time a run needs --for SECONDS")
     if options.simulated:

@@ -1,4 +1,4 @@
-"""`tftool session`: who takes part, what they publish, how often, and since when."""
+"""Command `tftool session`: processes, nodes, topics and rates of the running session."""
 
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.declaration import Command

@@ -1,4 +1,4 @@
-"""`tftool session`: who takes part, what they publish, how often, and since when."""
+"""Run of `tftool session`: processes, nodes, topics and rates of the running session."""
 
 import asyncio
 import json
@@ -24,7 +24,7 @@ from tftool.world.link.session import Link, is_plain
 
 
 def _rates(connection: Connection, link: Link, lasting: Duration) -> dict[str, float]:
-    """Listen for a while; return the rate of each topic with messages, in hertz."""
+    """Listen for a while; return the rate in hertz of each topic that had messages."""
     counts: dict[str, int] = {}
     clock = connection.providers.wall_clock()
 
@@ -49,7 +49,7 @@ def _rates(connection: Connection, link: Link, lasting: Duration) -> dict[str, f
 
 
 def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
-    """Return everything known about a session; `rates` of topics in hertz."""
+    """Return everything known about a session as a mapping, for --json; `rates` are in hertz."""
     graph = link.graph
     topics: dict[str, dict[str, Any]] = {}
     for one in graph.entities(PUBLISHER, SUBSCRIPTION):
@@ -85,7 +85,7 @@ def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
 
 
 def _written(found: dict[str, Any], *, verbose: bool) -> str:
-    """Format the report for people, at the terminal's width or without a limit."""
+    """Format the report as text, at the terminal's width or without a limit."""
     if not sys.stdout.isatty():
         return "\n".join(line.plain for line in view.lines(found, verbose=verbose))
 
@@ -103,7 +103,7 @@ def _written(found: dict[str, Any], *, verbose: bool) -> str:
 
 
 def run(connection: Connection, options: SessionOptions) -> ExitStatus:
-    """Run `tftool session`."""
+    """Run `tftool session`: print who shares the session, and what is published."""
     if options.place is not None:
         raise UsageError(
             f"'{visible(options.place)}' is no session that runs: leave it out, or give the "

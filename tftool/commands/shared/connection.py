@@ -1,8 +1,8 @@
-"""A command's connection: whether it joins or hosts, and which machines it reaches.
+"""Connection of a command: whether the command joins or hosts a session, and on which machines.
 
-Every command that may share a session has a `Connection` as its first parameter; its declaration
-makes it (`declaration.py`), and closes everything it opened. `open_from` opens FROM with its
-options, with a progress bar and notes on stderr.
+Every command that may share a session has a `Connection` as its first parameter. `declaration.py`
+creates it, and closes everything that it opened. `open_from` opens FROM (the source of the frames)
+with the command's options, and shows a progress bar and notes on stderr.
 """
 
 import math
@@ -47,7 +47,7 @@ HOME = "turtles"
 
 
 class Mode(Enum):
-    """A command's role in the running session."""
+    """Whether a command joins the running session, hosts one, or does whichever is possible."""
 
     AUTO = auto()
     JOIN = auto()
@@ -55,36 +55,36 @@ class Mode(Enum):
 
 
 class Providers:
-    """Sources of a command's clock and of its links to other processes; tests replace them.
+    """Functions that create a command's clock and its links to other processes; tests replace them.
 
-    Tests derive from it, and pass their own to `app.main`.
+    Tests pass an object of a derived class to `app.main`.
     """
 
     def wall_clock(self, rate: float = 1.0, *, head_start: Duration = 0) -> "Clock":
-        """Make a clock for a world that others may share; see `WallClock`."""
+        """Create a clock for a world that others may share; see `WallClock`."""
         from tftool.world.clock import WallClock
 
         return WallClock(rate, head_start=head_start)
 
     def still_clock(self, epoch: "Stamp", now: "Stamp") -> "Clock":
-        """Make a clock that stands still at the end of a complete source.
+        """Create a clock that always shows the end of a recording or other complete source.
 
         Args:
-            epoch: Time at which the clock began.
-            now: Time at which the clock stays.
+            epoch: Time at which the source begins.
+            now: Time that the clock shows.
         """
         from tftool.world.clock import FollowedClock
 
         return FollowedClock(now, epoch=epoch)
 
     def joined_clock(self) -> "Clock":
-        """Make a clock for a world that joins a session: real time, or the time of `/clock`."""
+        """Create a clock for a world that joins a session: real time, or the time of `/clock`."""
         from tftool.world.clock import FollowedClock
 
         return FollowedClock()
 
     def link(self, options: "Options") -> "Link | None":
-        """Open a link; None if no world is shared.
+        """Open a link to other processes; return None if worlds are not shared.
 
         Raises:
             LinkError: If the link cannot be opened.
@@ -95,7 +95,7 @@ class Providers:
 
 
 class FileOptions(TypedDict):
-    """Options for reading files, as `open_frames` takes them."""
+    """Options for reading files, as parameters of `open_frames`."""
 
     joints: Mapping[str, float]
     arguments: Mapping[str, str]
@@ -107,21 +107,21 @@ class FileOptions(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class Connection:
-    """A command's part in a session, according to its options.
+    """Connection of a command to a session, according to the command's options.
 
     Use it in a `with`, whose end closes every link and file that it opened.
 
     Attributes:
-        command: The command's name.
-        kind: What kind of command it is.
-        mode: Join, host, or whichever fits.
+        command: Name of the command.
+        kind: Kind of the command, which decides its options.
+        mode: Whether to join, to host, or whichever is possible.
         domain: Number of the ROS domain.
-        reach: Middleware, and reach beyond this machine's own processes.
-        read_only: Whether to look only.
-        robot: Joint positions, xacro arguments, a description for a recording.
+        reach: Middleware, and its options for reaching other machines.
+        read_only: Whether --read-only was given: nothing is published.
+        robot: Joint positions, xacro arguments, and a description for a recording.
         recording: Options for reading a recording.
-        providers: Sources of its clocks and links.
-        context: typer's context of the command line.
+        providers: Functions that create clocks and links.
+        context: Context of the command line in typer.
     """
 
     command: str = "tftool"
@@ -150,22 +150,22 @@ class Connection:
 
     @property
     def looks(self) -> bool:
-        """Whether the command only observes, so that its own world stays invisible to others."""
+        """Whether the command only observes, so that a world it hosts stays invisible to others."""
         return self.reach.awaits_others(hosts=self.kind.hosts_turtles)
 
     @property
     def place(self) -> str:
-        """Describe where the session's other processes are; empty for this machine."""
+        """Description of where the session's other processes are; empty for this machine."""
         return self.reach.place(self.domain)
 
     def options(self) -> Options:
-        """Return the options in the link's form."""
+        """Return the options as the link needs them."""
         # Among a robot's nodes, what only looks has nothing to write.
         read_only = self.read_only or (self.reach.is_robots and self.kind.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
-        """Open a link; it is closed together with this connection.
+        """Open a link, which is closed with this connection; None if worlds are not shared.
 
         Raises:
             LinkError: If the link cannot be opened.
@@ -179,7 +179,7 @@ class Connection:
 
     @property
     def file_options(self) -> "FileOptions":
-        """Return the options for reading files, as `open_frames` takes them."""
+        """Options for reading files, as parameters of `open_frames`."""
         return {
             "joints": self.robot.joints,
             "arguments": self.robot.arguments,
@@ -199,14 +199,14 @@ class Connection:
         return not REACHES[0].has_members(self.domain)
 
     def keep(self, opened: "Link | Frames") -> None:
-        """Register something to be closed together with this connection."""
+        """Register a link or frames to be closed together with this connection."""
         self._opened.append(opened)
 
     def refuse_to_share(self, word: str | None) -> None:
-        """Refuse the options of sharing for files and for scenarios on simulated time.
+        """Raise an error for options of sharing with a file or a scenario on simulated time.
 
         Raises:
-            UsageError: If one was given.
+            UsageError: If such an option was given.
         """
         if word is None and self.reach.only_reads:
             raise UsageError(
@@ -222,10 +222,10 @@ class Connection:
             )
 
     def refuse_to_join(self, word: str | None) -> None:
-        """Refuse --join, and a robot's address, beside a named world, which is always hosted.
+        """Raise an error for --join, or a robot's address, with a world's name, which is hosted.
 
         Raises:
-            UsageError: If one was given.
+            UsageError: If --join or an address was given.
         """
         if word is not None and self.reach.only_reads:
             raise UsageError(
@@ -238,7 +238,7 @@ class Connection:
             )
 
     def refuse_read_only(self, purpose: str) -> None:
-        """Refuse --read-only for a command whose whole purpose is to publish.
+        """Raise an error for --read-only with a command whose only purpose is to publish.
 
         Raises:
             UsageError: If --read-only was given.
@@ -249,7 +249,7 @@ class Connection:
             )
 
     def tell_read_only(self) -> None:
-        """Explain what --read-only means for nodes that are run."""
+        """Print what --read-only means for the nodes that the command runs."""
         if self.read_only:
             notice(
                 "--read-only: other processes get nothing that nodes here publish, broadcast "
@@ -275,7 +275,10 @@ def read(
     address: str | None = None,
     **reach: Any,
 ) -> Connection:
-    """Build the connection; `reach` has the middlewares' options, FROM may be an `address`.
+    """Create a connection from a command's options.
+
+    The options `reach` are those of the middlewares; `address` is a session's address given as
+    FROM.
 
     Raises:
         UsageError: If options contradict each other.
@@ -354,26 +357,26 @@ def open_from(
     watch: "Callable[[World], object] | None" = None,
     look: "Look | None" = None,
 ) -> Frames:
-    """Open the frames of FROM; they are closed together with the connection.
+    """Open the frames of FROM, which are closed together with the connection.
 
-    Without FROM the running session is heard; if there is none, the turtle world is played. A
-    running session keeps no past: a moment is refused.
+    Without FROM, the command listens to the running session; if there is none, it plays the turtle
+    world. A running session has no past, so a time cannot be requested from it.
 
     Args:
-        connection: The command's options.
-        place: FROM; None for the session that runs.
-        lasting: Value of --for: how long to listen or to play.
+        connection: Connection of the command.
+        place: FROM; None for the running session.
+        lasting: Value of --for: nanoseconds to listen or to play.
         until: Time up to which a scenario is played, without --for; see `open_frames`.
         margin: Seconds to play on after that.
-        cache_time: Cache time of the buffer of a scenario or a session.
-        tells: Whether to print oddities of the frames.
-        shares: Whether the options of sharing are for another of several sources.
-        watch: Called with the world of a scenario or a session before it lives.
-        look: Returns lines to show below the progress bar about a session's frames so far.
+        cache_time: Cache time of a scenario's or session's buffer.
+        tells: Whether to print notes about oddities of the frames.
+        shares: Whether the options of sharing are meant for another one of several sources.
+        watch: Function called with the world of a scenario or session before it runs.
+        look: Function that returns lines about a session's frames, shown below the progress bar.
 
     Raises:
         InputError: If FROM names nothing, or it cannot be read.
-        LinkError: If a session was asked for and there is none.
+        LinkError: If a session was requested and there is none.
         UsageError: If options do not fit the kind of FROM.
     """
     if lasting is not None:
@@ -421,7 +424,7 @@ def listen_from(
     """Listen to the running session; return None if there is none. See `open_from`.
 
     Raises:
-        LinkError: If a session was asked for and there is none.
+        LinkError: If a session was requested and there is none.
     """
     if connection.hosts_alone:
         return None
@@ -444,7 +447,7 @@ def listen_from(
 
 @contextmanager
 def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[ListeningBar | None]":
-    """Return a progress bar if a person waits, and print how long it takes if none does."""
+    """Return a progress bar on a terminal; otherwise print how long listening takes."""
     if not sys.stderr.isatty():
         notice(f"Listening for {listen_for:g} s ...")
         yield None
@@ -457,7 +460,7 @@ def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[Listenin
 
 @contextmanager
 def _bar(place: str) -> "Iterator[Bar | None]":
-    """Return a progress bar if a person waits."""
+    """Return a progress bar for reading a file; None without a terminal."""
     if not sys.stderr.isatty():
         yield None
         return
@@ -473,7 +476,7 @@ def _bar(place: str) -> "Iterator[Bar | None]":
 
 
 def _tell(frames: Frames, *, notes: bool) -> None:
-    """Print the skipped files and notes about the frames."""
+    """Print which files were skipped, and notes about the frames."""
     for text in () if frames.found is None else frames.found.told():
         notice(visible(text))
     if notes:

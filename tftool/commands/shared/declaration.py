@@ -1,8 +1,9 @@
-"""Declaration of a command: its options, and its kind.
+"""Declaration of a command: its options and its kind.
 
-The kind decides its further options: of sessions, of recordings, of robot descriptions.
-`tftool/commands/NAME/__init__.py` declares the command, and `run` in `command.py` beside it is
-imported when it is called: help and completion need only the options. A small command is one file.
+The kind decides further options: of sessions, of recordings, of robot descriptions.
+`tftool/commands/NAME/__init__.py` declares the command. Its function `run`, in `command.py` beside
+it, is imported when the command is called: help and completion need only the options. A small
+command is a single file.
 """
 
 import inspect
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 
 
 def options_in(home: type) -> dict[str, tuple[Any, Any]]:
-    """Return type and declaration of each option that a class has as a field."""
+    """Return the type and the declaration of each option, which are fields of a class."""
     found = {}
     for name, kind in inspect.get_annotations(home).items():
         value = getattr(home, name, inspect.Parameter.empty)
@@ -48,7 +49,7 @@ def options_in(home: type) -> dict[str, tuple[Any, Any]]:
 
 
 def _declared(reach: type[Reach]) -> dict[str, Any]:
-    """Return the type and the declaration of a middleware's options."""
+    """Return the types and the declarations of a middleware's options."""
     return {
         name: (
             one.kind,
@@ -124,7 +125,7 @@ RECORDING_OPTIONS = options_in(_OfRecordings)
 
 
 class _OfUndescribed:
-    """Option of commands whose FROM may be a recording that lacks the description of its robot."""
+    """Option of commands whose FROM may be a recording without its robot's description."""
 
     urdf: Path | None = option(
         "Description of the robot in a recording that has none inside.",
@@ -141,7 +142,7 @@ POSES = "Pose files"
 
 
 class _OfPoseFiles:
-    """Options of commands whose FROM may be a pose file; `LaidOutCommand` puts them into effect."""
+    """Options of commands whose FROM may be a pose file; `LaidOutCommand` applies them."""
 
     frames: str | None = option(
         "Names of parent and child in a pose file. Each of these options is for the file it "
@@ -164,18 +165,19 @@ POSE_OPTIONS = options_in(_OfPoseFiles)
 
 @dataclass(frozen=True, slots=True)
 class CommandKind:
-    """CommandKind of a command.
+    """Properties of a command that decide which options it has.
 
     Attributes:
-        shares: Whether it joins or hosts a session. Its `run` takes a `Connection` first then.
-        looks_only: Whether it writes to no topic of a robot, so that FROM may be its address.
-        hosts_turtles: Whether it hosts turtles where it looks for a robot and finds none; other
-            commands wait for one.
+        shares: Whether it joins or hosts a session. If so, its `run` has a `Connection` as its
+            first parameter.
+        looks_only: Whether it writes to no topic of a robot, so that FROM may be a robot's address.
+        hosts_turtles: Whether it hosts the turtle world if it searches for a robot and finds none;
+            other commands wait for a robot.
         recordings: Whether FROM may be a recording.
         descriptions: Whether FROM may be a robot description.
-        urdf: Whether FROM may be a recording without the description of its robot.
-        poses: Whether FROM may be a pose file, without being a command of sessions.
-        settings: Differences from click's reading of a command line.
+        urdf: Whether FROM may be a recording without its robot's description.
+        poses: Whether FROM may be a pose file although the command shares no session.
+        settings: Settings of click's parser that differ from the defaults.
     """
 
     shares: bool = True
@@ -188,7 +190,7 @@ class CommandKind:
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def options(self) -> dict[str, Any]:
-        """Return type and declaration of the options that every command of this kind has."""
+        """Return the type and the declaration of each option that this kind of command has."""
         return {
             **(POSE_OPTIONS if self.poses or self.recordings or self.urdf else {}),
             **(ROBOT_OPTIONS if self.descriptions else {}),
@@ -199,11 +201,11 @@ class CommandKind:
 
 
 class Invocation(NamedTuple):
-    """Origin of a command line: the `obj` of its context.
+    """Data passed from `main` to a command, as the `obj` of click's context.
 
     Attributes:
-        providers: Source of clocks and links; the real ones when None.
-        run: Runs another command line of tftool, and returns its status.
+        providers: Functions that create clocks and links; None for the real ones.
+        run: Function that runs another command line of tftool, and returns its exit status.
     """
 
     providers: "Providers | None"
@@ -211,12 +213,13 @@ class Invocation(NamedTuple):
 
 
 class Command:
-    """Base of commands: the fields of a derived class are its options, its docstring is the help.
+    """Base class of commands: a derived class has options as fields, and the help as its docstring.
 
-    The value of a field is its declaration, `option`, `flag` or `argument`; or its type holds that.
+    The value of a field is its declaration (`option`, `flag` or `argument`), or its type contains
+    the declaration.
 
     Class keywords are attributes of `CommandKind`: `class EchoOptions(Command, looks_only=True)`.
-    An object has the values that were given; `run` in the command's module takes it.
+    An object has the given values, and is passed to `run` in the command's module.
     """
 
     kind: ClassVar[CommandKind]
@@ -232,7 +235,7 @@ class Command:
 
 
 def typer_function(command: type[Command]) -> Callable[..., Any]:
-    """Return the function that typer makes a command of: all options in, the exit status out."""
+    """Return a function of which typer makes the command: from all options to the exit status."""
     home = command.__module__
     name = home.rpartition(".")[2]
     added = command.kind.options()
@@ -265,10 +268,10 @@ def typer_function(command: type[Command]) -> Callable[..., Any]:
 
 
 def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> str | None:
-    """Remove a session's address from the command's words, where FROM may be one.
+    """Remove a session's address from the command's words, and return it; None without one.
 
     Raises:
-        UsageError: If the command does not read sessions, or the address is out of place.
+        UsageError: If the command does not read sessions, or the address is not given as FROM.
     """
     for parameter, value in words.items():
         several = value if isinstance(value, list) else [value]
@@ -291,7 +294,7 @@ def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> s
 
 
 def _looking_commands() -> str:
-    """Return the names of the commands that read a session by its address."""
+    """Return the names of the commands that read a session by its address, as text."""
     names = []
     for room in pkgutil.iter_modules(import_module("tftool.commands").__path__):
         module = import_module(f"tftool.commands.{room.name}")

@@ -1,4 +1,4 @@
-"""Evidence for `doctor` and `explain`: from a recording, a scenario, a session."""
+"""Evidence (the facts that the doctor judges) from a recording, a scenario or a session."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -33,20 +33,20 @@ def evidence_from(
 ) -> Evidence:
     """Return the evidence about the frames of FROM.
 
-    A recording is read completely, a scenario is played to its end, a session is heard for a while.
+    A recording is read completely, a scenario is played to its end, and a session is listened to.
 
     Args:
-        connection: The command's options.
+        connection: Connection of the command.
         word: FROM as typed; None for the running session, or else the turtle world.
-        lasting: Time to listen, nanoseconds; the usual time if None.
+        lasting: Nanoseconds to listen; None for the default.
         scope: Part of a recording to examine.
-        look: Returns lines about the findings so far, while a session is listened to.
+        look: Function that returns lines about the findings while a session is listened to.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.
-        LinkError: If a session was asked for and there is none.
-        UsageError: If the word names a robot description, or a source that is no recording is to be
-            looked at in part.
+        LinkError: If a session was requested and there is none.
+        UsageError: If the word names a robot description, or if only a part of a source that is not
+            a recording is to be examined.
     """
     kind = None if word is None else named(word).kind
     is_recording = kind is not None and kind.is_recording

@@ -1,4 +1,4 @@
-"""The choice to join or to host, made in one place for all commands.
+"""Decision of a command to join a session or to host one, the same for all commands.
 
 A named scenario is always hosted. Without a name, the command joins the running session of this
 machine, or hosts one that others can join. Processes that only watch do not form a session: they
@@ -10,7 +10,7 @@ A command that works in a running world (``echo``, ``monitor``, ``view``) opens 
         session = open_session(connection, place)
         session.run(work(session.world))
 
-`open_from` is for commands that answer once, and for files.
+`open_from` is for files, and for commands that need the frames once.
 """
 
 import sys
@@ -40,12 +40,12 @@ HEAD_START = seconds(3)
 
 @dataclass(frozen=True, slots=True)
 class JoinDecision:
-    """Outcome of the search for a session to join.
+    """Result of the search for a session to join.
 
     Attributes:
-        session: The joined session; None if the command must host one.
-        link: Link by which others join; None for a host that nobody can join.
-        alone: Why it does, as a sentence.
+        session: Joined session; None if the command must host one.
+        link: Link through which others join; None if the hosted world is not shared.
+        alone: Sentence on why the hosted world is not shared; empty if it is.
     """
 
     session: Session | None = None
@@ -60,17 +60,17 @@ def join_or_host(
     needs_turtles: bool = False,
     cache_time: Duration | None = None,
 ) -> JoinDecision:
-    """Join the running session, or become its host; the decision is locked against other processes.
+    """Join the running session, or prepare to host one, under a lock against other processes.
 
     Args:
-        connection: The command's options.
-        word: The given name, which is hosted; None for the session that runs.
-        needs_turtles: Whether only a session with a turtle simulator will do.
+        connection: Connection of the command.
+        word: Name of the world, which is hosted; None for the running session.
+        needs_turtles: Whether to join only a session with a turtle simulator.
         cache_time: Cache time of a joined world's buffer, nanoseconds.
 
     Raises:
-        LinkError: If a session was asked for and there is none, or no link.
-        UsageError: If --join was given: a named world is hosted.
+        LinkError: If a session was requested and there is none, or if no link can be opened.
+        UsageError: If --join was given with a named world.
     """
     connection.refuse_to_join(word)
     link, alone = _open_link(connection)
@@ -117,7 +117,7 @@ def join_or_host(
 
 
 def _why_alone(connection: Connection, link: "Link") -> str:
-    """Return why a hosted world is not shared; empty if it is."""
+    """Return a sentence on why a hosted world is not shared; empty if it is."""
     if _has_host(link):
         name = session_name(link, connection.place)
         return (
@@ -139,23 +139,23 @@ def open_session(
     because: str = NO_SESSION,
     by_hand: bool = False,
 ) -> Session:
-    """Return the world for a command; a notice on stderr says if it was created.
+    """Return the world for a command; a notice on stderr reports whether it was created.
 
     Args:
-        connection: The command's options.
+        connection: Connection of the command.
         word: FROM as typed, which is hosted; None for the running session.
-        simulated: Whether a hosted world lives on simulated time, from its beginning on.
+        simulated: Whether a hosted world uses simulated time, from its beginning on.
         head_start: Part of a scenario that is simulated at once before the wall clock starts.
-        cache_time: Cache time of the world's buffer, in place of the scenario's own.
-        without: Says which of a hosted scenario's nodes to leave out.
-        needs_turtles: Whether only a session with a turtle simulator will do.
-        because: Why a world that was not named is hosted, for people.
+        cache_time: Cache time of the world's buffer, in place of the scenario's.
+        without: Function that returns whether to omit a node of a hosted scenario.
+        needs_turtles: Whether to join only a session with a turtle simulator.
+        because: Reason to print if a default world is hosted.
         by_hand: Whether a person drives, in place of the scenario's script.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.
-        LinkError: If a session was asked for and there is none.
-        UsageError: If sharing was asked for where time is simulated.
+        LinkError: If a session was requested and there is none.
+        UsageError: If sharing was requested with simulated time.
     """
     _refuse_files(word)
     refuse_options_of_files(connection.robot, connection.recording, word)
@@ -188,7 +188,7 @@ def open_session(
 def _scenario_to_host(
     word: str | None, without: Callable[["NodeEntry"], bool] | None, because: str
 ) -> "Scenario":
-    """Return a scenario to host, without expectations; print its name if it is a default."""
+    """Return a scenario to host, without expectations; print its name if it is the default."""
     scenario = scenario_named(word or HOME, expects=False)
     if without is not None:
         kept = tuple(node for node in scenario.nodes if not without(node))
@@ -199,7 +199,7 @@ def _scenario_to_host(
 
 
 def _refuse_files(word: str | None) -> None:
-    """Refuse files: they are read, not hosted.
+    """Raise an error for files, which are read and not hosted.
 
     Raises:
         UsageError: If the word names a recording or a description.
@@ -218,10 +218,10 @@ def join_session(
 ) -> Session | None:
     """Return the world of the running session; None if there is none.
 
-    For commands that host on simulated time; others cannot join.
+    It is for commands that host worlds on simulated time only, which others cannot join.
 
     Raises:
-        LinkError: If a session was asked for and there is none.
+        LinkError: If a session was requested and there is none.
     """
     if connection.hosts_alone:
         return None
@@ -232,10 +232,10 @@ def join_session(
 
 
 def refuse_moment(connection: Connection) -> None:
-    """Refuse a moment where a session runs, which has no past to ask about.
+    """Raise an error for a requested time if a session runs, because it has no past to look up.
 
     Raises:
-        UsageError: If one runs here, or at the other end.
+        UsageError: If a session runs on this or the connected machine.
     """
     link = None if connection.hosts_alone else _open_link(connection)[0]
     if link is None:
@@ -253,16 +253,16 @@ def refuse_moment(connection: Connection) -> None:
 
 
 def open_own_session(connection: Connection, *, simulated: bool, because: str) -> Session:
-    """Join the running session; without one, host an empty world for a user's program.
+    """Join the running session, or host an empty world for a user's program.
 
     Args:
-        connection: The command's options.
-        simulated: Whether a hosted world lives on simulated time.
-        because: Why a world is hosted, for people.
+        connection: Connection of the command.
+        simulated: Whether a hosted world uses simulated time.
+        because: Reason to print if a world is hosted.
 
     Raises:
-        LinkError: If a session was asked for and there is none.
-        UsageError: If sharing was asked for where time is simulated.
+        LinkError: If a session was requested and there is none.
+        UsageError: If sharing was requested with simulated time.
     """
     refuse_options_of_files(connection.robot, connection.recording, None)
     link = None
@@ -281,7 +281,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
 
 
 def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:
-    """Return an empty, visible world for a command that adds its own nodes."""
+    """Return an empty world that others can join, for a command that adds its own nodes."""
     if simulated:
         world, link = World(SimClock()), None
     else:
@@ -292,7 +292,7 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
 
 
 def tell_where_to_look(connection: Connection, session: Session) -> None:
-    """Tell a person how another terminal can show the new session."""
+    """Print how another terminal can show the new session, if a person sees it."""
     if session.link is None or not sys.stderr.isatty():
         return
     domain = f" --domain {connection.domain}" if connection.domain else ""
@@ -302,7 +302,7 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
 def _hosted(
     scenario: "Scenario", clock: Clock, head_start: Duration, link: "Link | None"
 ) -> Session:
-    """Host a world to observe."""
+    """Return a session that hosts a scenario for observing."""
     from tftool.scenario.play import build
 
     play = build(scenario, clock)
@@ -317,10 +317,10 @@ def _hosted(
 
 
 def _open_link(connection: Connection) -> tuple["Link | None", str]:
-    """Open the link; if that is impossible, host alone and say why.
+    """Open the link; if that is impossible, return None and the reason.
 
     Raises:
-        LinkError: If something was asked for that only a link can give.
+        LinkError: If an option needs the link.
     """
     try:
         return connection.open_link(), ""
@@ -333,6 +333,6 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
 
 
 def _has_host(link: "Link") -> bool:
-    """Whether a session runs here: one of ours, or turtles of a launch file or of ROS."""
+    """Return whether a session runs: hosted by tftool, or with a turtle simulator of ROS."""
     # A host that has only just begun has no turtles yet, and will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))

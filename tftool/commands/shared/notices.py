@@ -1,4 +1,4 @@
-"""Notices and a world's log on stderr, separate from a command's results."""
+"""Notices and a world's log on stderr, separate from a command's results on stdout."""
 
 import os
 import sys
@@ -24,11 +24,11 @@ def notice(sentence: str) -> None:
 
 
 def complain(who: str, sentence: str) -> None:
-    """Print an error to stderr; control characters of names in it are escaped.
+    """Print an error to stderr, with the control characters in it escaped.
 
     Args:
-        who: The command.
-        sentence: Sentence about the error.
+        who: Name of the command.
+        sentence: Text of the error.
     """
     notice(f"{who}: {visible_lines(sentence.rstrip())}")
 
@@ -36,16 +36,16 @@ def complain(who: str, sentence: str) -> None:
 def name_frames(
     frames: Sequence[str], asked: Iterable[str | None], when: str = "", advice: str = ""
 ) -> bool:
-    """Print the known frames if a requested one is unknown.
+    """Print the known frames if a requested frame is unknown.
 
     Args:
-        frames: The frames there are.
-        asked: Requested frames; None for none.
-        when: Qualifier of the known frames: "so far" if more may follow.
-        advice: A sentence to append.
+        frames: Known frames.
+        asked: Requested frames; None for no frame.
+        when: Text after "frames", such as "so far" if more frames may follow.
+        advice: Sentence to append.
 
     Returns:
-        Whether they were named.
+        Whether the known frames were printed.
     """
     missing = [frame for frame in asked if frame is not None and frame not in frames]
     if not frames and not when:
@@ -67,9 +67,9 @@ def _write(text: str) -> None:
 
 
 def fitting(sentence: str) -> str:
-    """Return a text as stderr shows it; on a terminal it is wrapped between words.
+    """Return a text as it is printed to stderr: on a terminal wrapped between words.
 
-    Lines that begin with a blank stay unchanged: excerpts of files, and tracebacks.
+    Lines that begin with a space stay unchanged: they are excerpts of files, or tracebacks.
     """
     try:
         width = os.get_terminal_size(sys.stderr.fileno()).columns
@@ -89,22 +89,22 @@ def fitting(sentence: str) -> str:
 
 
 def is_news(record: "LogRecord") -> bool:
-    """Whether the link has a message for every user."""
+    """Return whether a log message is a warning of the link, which every user should see."""
     return record.node == "link" and record.level == "WARN"
 
 
 def tell_news(record: "LogRecord") -> None:
-    """Print the link's messages for the user, and no others."""
+    """Print a log message if it is a warning of the link."""
     if is_news(record):
         notice(visible(record.text))
 
 
 def tell_record(record: "LogRecord", *, label: str = "") -> None:
-    """Print a line of the world's log in the format of ROS 2's console.
+    """Print a log message of a world in the format of ROS 2's console.
 
     Args:
-        record: The line.
-        label: Program of the record, if there are several.
+        record: Log message.
+        label: Name of the program that logged it, if there are several.
     """
     line = visible_lines(str(record).rstrip())
     label = f"[{label}] " if label else ""
@@ -116,19 +116,19 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
 
 class FoldedLog:
-    """Printer of a world's log that shows the first of equal lines and counts the others."""
+    """Printer of a world's log that prints the first of equal messages and counts the others."""
 
     def __init__(self, *, whole: bool = False) -> None:
-        """Start without lines.
+        """Start with all counts at zero.
 
         Args:
-            whole: Show every line.
+            whole: Whether to print every message.
         """
         self._whole = whole
         self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
 
     def tell(self, record: "LogRecord") -> None:
-        """Print a line, or count it."""
+        """Print a message, or count it if an equal one was printed."""
         kind = (record.node, record.level, record.text)
         first, more = self._more.get(kind, (record, -1))
         self._more[kind] = (first, more + 1)
@@ -136,7 +136,7 @@ class FoldedLog:
             tell_record(record)
 
     def end(self) -> None:
-        """Print how many lines were not shown, and count from zero again."""
+        """Print how many messages were not printed, and count from zero again."""
         for first, more in () if self._whole else self._more.values():
             if more:
                 text = visible(first.text.splitlines()[0] if first.text else "")
@@ -146,7 +146,7 @@ class FoldedLog:
 
 
 def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
-    """Whether to colour lines; ROS 2's own variable takes precedence."""
+    """Return whether to colour log messages; ROS 2's own variable takes precedence."""
     asked = environment.get("RCUTILS_COLORIZED_OUTPUT", "")
     if asked in ("0", "1"):
         return asked == "1"
@@ -158,7 +158,7 @@ MOST_TOLD = 3
 
 
 def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:
-    """Return a sentence for each frame that several nodes publish alternately."""
+    """Return a sentence about each frame that several nodes publish alternately."""
     told: list[str] = []
     more = 0
     for frame in frames:

@@ -1,4 +1,4 @@
-"""Worlds and frames on a full-screen terminal: whether one is available, and the app."""
+"""Full-screen display of worlds and frames in the terminal, and whether it is possible."""
 
 import os
 import sys
@@ -28,7 +28,7 @@ SETTLED = seconds(1)
 
 
 def screen_lacks() -> str:
-    """Return half a sentence on why no full-screen app is possible; empty if it is."""
+    """Return half a sentence on why a full-screen display is impossible; empty if possible."""
     if os.environ.get("TERM") == "dumb":
         return "TERM=dumb is one without a screen"
     # textual draws on stderr, so that one counts too.
@@ -38,7 +38,7 @@ def screen_lacks() -> str:
 
 
 def at_rest(connection: Connection, frames: Frames) -> StillFrames:
-    """Return frames of a file in the form that screens show, with a clock at their end."""
+    """Return the frames of a file as screens need them, with a clock that shows the end."""
     start, end = frames.span
     # Where nothing was recorded both are 0, at which no clock can begin.
     clock = connection.providers.still_clock(max(start, 1), max(end, 1))
@@ -46,15 +46,15 @@ def at_rest(connection: Connection, frames: Frames) -> StillFrames:
 
 
 def simulator_of(world: "World") -> "Turtlesim | None":
-    """Return a world's turtle simulator, if it has one."""
+    """Return a world's turtle simulator; None without one."""
     return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
 
 
 def driver_of(world: "World", turtle: str) -> "Teleop":
-    """Return the node that takes keys for `turtle`, added if there is none.
+    """Return the node that receives the keys for a turtle; add it if there is none.
 
     Raises:
-        UsageError: If that cannot be a turtle's name.
+        UsageError: If `turtle` is no valid name of a turtle.
     """
     for node in world.nodes:
         if isinstance(node, Teleop) and node.turtle == turtle:
@@ -83,13 +83,13 @@ def take_solids(
     take: "Callable[[Solids], object]",
     tell: Callable[[str], object],
 ) -> None:
-    """Call `take` with the shapes of the robot that /robot_description describes, when it comes.
+    """Call `take` with the robot's shapes when a description arrives on /robot_description.
 
     Args:
         world: World in which the description is published.
         owner: Name of the subscriber.
-        take: Takes the shapes.
-        tell: Takes sentences about what is not drawn.
+        take: Function called with the shapes.
+        tell: Function called with sentences about shapes that are not drawn.
     """
     from tftool.drawing.solids import solids_of
     from tftool.robots.mesh_folders import MeshFolders
@@ -117,21 +117,21 @@ def run_app(
     setting: "Setting",
     idle: "IdleDrawing | None" = None,
 ) -> str | None:
-    """Show a scene on the terminal while its world lives.
+    """Show a scene on the terminal while its world runs.
 
     Args:
-        scene: The scene to show.
-        life: Lives the world through; it is cancelled when the user quits.
-        driver: The node that receives keys.
+        scene: Scene to show.
+        life: Coroutine that runs the world; it is cancelled when the user quits.
+        driver: Node that receives the keys; None without one.
         setting: Options of the screen.
-        idle: Draws while no key is pressed, where something does.
+        idle: Node that draws while no key is pressed; None without one.
 
     Returns:
-        The scenario to show instead, where the user chose one.
+        Name of the scenario that the user chose to show next; None if the user quit.
 
     Raises:
-        NodeFailed: If a node raised.
-        KeyboardInterrupt: If a signal or Ctrl-C ended it.
+        NodeFailed: If a node raised an error.
+        KeyboardInterrupt: If a signal or Ctrl-C ended the display.
     """
     from tftool.screens.terminal.screen_options import setting_from
     from tftool.screens.terminal.turtle_app import TurtleApp
@@ -144,7 +144,7 @@ def run_app(
 
 
 def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
-    """Return the receiver of keys: the driver, or a note if its turtle is missing."""
+    """Return a function that passes keys to the driver, or notes that its turtle is missing."""
 
     def press(key: str) -> None:
         simulator, turtle = scene.simulator, driver.turtle

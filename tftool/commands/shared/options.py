@@ -1,6 +1,6 @@
 """Options that several commands share, and the parsers of their values.
 
-Durations and moments of a command line are read as exact decimals; commands get whole nanoseconds.
+Durations and times on a command line are parsed as exact decimals; commands get whole nanoseconds.
 """
 
 import math
@@ -35,10 +35,10 @@ _FRACTION = re.compile(r"[.,](\d+)")
 
 
 def finite(value: float | None) -> float | None:
-    """Accept a finite number.
+    """Return a number if it is finite.
 
     Raises:
-        typer.BadParameter: If the value is NaN or infinite, or above `MOST`.
+        typer.BadParameter: If the value is NaN, infinite, or above `MOST`.
     """
     if value is not None and not math.isfinite(value):
         raise typer.BadParameter(f"{value} is not a finite number.")
@@ -46,7 +46,7 @@ def finite(value: float | None) -> float | None:
 
 
 def positive(value: float | None) -> float | None:
-    """Accept a finite number above zero.
+    """Return a number if it is finite and above zero.
 
     Raises:
         typer.BadParameter: If the value is zero, negative, NaN or infinite, or above `MOST`.
@@ -57,7 +57,7 @@ def positive(value: float | None) -> float | None:
 
 
 def not_negative(value: float | None) -> float | None:
-    """Accept a finite number of zero or more.
+    """Return a number if it is finite and zero or more.
 
     Raises:
         typer.BadParameter: If the value is negative, NaN or infinite, or above `MOST`.
@@ -68,7 +68,7 @@ def not_negative(value: float | None) -> float | None:
 
 
 def within(least: float, most: float) -> Callable[[float | None], float | None]:
-    """Make a check that accepts numbers from `least` to `most`, and not NaN."""
+    """Return a check that accepts numbers from `least` to `most`, and rejects NaN."""
 
     def check(value: float | None) -> float | None:
         if value is not None and not least <= value <= most:
@@ -88,10 +88,10 @@ def _bounded(value: float | None) -> float | None:
 
 
 def duration(check: Callable[[float | None], float | None]) -> Callable[[str | int], Duration]:
-    """Make a parser from seconds to whole nanoseconds.
+    """Return a parser that converts seconds to whole nanoseconds.
 
     Args:
-        check: Check of the number of seconds: `positive`, `not_negative`, `finite`.
+        check: Check of the number of seconds: `positive`, `not_negative` or `finite`.
     """
 
     def parse(text: str | int) -> Duration:
@@ -110,10 +110,10 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
 
 
 def _nanoseconds(text: str) -> "tuple[int, Decimal]":
-    """Return a number of seconds in nanoseconds, rounded and unrounded.
+    """Convert text in seconds to nanoseconds; return the number rounded and unrounded.
 
     Raises:
-        ValueError: If it is not a number.
+        ValueError: If the text is not a number.
     """
     # Imported here: the help of a command does without it.
     from decimal import Decimal, InvalidOperation
@@ -126,7 +126,7 @@ def _nanoseconds(text: str) -> "tuple[int, Decimal]":
 
 
 def refuse_long_simulation(lasting: Duration | None) -> None:
-    """Refuse more simulated time than a command may play.
+    """Raise an error for more simulated time than a command may play.
 
     Raises:
         UsageError: If the duration is more than a day.
@@ -142,10 +142,11 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
 
 
 def moment(text: str) -> At:
-    """Parse a time: seconds since the start, or from 10⁸ on, or written as a date, a stamp.
+    """Parse a time: seconds since the start, or a stamp.
 
-    `12.5` and `+12.5` count from the start (`+` also larger numbers); `1663952504.7` is a
-    stamp, and so is `2022-09-23T17:01:44.7Z`; without a time zone it is UTC.
+    `12.5` and `+12.5` are seconds since the start (with `+` also larger numbers); numbers from 10⁸
+    on, such as `1663952504.7`, are stamps, and so are dates, such as `2022-09-23T17:01:44.7Z` (UTC
+    if without a time zone).
 
     Raises:
         typer.BadParameter: If the text is neither a number nor a date.
@@ -191,10 +192,10 @@ Rule = tuple[object, str]
 
 
 def refuse(*rules: Rule) -> None:
-    """Refuse options by the first rule that applies.
+    """Raise an error with the sentence of the first rule whose condition is true.
 
     Raises:
-        UsageError: If one does.
+        UsageError: If a condition is true.
     """
     for holds, sentence in rules:
         if holds:
@@ -218,31 +219,31 @@ def option(
     panel: str | None = None,
     **more: Any,
 ) -> Any:
-    """Return an option of a command, as the value of its field.
+    """Return the declaration of a command's option, to be the value of a field.
 
     Args:
         words: Text of the help.
-        names: Names of the option; made from its field if none is given.
-        default: Its value where it is not given; `...` if it must be, and within `Annotated`.
-        metavar: Name of its value in the help.
-        panel: Heading above the option in the help; None for the usual one.
+        names: Names of the option; without any, made from the field's name.
+        default: Value if the option is not given; `...` if it must be, and within `Annotated`.
+        metavar: Name of the value in the help.
+        panel: Heading above the option in the help; None for the usual heading.
         more: Further arguments of `typer.Option`.
     """
     return typer.Option(default, *names, metavar=metavar, rich_help_panel=panel, help=words, **more)
 
 
 def flag(words: str, *names: str, panel: str | None = None) -> Any:
-    """Return an option without a value, which is True where it is given; see `option`."""
+    """Return the declaration of an option without a value, which is True if given; see `option`."""
     return option(words, *names, default=False, panel=panel)
 
 
 def argument(words: str, *, default: Any = None, metavar: str, **more: Any) -> Any:
-    """Return an argument of a command: a word without a name; see `option`."""
+    """Return the declaration of an argument, a word without an option's name; see `option`."""
     return typer.Argument(default, metavar=metavar, help=words, **more)
 
 
 def output_file(words: str) -> Any:
-    """Return the option `-o FILE` of a command; `words` describe the file in the help."""
+    """Return the declaration of a command's option `-o FILE`; `words` are its help."""
     return option(words, "-o", "--output", metavar="FILE", panel=OUTPUT)
 
 
@@ -253,28 +254,28 @@ def seconds_option(
     check: Callable[[float | None], float | None] = positive,
     panel: str | None = WHEN,
 ) -> Any:
-    """Return an option that takes seconds and gives nanoseconds.
+    """Return the declaration of an option that is typed in seconds and stored in nanoseconds.
 
-    The help text names the default; the option's own default would be in nanoseconds.
+    The help text names the default, because the option's own default would be shown in nanoseconds.
 
     Args:
         words: Text of the help.
-        names: Names of the option; made from its field if none is given.
-        default: Its value where it is not given, in nanoseconds; see `option`.
-        check: Check of the number.
-        panel: Heading above the option in the help; None for the usual one.
+        names: Names of the option; without any, made from the field's name.
+        default: Value in nanoseconds if the option is not given; see `option`.
+        check: Check of the number of seconds.
+        panel: Heading above the option in the help; None for the usual heading.
     """
     more: dict[str, Any] = {"parser": duration(check), "show_default": False}
     return option(words, *names, default=default, metavar="SECONDS", panel=panel, **more)
 
 
 def moment_option(words: str, *names: str, default: Any = None, panel: str | None = WHEN) -> Any:
-    """Return an option that takes a time; `words` are its help."""
+    """Return the declaration of an option whose value is a time; `words` are its help."""
     return option(words, *names, default=default, metavar="MOMENT", panel=panel, parser=moment)
 
 
 def decimals(words: str, *, default: int) -> Any:
-    """Return the option `--precision N` of a command that prints numbers; `words` are its help."""
+    """Return the declaration of a command's option `--precision N`; `words` are its help."""
     names = "--precision", "-p"
     return option(words, *names, default=default, metavar="N", panel=OUTPUT, min=0, max=17)
 

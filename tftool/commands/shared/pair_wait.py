@@ -1,4 +1,4 @@
-"""Waiting until a pair can be looked up; the reason for the wait is shown on stderr."""
+"""Wait until a transform can be looked up; the reason for the wait is printed to stderr."""
 
 import asyncio
 import re
@@ -29,7 +29,7 @@ NOTHING_NEW = "nothing new has come since its sender left"
 
 
 class PairWait:
-    """A wait for one pair, based on the buffer's requests."""
+    """Wait for one transform in a world, based on requests to the buffer."""
 
     def __init__(
         self,
@@ -39,13 +39,13 @@ class PairWait:
         patience: Duration | None = None,
         advice: str = "--timeout SECONDS ends the wait.",
     ) -> None:
-        """Prepare to wait.
+        """Prepare the wait.
 
         Args:
-            world: The world whose buffer is asked.
-            pair: The lookup.
-            patience: Time to wait, nanoseconds; None for ever.
-            advice: Remedy named when a frame does not appear in time.
+            world: World whose buffer has the frames.
+            pair: Frames and time to look up.
+            patience: Longest wait, nanoseconds; None for no limit.
+            advice: Advice to print if a frame does not appear in time.
         """
         self.world = world
         self.pair = pair
@@ -54,13 +54,13 @@ class PairWait:
         self._hinted = False
 
     async def wait(self, newer_than: Stamp = LATEST) -> None:
-        """Wait until the pair can be looked up.
+        """Wait until the transform can be looked up.
 
         Args:
-            newer_than: The newest moment of a sender that has left: that is no answer.
+            newer_than: Newest time of data whose publisher has left; only newer data counts.
 
         Raises:
-            TransformException: If the answer does not come in time, or never will.
+            TransformException: If the transform is not available in time, or never will be.
         """
         pace = pace_of(self.world.clock)
         answered = beside(self._answered(newer_than), self._tell_reasons(pace))
@@ -112,7 +112,7 @@ class PairWait:
                 return
 
     async def _available(self, then: Stamp) -> None:
-        """Wait until the pair can be looked up at one time."""
+        """Wait until the transform can be looked up at one time."""
         pair = self.pair
         if pair.fixed_frame is None:
             await self.world.wait_for_transform(pair.target, pair.source, then)
@@ -147,7 +147,7 @@ class PairWait:
             )
 
     def _because(self) -> str:
-        """Return cause and remedy if `explain` knows more than the reason."""
+        """Return cause and remedy as text if `explain` finds more than the reason; else empty."""
         # Heavy imports wait until there is something to say.
         from tftool.doctor.explanation import explain
 
@@ -162,7 +162,7 @@ class PairWait:
         return f" Cause: {found.why[0]}.{cure}"
 
     def _hint(self) -> None:
-        """Return the known frames if a requested one is unknown."""
+        """Print the known frames once if a requested frame is unknown."""
         if self._hinted:
             return
         asked = (self.pair.target, self.pair.source, self.pair.fixed_frame)
@@ -171,7 +171,7 @@ class PairWait:
 
 
 async def _existing(buffer: Buffer, frame: str) -> None:
-    """Wait until a frame exists; tf2 answers for a frame in itself even before."""
+    """Wait until a frame exists, because tf2 answers for a frame in itself even before."""
     news = asyncio.Event()
     stop = buffer.listen(lambda *_: news.set())
     try:

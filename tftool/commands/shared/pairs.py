@@ -25,11 +25,11 @@ class FramePair:
     """Two frames, and the time at which one is looked up in the other.
 
     Attributes:
-        target: Frame the answer is given in.
-        source: Frame looked for.
-        at: The moment; 0 for the latest.
-        offset: Distance of the moment from now, nanoseconds; 0 if the moment is absolute.
-        fixed_frame: Frame through which `source` at that moment is seen in `target` now.
+        target: Frame in which the transform is expressed.
+        source: Frame whose pose is looked up.
+        at: Time to look up; 0 for the latest.
+        offset: Nanoseconds from now to the time to look up; 0 if `at` is used.
+        fixed_frame: Frame through which `source` at that time is expressed in `target` now.
     """
 
     target: str
@@ -43,7 +43,7 @@ class FramePair:
         return now + self.offset if self.offset else self.at
 
     def ask(self, buffer: Buffer, now: Stamp) -> TransformStamped:
-        """Look the pair up.
+        """Return the transform of the pair.
 
         Raises:
             TransformException: If the transform is not available.
@@ -68,7 +68,7 @@ class FramePair:
         return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
 
     def newest(self, buffer: Buffer) -> Stamp:
-        """Return the newest time known of these frames; 0 if they are all static."""
+        """Return the newest time at which the pair can be looked up; 0 if all links are static."""
         return buffer.newest_common(self.fixed_frame or self.target, self.source)
 
 
@@ -77,10 +77,10 @@ def _unknown(frame: str) -> str:
 
 
 def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
-    """Refuse a file in place of a frame's name, as when one of three words was forgotten.
+    """Raise an error for a file in place of a frame's name, as when one of three words is missing.
 
     Raises:
-        UsageError: If one does.
+        UsageError: If `target` or `source` is a file.
     """
     if place is not None:
         return
@@ -94,14 +94,14 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
 
 
 def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
-    """Return the named pairs, and FROM.
+    """Return the pairs of frames that a command line names, and FROM.
 
     Args:
         words: TARGET SOURCE [FROM], or [FROM] alone.
         given: Values of --pair, TARGET:SOURCE.
 
     Raises:
-        UsageError: If the words do not form pairs and a FROM.
+        UsageError: If the words are not pairs and one FROM.
     """
     if len(words) > (1 if given else 3):
         raise UsageError(
@@ -125,7 +125,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
 
 
 class SpanOptions(Protocol):
-    """Options of a command that choose times within a span."""
+    """Options of a command that select times within a span."""
 
     first: At | None
     last: At | None
@@ -135,10 +135,10 @@ class SpanOptions(Protocol):
 
 
 def is_chosen(options: SpanOptions) -> bool:
-    """Whether an option chooses the times; refuse more than one way to do it.
+    """Return whether an option selects the times: --every, --rate or --at-stamps-of.
 
     Raises:
-        UsageError: If there are more.
+        UsageError: If several of these options were given.
     """
     given = [one for one in (options.every, options.rate, options.stamps_of) if one is not None]
     if len(given) > 1:
@@ -150,9 +150,9 @@ def moments_of(options: SpanOptions, frames: Frames) -> "Moments":
     """Return the times at which a pair is looked up.
 
     Raises:
-        InputError: If there is no such topic.
-        UsageError: If several ways to choose are given, or a topic where nothing is recorded,
-            or the span does not fit.
+        InputError: If the recording has no such topic.
+        UsageError: If several options select times, or --at-stamps-of is given without a
+            recording, or the span has no data.
     """
     from tftool.frames.pair_samples import Moments
 
@@ -167,10 +167,10 @@ def moments_of(options: SpanOptions, frames: Frames) -> "Moments":
 
 
 def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | None, Stamp | None]:
-    """Return --from and --to as stamps.
+    """Return the values of --from and --to as stamps; None where not given.
 
     Raises:
-        UsageError: If the first is after the second, or there is no data between them.
+        UsageError: If --from is after --to, or there is no data between them.
     """
     begin, over = frames.span
     start = None if first is None else first.stamp(begin)

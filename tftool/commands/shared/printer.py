@@ -1,4 +1,4 @@
-"""Results: on stdout, at the terminal's width or a line each without one; and in files."""
+"""Output of results: to stdout, at the terminal's width or unwrapped, and to files."""
 
 import json
 import shutil
@@ -21,13 +21,13 @@ def line_width() -> int | None:
 
 
 def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> None:
-    """Print a renderable to stdout, followed by `end`.
+    """Print a renderable of rich to stdout, followed by `end`.
 
     Args:
-        what: Text to write.
+        what: Renderable to print.
         end: Text after it.
-        is_wide: Whether lines are up to `LOG_WIDTH` long where there is no terminal: in a log,
-            which may be searched by line, a sentence stays in one line.
+        is_wide: Whether lines without a terminal are up to `LOG_WIDTH` long, so that a log has
+            each sentence in one line, and can be searched by line.
     """
     from rich.console import Console
 
@@ -42,7 +42,7 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
 
 
 def write_json(content: object, *, indent: int | None = 2) -> None:
-    """Print a value as JSON; numbers that JSON does not have are refused."""
+    """Print a value as JSON; raise an error for NaN and infinity, which JSON does not have."""
     text = json.dumps(content, indent=indent, allow_nan=False, default=str)
     sys.stdout.write(f"{text}\n")
 
@@ -53,8 +53,8 @@ def write_file(path: Path, content: str | bytes) -> None:
     The old file stays until the new one is complete, so that a full disk loses nothing.
 
     Raises:
-        InputError: If that fails.
-        UsageError: If the name is `-`.
+        InputError: If the file cannot be written.
+        UsageError: If the path is `-`.
     """
     from tftool.frames.export.trajectory_files import whole_file
     from tftool.recordings.target import failed, refuse_stdout

@@ -1,4 +1,4 @@
-"""Parts shared by commands that run users' programs: their packages and their log."""
+"""Packages and log of users' programs, for the commands that run such programs."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 
 def workspace_here(*, verbose: bool) -> Workspace:
-    """Return the packages below this folder, or in the workspace's src that contains it.
+    """Return the packages below this folder, or of the workspace whose src contains this folder.
 
     Args:
-        verbose: Whether to tell of folders that are skipped, and why.
+        verbose: Whether to print which folders are skipped, and why.
     """
     workspace = Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():
@@ -26,11 +26,11 @@ def workspace_here(*, verbose: bool) -> Workspace:
 
 
 def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = None) -> None:
-    """Print a world's log from now on.
+    """Print a world's log messages from now on.
 
     Args:
-        world: The world.
-        label_of: Returns the name of a line's program, if there are several.
+        world: World whose log is printed.
+        label_of: Function that returns the name of a message's program; None for a single program.
     """
 
     def tell(record: "LogRecord") -> None:

@@ -1,4 +1,4 @@
-"""Progress on stderr while a file is read or written, or a session listened to; and Ctrl-C."""
+"""Progress bars on stderr for reading, writing and listening; and interruption by Ctrl-C."""
 
 import os
 import signal
@@ -41,10 +41,10 @@ class Bar:
     """Progress bar on stderr, if that is a terminal, shown after half a second."""
 
     def __init__(self, what: str) -> None:
-        """Start without a bar.
+        """Prepare the bar without showing it.
 
         Args:
-            what: Text in front of the bar, fit for a terminal.
+            what: Text in front of the bar, without control characters.
         """
         self._what = what
         self._clock = WallClock()
@@ -54,7 +54,7 @@ class Bar:
         self._handlers: dict[int, Any] = {}
 
     def __call__(self, done: int, total: int) -> None:
-        """Show the progress: bytes, rate, time left."""
+        """Show the progress in bytes, with rate and remaining time."""
         now = self._clock.now()
         if now - self._since < PATIENCE or now - self._drawn < _REDRAWN or not sys.stderr.isatty():
             return
@@ -125,17 +125,17 @@ _SHARE = 4
 
 
 class ListeningBar:
-    """Progress bar of a session, with lines below it; erased at the end.
+    """Progress bar for listening to a session, with lines of text below; erased at the end.
 
-    It is called in another thread than the one that waits for its end.
+    Another thread than the one that waits for the end calls it.
     """
 
     def __init__(self, lasting: float, look: "Look | None") -> None:
-        """Start without a bar.
+        """Prepare the bar without showing it.
 
         Args:
-            lasting: Time to listen to the session, seconds.
-            look: Returns lines about the findings so far.
+            lasting: Seconds to listen to the session.
+            look: Function that returns lines about the findings so far; None for no lines.
         """
         self._lasting = lasting
         self._look = look
@@ -176,7 +176,7 @@ class ListeningBar:
             self._live.stop()
 
     def __call__(self, frames: "Frames", since: Duration) -> None:
-        """Show the progress, and look at what was heard."""
+        """Show the progress, and the lines about the frames received so far."""
         transforms = 0 if frames.log is None else len(frames.log)
         self._progress.update(
             self._task,
@@ -207,7 +207,7 @@ class ListeningBar:
 def interruptible() -> Iterator[None]:
     """Let SIGINT and SIGTERM raise `KeyboardInterrupt` within this block.
 
-    Only outside of an event loop, which has handlers of its own.
+    For use outside an event loop, which has its own handlers.
     """
     if sys.platform == "win32" or threading.current_thread() is not threading.main_thread():
         yield

@@ -1,4 +1,4 @@
-"""The terminal of commands without a full-screen app: Ctrl-Z, keys, and redrawn pictures."""
+"""Terminal of commands without a full-screen display: Ctrl-Z, keys, and redrawn pictures."""
 
 import asyncio
 import os
@@ -22,13 +22,13 @@ _layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
 
 @contextmanager
 def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object]) -> Iterator[None]:
-    """Restore the terminal while Ctrl-Z stops the process; may be nested.
+    """Restore the terminal while Ctrl-Z stops the process; blocks may be nested.
 
-    Without effect outside the main thread, where there is no SIGTSTP, and where it is ignored.
+    This has no effect outside the main thread, without SIGTSTP, and if SIGTSTP is ignored.
 
     Args:
-        leave: Gives the terminal back as it was.
-        enter: Takes it again.
+        leave: Function that restores the terminal's original state.
+        enter: Function called after the process continues, to set up the terminal again.
     """
     number = getattr(signal, "SIGTSTP", None)
     if number is None or threading.current_thread() is not threading.main_thread():
@@ -47,7 +47,7 @@ def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object])
 
 
 def _asked(number: int, frame: FrameType | None) -> None:
-    """Stop between two callbacks of the loop, so never within a write."""
+    """Stop the process on SIGTSTP between two callbacks of the event loop, never in a write."""
     try:
         loop = asyncio.get_running_loop()
     except RuntimeError:
@@ -82,7 +82,7 @@ _LONGEST = max(map(len, _NAMES))
 
 
 def keys_in(typed: bytes) -> list[str]:
-    """Return the names of the keys with these bytes; unknown bytes are ignored."""
+    """Return the names of the keys that sent these bytes; unknown bytes are ignored."""
     found = []
     while typed:
         for length in range(min(_LONGEST, len(typed)), 1, -1):
@@ -105,10 +105,10 @@ def keys_in(typed: bytes) -> list[str]:
 
 @contextmanager
 def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
-    """Call back for every key pressed in the terminal, in a running loop.
+    """Call `pressed` with every key pressed in the terminal, in a running event loop.
 
     Yields:
-        Whether keys are taken: there has to be a terminal, and this in its foreground.
+        Whether keys are read: stdin must be a terminal, and the process in its foreground.
     """
     try:
         import termios
@@ -152,7 +152,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
 
 def termios_error() -> type[BaseException]:
-    """Return the exception type of terminal settings; on systems without them, one never raised."""
+    """Return the error type of terminal settings; without termios, a type never raised there."""
     try:
         import termios
     except ImportError:
@@ -161,21 +161,21 @@ def termios_error() -> type[BaseException]:
 
 
 def can_redraw() -> bool:
-    """Whether stdout is a terminal with a movable cursor."""
+    """Return whether stdout is a terminal with a movable cursor."""
     return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
 
 
 class Redrawing:
-    """Drawer that replaces its last picture; lines on stderr go above it.
+    """Drawer that replaces its last picture on the terminal; lines on stderr go above the picture.
 
-    Nothing is drawn, and the cursor is not moved, until the first picture.
+    Before the first picture, nothing is drawn and the cursor is not moved.
     """
 
     def __init__(self, clock: Clock) -> None:
         """Prepare to draw.
 
         Args:
-            clock: Clock of the world; when it is killed, the cursor is shown again.
+            clock: Clock of the world; the cursor is shown again before a signal ends the process.
         """
         self.console: Console = Console()
         self._live: Live | None = None
@@ -183,7 +183,7 @@ class Redrawing:
         self._stopping = left_while_stopped(self._leave, lambda: None)
 
     def show(self, picture: RenderableType) -> None:
-        """Draw in place of the last picture."""
+        """Draw a picture in place of the last one."""
         if self._live is None:
             # stderr that goes to a file goes on to the file.
             self._live = Live(
@@ -202,7 +202,7 @@ class Redrawing:
         self._undo()
 
     def _leave(self) -> None:
-        """Leave the last picture; the next one goes below it."""
+        """Keep the last picture on the terminal; the next one is drawn below it."""
         if self._live is not None:
             self._live.stop()
             self._live = None

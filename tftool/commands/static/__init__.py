@@ -1,4 +1,4 @@
-"""`tftool static`: publish one static transform."""
+"""Command `tftool static`: publish one static transform."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""`tftool static`: publish one static transform."""
+"""Run of `tftool static`: publish one static transform."""
 
 import inspect
 import os
@@ -18,10 +18,10 @@ from tftool.world.link.session_world import Session
 
 
 def publish(connection: Connection, said: StaticArguments, *, spin: bool) -> None:
-    """Publish a static transform, print it, and keep it published.
+    """Publish a static transform and print it; with `spin`, keep it published until interrupted.
 
     Raises:
-        UsageError: If no buffer would take it, or nothing is to be published.
+        UsageError: If buffers would reject the transform, or --read-only was given.
     """
     connection.refuse_read_only("publish")
     if said.parent == said.child:
@@ -51,7 +51,7 @@ async def _published(session: Session, said: StaticArguments, spin: bool) -> Non
 
 
 def run(connection: Connection, options: StaticOptions) -> ExitStatus:
-    """Run `tftool static`."""
+    """Run `tftool static`: parse the arguments and publish the transform."""
     given = vars(options)
     words = [
         word

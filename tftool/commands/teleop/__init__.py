@@ -1,4 +1,4 @@
-"""`tftool teleop`: arrow keys drive a turtle."""
+"""Command `tftool teleop`: drive a turtle with arrow keys."""
 
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Ascii, Light, argument, option

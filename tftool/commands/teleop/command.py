@@ -1,4 +1,4 @@
-"""`tftool teleop`: arrow keys drive a turtle."""
+"""Run of `tftool teleop`: drive a turtle with arrow keys."""
 
 import math
 import sys
@@ -37,15 +37,15 @@ PATIENCE = seconds(10)
 
 
 def press_all(connection: Connection, turtle: str, keys: str) -> str:
-    """Press keys, each after the effect of the last one is complete.
+    """Press keys, each after the effect of the previous one is complete.
 
     Args:
-        connection: The command's options.
-        turtle: Turtle that the keys drive.
-        keys: Words between blanks: "up up left g".
+        connection: Connection of the command.
+        turtle: Name of the turtle that the keys drive.
+        keys: Names of keys, separated by spaces: "up up left g".
 
     Returns:
-        A sentence with the turtle's new place.
+        A sentence with the turtle's new position.
 
     Raises:
         UsageError: If there is no such key, or no such turtle.
@@ -133,7 +133,7 @@ def _is_at_rest(pose: Any) -> bool:
 
 
 def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
-    """Run `tftool teleop`."""
+    """Run `tftool teleop`: read keys from the terminal, or press those of --keys."""
     connection.refuse_read_only("drive")
     if options.keys is not None:
         typer.echo(press_all(connection, options.turtle, options.keys))

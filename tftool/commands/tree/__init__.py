@@ -1,4 +1,4 @@
-"""`tftool tree`: the tree of frames as text, data or a picture."""
+"""Command `tftool tree`: the tree of frames as text, data or a picture."""
 
 from enum import StrEnum
 from pathlib import Path

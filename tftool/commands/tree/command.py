@@ -1,4 +1,4 @@
-"""Write the tree of FROM once, as text, data or a picture."""
+"""Run of `tftool tree`: write the tree of frames once, as text, data or a picture."""
 
 import json
 import sys
@@ -32,7 +32,7 @@ Moving = frozenset[str] | None
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> Iterator[str]:
-    """Yield the tree at the terminal's width; complete without a terminal or on request."""
+    """Yield the tree in pieces: cut to a terminal's width, or complete if `wide` or without one."""
     console = Console()
     if not console.is_terminal:
         for text, _ in frame_tree.pieces(snapshot, moving=moving, marks=marks):
@@ -54,7 +54,7 @@ def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> It
 
 
 def fitting(snapshot: Snapshot, moving: Moving, marks: Marks, console: Console) -> Sequence[Text]:
-    """Return the tree at a terminal's width; columns and names are cut to fit."""
+    """Return the lines of a tree at a terminal's width, with columns and names cut to fit."""
     if not snapshot.frames:
         return [Text(NOTHING)]
     found = compact(
@@ -91,7 +91,7 @@ WITHOUT_MARKS = (TreeFormat.dot, TreeFormat.mermaid, TreeFormat.yaml)
 
 
 def run(connection: Connection, options: TreeOptions) -> ExitStatus:
-    """Run `tftool tree`."""
+    """Run `tftool tree`: write or show the tree of frames."""
     form = options.form
     if options.as_json:
         if form not in (None, TreeFormat.json):
@@ -184,7 +184,7 @@ def _write(
 def _content(
     snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, *, wide: bool
 ) -> bytes | Iterable[str]:
-    """Return a PDF's bytes, or the text in pieces, so that a large tree appears at once."""
+    """Return bytes of a picture, or text in pieces, so that a large tree appears at once."""
     if form is TreeFormat.json:
         told = frame_tree.as_object(snapshot, moving, marks)
         return [json.dumps(told, indent=2, allow_nan=False), "\n"]

@@ -1,4 +1,4 @@
-"""`tftool tree --watch`: a live tree."""
+"""Live tree of frames on the terminal, for `tftool tree --watch`."""
 
 import os
 import sys
@@ -28,7 +28,7 @@ from tftool.world.world import World
 
 
 def watch_with_keys(session: Session, duration: Duration | None) -> None:
-    """Show the tree until q is pressed or the time is up."""
+    """Show the tree on a full screen until q is pressed or the duration is over."""
     world = session.world
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting(title="tftool tree"))
     app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
@@ -51,7 +51,7 @@ def show_changes(
     duration: Duration | None,
     cache_time: Duration | None,
 ) -> None:
-    """Show a live tree: with keys if the terminal has them, else redrawn in place."""
+    """Show a live tree: on a full screen with keys if possible, else redrawn in place."""
     console = Console()
     if not console.is_terminal:
         raise UsageError("--watch needs a terminal; without it the tree is written once.")
@@ -63,7 +63,7 @@ def show_changes(
 
 
 async def _redrawn(world: World, duration: Duration | None, console: Console) -> None:
-    """Draw the tree on the world's own ticks; rich's thread could draw a half-finished change."""
+    """Redraw the tree in the event loop, since rich's thread could draw half-finished changes."""
     # On this screen nothing else can be read.
     news = Text(style="yellow")
 

@@ -1,4 +1,4 @@
-"""`tftool view`: the frames in 3-D, in a browser."""
+"""Command `tftool view`: the frames in 3-D, in a browser."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""`tftool view`: the frames in 3-D, in a browser."""
+"""Run of `tftool view`: the frames in 3-D, in a browser."""
 
 import asyncio
 import html
@@ -89,7 +89,7 @@ def _write(connection: Connection, options: ViewOptions, output: Path) -> ExitSt
 
 
 def _page_data(connection: Connection, options: ViewOptions) -> StandaloneData:
-    """Return everything that a page without a server shows, from a file or a session."""
+    """Return all data that a page without a server shows, from a file or a session."""
     meshes = options.meshes or []
     published: list[ShownRobot] = []
     displays: list[LiveDisplays] = []
@@ -113,7 +113,7 @@ def _page_data(connection: Connection, options: ViewOptions) -> StandaloneData:
 
 
 def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) -> ShownRobot | None:
-    """Return the robot of a description or a recording."""
+    """Return the robot of a description or a recording, with its meshes; None without one."""
     robot = frames.robot
     if robot is None:
         return None
@@ -127,7 +127,7 @@ def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) ->
 def _alive(
     connection: Connection, found: Found, meshes: Sequence[Path]
 ) -> "tuple[Session, ShownRobot]":
-    """Return a world with one robot, whose joints the page moves."""
+    """Return a session that publishes a robot, and the robot, whose joints the page moves."""
     connection.refuse_to_share(found.name)
     robot = load_described(found, connection.robot)
     joints = connection.robot.joints
@@ -143,7 +143,7 @@ def _alive(
 
 
 def _let_drive(session: Session, page: PageServer) -> None:
-    """Let a hosted world's turtle draw until someone drives it, and accept the page's keys."""
+    """Pass the page's keys to a hosted world's turtle, which draws until a key is pressed."""
     if not session.is_hosted or simulator_of(session.world) is None:
         return
     link = session.link
@@ -152,7 +152,7 @@ def _let_drive(session: Session, page: PageServer) -> None:
 
 
 def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
-    """Show the robot as soon as its description is published."""
+    """Show the robot on the page when its description is published."""
 
     def show(shown: ShownRobot) -> None:
         page.show_robot(shown)
@@ -164,7 +164,7 @@ def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
 def _hear_description(
     world: World, show: Callable[[ShownRobot], object], meshes: Sequence[Path]
 ) -> None:
-    """Pass on each robot description that is published."""
+    """Call `show` with each robot description that is published."""
 
     def described(message: Any) -> None:
         try:
@@ -191,13 +191,13 @@ async def _show(
     waiting: Coroutine[Any, Any, None],
     open_browser: bool,
 ) -> None:
-    """Serve the page until the time is up or a signal ends it.
+    """Serve the page until the time is over or a signal ends it.
 
     Args:
-        page: The page.
-        name: Name of the source it shows.
-        waiting: Ends when the time is over.
-        open_browser: Whether to open the page.
+        page: Server of the page.
+        name: Name of the source that the page shows.
+        waiting: Coroutine that ends when the time is over.
+        open_browser: Whether to open the page in a browser.
     """
     async with page:
         if page.asked_port not in (0, page.port):
@@ -230,10 +230,10 @@ async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
 
 @contextmanager
 def _redirect_to(url: str) -> Iterator[str]:
-    """Create a file that leads to the page while this block runs, and return its address.
+    """Create a file that redirects to the page while this block runs, and return the file's URL.
 
-    Every user of the machine can read a browser's command line, and the page's address holds its
-    secret: so the browser is given a file that only this user may read.
+    Every user of the machine can read a browser's command line, and the page's address contains its
+    secret. So the browser gets the name of a file that only this user can read.
     """
     with TemporaryDirectory(prefix="tftool-") as folder:
         file = Path(folder, "view.html")
@@ -253,7 +253,7 @@ async def _opened(url: str) -> bool:
 
 
 def run(connection: Connection, options: ViewOptions) -> ExitStatus:
-    """Run `tftool view`."""
+    """Run `tftool view`: serve the page, or write it to a file."""
     if options.output is not None:
         if options.cache_time is not None:
             raise UsageError("A file contains all transforms: leave out --cache-time.")
@@ -290,7 +290,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
 def _show_frames(
     connection: Connection, options: ViewOptions, serve: Callable[..., PageServer]
 ) -> None:
-    """Show a complete source from its beginning, paused."""
+    """Show a file's frames from their beginning, paused."""
     frames = open_from(connection, options.place, cache_time=options.cache_time)
     shown_frames = at_rest(connection, frames)
     clock, start = shown_frames.clock, max(frames.span[0], 1)
