@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tftool.robots.robot_model import Robot
 
 ROWS: Final = 10
-"""How many rows of a long array are shown, half of them from its end."""
+"""Number of rows shown of a long array, half of them from its end."""
 
 _HEADS: Final = ("stamp", "x", "y", "z", "qx", "qy", "qz", "qw")
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from tftool.world.world import World
 
 LISTEN_FOR = 5.0
-"""Seconds a session is listened to, and a scenario played, unless more is asked for."""
+"""Seconds to listen to a session, and to play a scenario, by default."""
 
 
 def open_frames(

@@ -42,10 +42,10 @@ PLAINLY = (
     (r"is not in the range x>=(\S+?)\.?$", r"is less than \1."),
     (r"(?<![.?])$", "."),
 )
-"""What click says in a programmer's words, and what we say instead."""
+"""Patterns of click's technical error texts, each with a plain text in place of it."""
 
 UNLIKE = 0.5
-"""Two words that are less alike than this, from 0 to 1, are not mistaken for one another."""
+"""Least similarity, from 0 to 1, of a word that is suggested for a mistyped one."""
 
 
 def run_command(words: Sequence[str], providers: "Providers | None" = None) -> int:
@@ -58,15 +58,15 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
     name, *rest = words
     if name not in COMMANDS:
         raise UsageError(_did_you_mean(f"No such command '{name}'", name, COMMANDS, "'"))
-    # typer carries its own click since 0.26: its base classes are reached through what it
-    # exports, so that either kind is caught.
+    # Since 0.26, typer contains a copy of click: its base classes are found through typer's
+    # classes, so that the errors of either version are caught.
     wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
     command = made(name)
     invocation = Invocation(providers, lambda words: run_command(words, providers))
     try:
         with command.make_context(f"tftool {name}", rest, obj=invocation) as context:
             if not gc.isenabled():
-                # A file of 100 KB can make 60,000 frames: with Python's own thresholds the
+                # A file of 100 KB can create 60,000 frames: with Python's default thresholds, the
                 # collector takes a fifth of the time and finds nothing.
                 gc.freeze()
                 gc.set_threshold(50_000, 20, 100)
@@ -101,7 +101,7 @@ def _sentence_of(error: Any) -> str:
         sentence = error.message
         near = _nearest(str(getattr(error, "option_name", "")), near)
     if near:
-        # click sorts them by the alphabet; here the nearest comes first.
+        # click sorts the suggestions alphabetically; here the most similar is first.
         sentence = f"{error.message.rstrip('.')}. Did you mean {' or '.join(near)}?"
     for pattern, words in PLAINLY:
         sentence = re.sub(pattern, words, sentence)
@@ -112,7 +112,7 @@ def _nearest(written: str, near: Iterable[str]) -> list[str]:
     """Return the options nearly as similar to the typed word as the best match, best first."""
 
     def likeness_of(one: str) -> float:
-        # The first letter is the one that is seldom mistyped.
+        # The first letter is rarely mistyped.
         same = one.lstrip("-")[:1] == written.lstrip("-")[:1]
         return SequenceMatcher(None, written, one).ratio() + 0.1 * same
 
@@ -127,7 +127,7 @@ def _nearest(written: str, near: Iterable[str]) -> list[str]:
 def made(name: str) -> Any:
     """Build the typer command of one name, with all its options."""
     command = load(name)
-    # Help in plain text: rich would cost more than everything else at start-up.
+    # Help in plain text, because importing rich takes longer than the rest of the start.
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
     settings = {"help_option_names": ["-h", "--help"], **command.kind.settings}
     text = _laid_out(command.__doc__ or "")
@@ -140,7 +140,7 @@ def made(name: str) -> Any:
 def _laid_out(docstring: str) -> str:
     """Format a command's docstring as its help; examples keep their line breaks."""
     paragraphs = cleandoc(docstring).split("\n\n")
-    # The mark by which click leaves a paragraph as it is.
+    # \b tells click not to wrap a paragraph.
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
@@ -207,7 +207,7 @@ class LaidOutCommand(TyperCommand):
             record = param.get_help_record(ctx)
             if record is not None:
                 sections.setdefault(title, []).append(record)
-        # What every command has goes last.
+        # Options that every command has are last.
         sections["Help"] = sections.pop("Help", [])
         for title, rows in sections.items():
             if rows:
@@ -224,7 +224,7 @@ def _number(word: str) -> float:
 
 
 _POSES = "tftool.pose_options"
-"""Under which name a context keeps the options of pose files."""
+"""Key of the pose files' options in a context's `meta`."""
 
 SESSION = "Session and network"
 

@@ -19,11 +19,13 @@ if TYPE_CHECKING:
     from tftool.ros.host.workspace import Workspace
 
 VARIABLE: Final = "_TFTOOL_COMPLETE"
-"""Set by the scripts; holds the name of the shell."""
+"""Environment variable that the scripts set to the name of the shell."""
 
 BEHIND: Final = "_TFTOOL_COMPLETE_BEHIND"
-"""The words behind the one typed, a word a line. fish's script sets none: while it completes,
-fish's `commandline` ends with the word that is typed."""
+"""Environment variable with the words after the typed one, one per line.
+
+fish's script does not set it: while it completes,
+fish's `commandline` ends with the typed word."""
 
 SCRIPTS: Final = {
     "bash": """\
@@ -53,19 +55,19 @@ end
 complete -c tftool -a '(__tftool_complete)'
 """,
 }
-"""What each shell runs once when it starts."""
+"""Completion script of each shell, which the shell runs once when it starts."""
 
 FRAMES: Final = {"TARGET", "SOURCE", "A", "B", "FRAME", "LEADER", "PARENT", "CHILD"}
-"""What the help calls words that are names of frames."""
+"""Names that the help gives to values that are names of frames."""
 
 SOURCES: Final = {"FROM", "SCENARIO"}
-"""What the help calls words that may be a built-in scenario, beside a file."""
+"""Names that the help gives to values that may be a built-in scenario or a file."""
 
 CHECK_IDS: Final = {"ID", "FINDING"}
-"""What the help calls words that are ids of the doctor's checks."""
+"""Names that the help gives to values that are ids of the doctor's checks."""
 
 Offer = tuple[str, str]
-"""A word, and what it stands for; "" where the word says it."""
+"""Word to offer, and its description; "" for none."""
 
 
 def complete(words: Sequence[str], shell: str) -> None:
@@ -79,7 +81,7 @@ def complete(words: Sequence[str], shell: str) -> None:
     with contextlib.suppress(TftoolError, OSError, ValueError):
         offered = offers(words or [""])
     for word, about in offered:
-        # A name that would be a line of its own, or an escape, is not offered.
+        # Names with line breaks, quotes or escapes are not offered.
         if not word.isprintable() or any(letter in word for letter in " '\"\\$`"):
             continue
         sys.stdout.write(_line(word, about.partition("\n")[0], shell) + "\n")
@@ -207,7 +209,7 @@ def _words_behind() -> list[str]:
 def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
     """Return the frames of the first word that names a file with frames; else None."""
     for word in words:
-        # Unlike `Path.expanduser` it leaves a user alone that is none.
+        # Unlike `Path.expanduser`, this does not raise for an unknown user.
         path = Path(os.path.expanduser(word))
         if not word or word.startswith("-") or not path.exists():
             continue
@@ -281,7 +283,7 @@ _WORDS: Final[dict[str, Callable[[Sequence[str]], Iterator[Offer]]]] = {
     "run": _packages,
     "launch": _launches,
 }
-"""Commands whose words are looked up: names of the workspace, words of ROS 2."""
+"""Function that completes the words of a command: packages, launch files, verbs of ROS 2."""
 
 
 def shell_here() -> str:

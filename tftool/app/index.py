@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from tftool.commands.shared.declaration import Command
 
-# In the order of the help, with the line it has for each: reading that from the commands
-# themselves would import them all. Each is declared in a module of its own name.
+# In the order of the help. The text is here because reading it from the commands would import
+# all of them. Each command is declared in the module of its name.
 GROUPS = {
     "Learn": {
         "demo": "Show turtle2 following turtle1.",
@@ -62,7 +62,7 @@ GROUPS = {
         "help": "Show the list of commands, or the help of one (man).",
     },
 }
-"""A line of the help for each command, by purpose, the most used first."""
+"""Commands by purpose, the most used first, each with its line in the help."""
 
 COMMANDS = {name: summary for group in GROUPS.values() for name, summary in group.items()}
 
@@ -73,7 +73,7 @@ def load(name: str) -> "type[Command]":
     Help and completion list every command, but import only the commands that they describe in
     detail.
     """
-    # Only `help` asks for other commands.
+    # `help` is declared outside of `commands`, because it uses the other commands.
     home = "tftool.app.command_line" if name == "help" else f"tftool.commands.{name}"
     command: type[Command] = getattr(import_module(home), f"{name.capitalize()}Options")
     return command
@@ -85,7 +85,7 @@ OPTIONS = {
     ("--show-completion",): "Print the shell's script for that.",
     ("--help", "-h"): "Show this message and exit.",
 }
-"""Options of `tftool` itself."""
+"""Options of `tftool` itself, each with its line in the help."""
 
 ABOUT = (
     "TF2 without ROS: learn coordinate frames with two turtles, and ask the same tool about a "
@@ -98,7 +98,7 @@ ABOUT = (
 
 def overview() -> str:
     """Return the help of `tftool`: its options, and the commands by group."""
-    # The width of a command's help, which typer lays out.
+    # The width at which typer formats the help of a command.
     width = max(min(shutil.get_terminal_size().columns, 80) - 2, 50)
     paragraphs = [textwrap.fill(one, width, initial_indent="  ", subsequent_indent="  ")
                   for one in ABOUT]  # fmt: skip
@@ -144,11 +144,11 @@ def _page(text: str) -> bool:
     command = shlex.split(os.environ.get("PAGER") or "less")
     if shutil.which(command[0]) is None:
         return False
-    # Ctrl-C is the pager's: if this process ended before it, the shell and the pager would
+    # Ctrl-C is left to the pager: if this process ended first, the shell and the pager would
     # both read the keyboard.
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        # Colours as they are; the text stays on the screen after q.
+        # -R shows colours; -X leaves the text on the screen after q.
         environment = {"LESS": "-RX", **os.environ}
         subprocess.run(command, input=f"{text}\n", text=True, env=environment, check=False)
     finally:

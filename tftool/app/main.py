@@ -11,7 +11,7 @@ import sys
 
 from tftool.base.exit_status import ExitStatus
 
-# Nothing slow is imported up here: an interrupt before `main` has begun would be a traceback.
+# No slow imports here: Ctrl-C before `main` starts would print a traceback.
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
@@ -31,10 +31,10 @@ _PLAIN = {
     "π": "pi",
     "±": "+-",
 }
-"""What tftool's own signs are on a terminal, or in a file, whose encoding lacks them."""
+"""ASCII replacement of each of tftool's symbols, for encodings that lack the symbol."""
 
 DESCRIPTORS = 32
-"""Files and sockets that a command may come to need at once."""
+"""Most files and sockets that a command may need open at the same time."""
 
 
 def _set_up_completion(*, show: bool) -> None:
@@ -63,7 +63,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
     is_own = argv is None
     try:
         if argv is None:
-            # Nothing that is made while starting is garbage; looking for it takes a tenth of
+            # Nothing created during the start is garbage, and collecting takes a tenth of
             # the time.
             gc.disable()
             _leave_on_signals()
@@ -75,17 +75,17 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
         status = _run(list(argv), providers)
         sys.stdout.flush()
         if is_own:
-            # The end of the process frees what is left; Python would look through all of it for
+            # The end of the process frees all memory. Without this, Python would search it for
             # garbage first, which takes a tenth of the time of a short command.
             gc.freeze()
     except KeyboardInterrupt as interrupt:
         if interrupt.__cause__ is not None:
-            # A node failed on the way out: that is said, and the run was interrupted all the same.
+            # A node failed while it was stopped: print its error; the run counts as interrupted.
             _complain("tftool", str(interrupt.__cause__))
         status = ExitStatus.INTERRUPTED
     except BrokenPipeError:
-        # The reader has seen enough (`| head -1`): that is no failure. Text still
-        # buffered would be written at exit, so it goes nowhere.
+        # The pipe's reader has ended (`| head -1`), which is no failure. Text that is still
+        # buffered would be written at exit, so it is discarded.
         _forget_output()
         status = ExitStatus.DONE
     except MemoryError:
@@ -93,10 +93,10 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
         status = ExitStatus.UNREADABLE
     except OSError as error:
         if isinstance(error, TimeoutError) and error.errno is None:
-            # asyncio's own: an OSError by its family alone, and no output has gone wrong.
+            # asyncio's timeout, which is an OSError only by inheritance, not failed output.
             _complain("tftool", f"{error or 'Something did not answer in time'}.")
             return ExitStatus.FAILED
-        # Who opens a file answers for it; the rest is mostly stdout on a full disk.
+        # Functions that open files handle their errors; what remains is mostly stdout.
         _forget_output()
         what = error.filename or "the output cannot be written"
         _complain("tftool", f"{what}: {error.strerror or error}.")
@@ -137,7 +137,7 @@ def _leave_on_signals() -> None:
     if sys.platform != "win32":
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, leave)
-        # The first one registered is called last.
+        # The function that is registered first is called last.
         atexit.register(ignore)
 
 
@@ -162,7 +162,7 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
         return ExitStatus.NO_TRANSFORM
     except TftoolError as error:
         if isinstance(error.__cause__, BrokenPipeError) and _has_no_reader():
-            # A node of one's own prints, too, and its reader may have seen enough.
+            # A user's node may print to a pipe whose reader has ended.
             raise error.__cause__ from None
         _complain("tftool", str(error))
         return ExitStatus.FAILED
@@ -216,7 +216,7 @@ def _prepare_streams() -> None:
     codecs.register_error(_WRITTEN_PLAINLY, _written_plainly)
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
-        if stream is None:  # closed by what started us
+        if stream is None:  # closed by the parent process
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
         elif hasattr(stream, "reconfigure"):
             stream.reconfigure(errors=_WRITTEN_PLAINLY)
@@ -243,7 +243,7 @@ def _require_descriptors() -> None:
         while len(probes) < DESCRIPTORS:
             probes.append(os.dup(2))
     except OSError as error:
-        if error.errno == errno.EBADF:  # no stderr, so nothing to try it with
+        if error.errno == errno.EBADF:  # no stderr to duplicate
             return
         raise OSError(
             error.errno,
@@ -265,7 +265,7 @@ def _has_no_reader() -> bool:
     watched = select.poll()
     try:
         watched.register(sys.stdout.fileno(), 0)
-    except (OSError, ValueError):  # a stdout that is no file has no number
+    except (OSError, ValueError):  # stdout without a file descriptor
         return False
     return any(event & select.POLLERR for _, event in watched.poll(0))
 
@@ -274,5 +274,5 @@ def _forget_output() -> None:
     """Discard the text that is buffered for stdout."""
     from contextlib import suppress
 
-    with suppress(OSError, ValueError):  # a stdout that is no file has no number
+    with suppress(OSError, ValueError):  # stdout without a file descriptor
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

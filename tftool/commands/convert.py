@@ -17,7 +17,7 @@ from tftool.geometry.notation.rotations import LONGEST, read
 class ConvertOptions(
     Command,
     shares=False,
-    # -1 is a number there, not an option; static_transform_publisher's own may be pasted, too.
+    # -1 is a number here, and pasted options of static_transform_publisher are allowed.
     settings={"ignore_unknown_options": True},
 ):
     """Write one rotation, or pose, in every notation.

@@ -36,16 +36,16 @@ class McpOptions(Command, shares=False):
 
 
 MOST_CHARACTERS: Final = 4000
-"""Characters of an answer: an agent reads all of it, and pays for it."""
+"""Most characters of a response, because an agent pays for reading all of it."""
 
 TIMEOUT: Final = 120.0
-"""Seconds a command may take."""
+"""Longest time in seconds that a command may take."""
 
 MOST_POINTS = 20
-"""Points of each curve of a plot: an answer has to be short."""
+"""Most points of each curve of a plot, to keep the response short."""
 
 MOST_ENTRIES: Final = 10_000
-"""Entries of a folder that are looked at."""
+"""Most entries of a folder that are examined."""
 
 SUFFIXES: Final = (".mcap", ".db3", ".bag", ".urdf", ".launch.py", ".launch.xml", ".launch.yaml")
 
@@ -60,7 +60,7 @@ def run(options: McpOptions) -> ExitStatus:
     if not options.root.is_dir():
         raise InputError(f"'{options.root}' is no folder: name the folder of the recordings.")
     try:
-        # An extra: 40 MB that only this command needs.
+        # An optional package of 40 MB, which only this command needs.
         from mcp.server import MCPServer
         from mcp.server.mcpserver.exceptions import ToolError
         from mcp.types import ToolAnnotations
@@ -205,7 +205,7 @@ class Questions:
         """
         file = self._file(source)
         cached = [] if file.endswith(".urdf") or command == "doctor" else ["--no-cache"]
-        # Python would else import modules that are in the folder.
+        # -P: otherwise Python would import modules from the current folder.
         words = [sys.executable, "-P", "-m", "tftool", command, "--json", *cached, *options]
         try:
             done = subprocess.run(
@@ -305,12 +305,12 @@ def _option(name: str, value: str) -> list[str]:
 
 
 def _version() -> str:
-    # The package is above every room: it is asked, not imported.
+    # Subpackages do not import the package itself, so its version is read from `sys.modules`.
     found: str = sys.modules["tftool"].__version__
     return found
 
 
-# Answers that are not too long
+# Responses within the size limit
 
 
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:

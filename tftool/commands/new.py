@@ -28,7 +28,7 @@ EXAMPLES = {
     "orbit": ("turtle_broadcaster", "turtle_follower", "moving_carrot"),
     "time_travel": ("turtle_broadcaster", "time_traveller"),
 }
-"""The steps of the tutorial: the nodes that each has when it is finished."""
+"""Steps of the tutorial, with the nodes of each finished step."""
 
 
 class NewOptions(Command, shares=False):
@@ -92,7 +92,7 @@ LINES: Final = {
         "found": 'raise TransformException("TODO: look up turtle1 as it was, as `found`")',
     },
 }
-"""Replacement of each assignment: a comment, or a line that runs where one must."""
+"""Replacement of each key assignment, by node: a comment, or a line if Python needs one."""
 
 
 def with_blanks(node: str, text: str) -> str:
@@ -100,7 +100,7 @@ def with_blanks(node: str, text: str) -> str:
     wanted = LINES[node]
     lines = text.splitlines(keepends=True)
     found = [one for one in ast.walk(ast.parse(text)) if isinstance(one, ast.Assign)]
-    # From the end, so that the numbers of the lines before stay right.
+    # From the end, so that the line numbers of earlier assignments stay valid.
     for one in sorted(found, key=lambda one: one.lineno, reverse=True):
         blank = wanted.get(ast.unparse(one.targets[0]))
         if blank is not None:
@@ -111,11 +111,11 @@ def with_blanks(node: str, text: str) -> str:
 
 
 TEMPLATE = "learning_tf"
-"""The finished package that each new one is cut from: its name stands where a package's does."""
+"""Name of the example package whose files are copied, with this name replaced."""
 
 
 OF_ROS = {"rclpy", "tf2_py", "tf2_ros", "launch", "launch_ros", "turtlesim", "turtle_tf2_py"}
-"""Packages that the files of the new one import, or run; those of messages are known beside."""
+"""Packages that a new package uses and whose names it may not have, like message packages."""
 
 
 EMPTY_NODE = """\

@@ -6,7 +6,7 @@ from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import OUTPUT, Force, Json, argument, flag, option, output_file
 
 MOUNT = "Mount"
-"""Heading of the help."""
+"""Heading in the help above the options about the mount."""
 
 
 class CalibrateOptions(Command, shares=False, poses=True):

@@ -58,7 +58,7 @@ svg { width: 100%; height: auto; } svg text { font-size: 12px; fill: currentColo
 """
 
 Curve = tuple[str, Floats, Floats]
-"""Name, abscissas, ordinates."""
+"""Name of a curve, its x values, its y values."""
 
 
 def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
@@ -265,7 +265,7 @@ def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: 
 # Motions
 
 Chain = tuple[Frames, str]
-"""Frames, and the word that names a motion in them; empty for the only chain."""
+"""Frames of a file, and the value of --moving for a motion in it; empty for its only chain."""
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
@@ -393,7 +393,7 @@ def _print_clocks(paths: list[TransformArray], *, for_programs: bool) -> ExitSta
 
 
 LEAST_DIFFERENCE: Final = (0.001, 0.1)
-"""Metres and degrees by which a mount may differ however small its interval is, as for `diff`."""
+"""Metres and degrees by which a mount may always differ, even beyond its 95 % interval."""
 
 
 def _compared(

@@ -21,7 +21,7 @@ from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import is_xacro
 
 MOUNT_FILES: Final = (".urdf", ".launch.py", ".launch.yaml", ".launch.xml", ".sh")
-"""Ends of the names of files that a mount is written to."""
+"""Suffixes of files to which a mount can be written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,7 @@ def write_mount(
     assert found.mount is not None
     parent, child = found.moving if chosen is None else (chosen.parent, chosen.child)
     if chosen is None and published.name not in (found.moving[1], found.fixed[1]):
-        child = published.name  # of --mounted: the frame that tf has for it
+        child = published.name  # given by --mounted: the frame's name in tf
     pose = found.mount
     if chosen is not None:
         pose = (
@@ -217,7 +217,7 @@ def with_origin(text: bytes, joint: str, origin: str) -> bytes:
     old = text[low:high]
     if low == high:
         return text[:low] + b"\n    " + origin.encode() + text[high:]
-    # An element that is closed apart keeps its end tag.
+    # An element with a separate end tag keeps that tag.
     new = origin if old.endswith(b"/>") else origin.removesuffix("/>").rstrip() + ">"
     return text[:low] + new.encode() + text[high:]
 

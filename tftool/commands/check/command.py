@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     from tftool.frames.transform_log import TransformLog
 
 PATIENCE = seconds(5)
-"""Real time between two notices to a person about how far a scenario has come."""
+"""Nanoseconds of real time between two notices about a scenario's progress."""
 
 SUFFIXES = (".yaml", ".yml")
-"""What scenario files in a folder end in."""
+"""Suffixes of scenario files in a folder."""
 
 
 def _unfolded(word: str) -> list[str]:
@@ -61,7 +61,7 @@ def _judge(
         scenario = scenario_named(word)
     except InputError as error:
         why = str(error)
-        if Path(word).is_dir():  # in which recordings were looked for as well
+        if Path(word).is_dir():  # the error text would also mention recordings
             why = f"No scenario ({', '.join(SUFFIXES)}) is in the folder '{word}'."
         complain("tftool", why)
         return Report(Path(word).stem or word, word, (), failure=why), False
@@ -118,7 +118,7 @@ class _Heard:
 
     def findings(self) -> tuple[str, ...]:
         """Return the doctor's errors and warnings: one sentence each, with the first remedy."""
-        # The checks take as long to import as most scenarios to play.
+        # Imported here: this takes as long as most scenarios take to play.
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
         from tftool.doctor.judge import judge
@@ -167,10 +167,10 @@ def _recorded(
         raise InputError(
             f"'{visible(str(kept.parent))}' cannot be written to: {reason}."
         ) from error
-    # What records brings every container's writer.
+    # Imported here, because the recorder imports the writers of all containers.
     from tftool.world.nodes.recorder import recorded
 
-    # Beside its name until it is judged: one of an earlier run stays where nothing fails.
+    # A temporary name until the judgement: an earlier recording stays if nothing fails.
     played = kept.with_name(f".{kept.name}")
 
     @contextmanager
@@ -201,7 +201,7 @@ def run(options: CheckOptions) -> ExitStatus:
     kept = None if options.recordings is None else _Kept(options.recordings)
     judging: AbstractContextManager[Callable[..., Verdict]]
     if options.programs or options.launched is not None:
-        # Users' programs need all of `ros`; the scenario's own nodes need none of it.
+        # Imported here: users' programs need all of `ros`, a scenario's own nodes none of it.
         from tftool.commands.check.programs import judge_with
 
         judging = judge_with(
@@ -216,7 +216,7 @@ def run(options: CheckOptions) -> ExitStatus:
             for word in _unfolded(words)
         ]
     if options.packages:
-        # They need all of `ros`.
+        # Imported here: it needs all of `ros`.
         from tftool.commands.check.programs import judge_packages
 
         judged += [(report, True) for report in judge_packages(options.packages)]
@@ -227,7 +227,7 @@ def run(options: CheckOptions) -> ExitStatus:
         write_json(judgements.as_rows(reports))
     else:
         if Console().is_terminal and sys.stderr.isatty():
-            # The terminal has the whole sentence already.
+            # The terminal already shows the error in full, printed to stderr.
             reports = [
                 report if readable else replace(report, failure="cannot be read")
                 for report, readable in judged

@@ -95,7 +95,7 @@ def _show_hosted(
     play = build(left_to_a_person(chosen), connection.providers.wall_clock(options.rate))
     world, link = play.world, found.link
     if found.alone:
-        # Notices from before the screen came up are hidden behind it.
+        # Notices printed before the screen opens would be hidden behind it.
         world.log.warn("session", found.alone)
 
     async def life() -> None:
@@ -106,7 +106,7 @@ def _show_hosted(
     driver = None if simulator_of(world) is None else driver_of(world, "turtle1")
     idle = None
     if driver is not None and not options.still:
-        # Whatever joins sees the turtle at rest, and has it to itself.
+        # When another process joins, the turtle stops, so that only that process drives it.
         idle = IdleDrawing(world, is_alone=lambda: link is None or not link.graph.processes())
     setting = replace(
         _setting(options, f"tftool demo {chosen.name}"),
@@ -177,7 +177,7 @@ def run(connection: Connection, options: DemoOptions) -> ExitStatus:
         _list(for_programs=options.for_programs)
         return ExitStatus.DONE
     if options.recording is not None and options.recording.exists():
-        # Said before the screen comes up.
+        # Raised before the screen opens.
         raise UsageError(f"'{options.recording}' exists: give --record a new name.")
     arguments = _arguments(options.settings or (), options.source_frame)
     if options.scenario is not None and named(options.scenario).kind.is_recording:
@@ -192,7 +192,7 @@ def run(connection: Connection, options: DemoOptions) -> ExitStatus:
     lacking = screen_lacks()
     if options.for_programs or lacking:
         return _play(connection, options, chosen, lacking)
-    # Without a wish of the user's, what runs here already is shown.
+    # If the user chose nothing, the running session is shown.
     wanted = options.scenario or (HOME if arguments or options.rate != 1.0 else None)
     other = _show(connection, options, chosen, wanted)
     while other is not None:
@@ -212,7 +212,7 @@ def _play(
         )
     refuse_long_simulation(options.lasting)
     if not options.for_programs and sys.stdout.isatty():
-        # Who looks on expects a screen.
+        # A person at the terminal expects a screen.
         notice(f"The demo's screen needs a terminal, and {lacking}: playing without it.")
     defaults = scenario_named(options.scenario or HOME, expects=False).arguments
     around: Watch = nullcontext

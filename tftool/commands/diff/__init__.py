@@ -18,7 +18,7 @@ from tftool.commands.shared.options import (
 )
 
 TRAJECTORIES = "Trajectories"
-"""Heading of the help under which the options of --ape and --rpe are listed."""
+"""Heading in the help above the options of --ape and --rpe."""
 
 
 class DiffOptions(Command, descriptions=True, urdf=True):

@@ -26,7 +26,7 @@ from tftool.recordings.target import refuse_existing
 from tftool.world.link.session_world import NOTHING_RUNS
 
 SESSION = "session"
-"""The word that names the session that runs."""
+"""Word on the command line for the running session."""
 
 
 def run(connection: Connection, options: DiffOptions) -> ExitStatus:

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 Judged: TypeAlias = list[tuple[str, Diagnosis | str]]
-"""Each source with its diagnosis, or why it cannot be read."""
+"""Each source with its diagnosis, or with the reason why it cannot be read."""
 
 Baseline: TypeAlias = Mapping[str, frozenset[str]]
 """Fingerprints of an earlier report's findings, by the name of each source."""

@@ -178,7 +178,7 @@ def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
         TransformException: If every lookup fails.
     """
     pair, topic = (options.target, options.source), options.stamps_of
-    # Needs numpy, which an answer about one moment does without.
+    # Imported here: it needs numpy, which a lookup at one time does not.
     from tftool.frames.pair_samples import evenly
 
     buffer = frames.buffer
@@ -190,7 +190,7 @@ def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
     path = buffer.lookup_transforms(*pair, stamps, missing="nan")
     rows = path.valid.nonzero()[0]
     if len(stamps) and not len(rows):
-        # Says why, of the first.
+        # Raises the error of the first lookup.
         buffer.lookup_transform(*pair, int(stamps[0]))
     for row in rows[: options.count].tolist():
         x, y, z = path.translations[row].tolist()

@@ -153,7 +153,7 @@ class Echo:
                 return
             due += self.period
             await pace.sleep_until(due, Phase.WATCH)
-            # Late by more than a period: missed answers are not made up for.
+            # If late by more than a period, missed lookups are skipped.
             due = max(due, pace.now() - self.period)
 
     async def _renewed(self) -> None:
@@ -166,7 +166,7 @@ class Echo:
         newest = self.pair.newest(self.world.buffer)
         waiting = asyncio.ensure_future(self.waiter.wait(newest))
         try:
-            # A clock that jumped back has cleared the buffer: the next answer is new, and older.
+            # If the clock jumped back, the buffer was cleared, and new data has an older time.
             while not waiting.done() and self.pair.newest(self.world.buffer) in (0, newest):
                 timer = pace.timer(pace.now() + self.period)
                 try:

@@ -21,7 +21,7 @@ from tftool.frames.source_options import At
 
 NAMES = "Names"
 LINKS = "Links"
-"""Headings of the help."""
+"""Headings in the help above groups of options."""
 
 
 class EditOptions(Command, shares=False, poses=True):

@@ -85,7 +85,7 @@ def _renamed(text: str) -> tuple[str, str]:
 def _prefix(text: str) -> str:
     name = _frame("--prefix", text)
     if name[-1].isalnum():
-        # ROS 1's tf_prefix put a slash there, ROS 2's frame_prefix puts none.
+        # ROS 1's tf_prefix inserted a slash here, ROS 2's frame_prefix inserts none.
         raise UsageError(
             f"--prefix {text} would make {name}base_link of base_link: end it in a slash, "
             f"--prefix {name}/"

@@ -68,7 +68,7 @@ FINDINGS: Mapping[str, ColumnKind] = {
     "fix": _TEXT,
     "command": _TEXT,
 }
-"""What a row of a finding tells."""
+"""Columns of a finding's row."""
 
 
 FACTS: Mapping[str, ColumnKind] = {
@@ -87,13 +87,13 @@ FACTS: Mapping[str, ColumnKind] = {
     "damage": _TEXTS,
     "unreadable": _TEXT,
 }
-"""What a row of a recording tells."""
+"""Columns of a recording's row."""
 
 NONE_FOUND = "none"
-"""The id of the one row of a recording in which nothing was found."""
+"""Id of the single row of a recording without findings."""
 
 UNREADABLE = "unreadable"
-"""The id of the one row of a recording that cannot be read."""
+"""Id of the single row of a recording that cannot be read."""
 
 
 class FleetTask:
@@ -316,7 +316,7 @@ def _results(
                     yield source, rows
                 return
             except BrokenExecutor:
-                # One of those that were worked on ended its process: they are tried alone.
+                # One of the pending recordings ended its process: each is tried in a new process.
                 waiting = [source for source in waiting if source not in finished]
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import pyarrow
 
 Row = dict[str, Any]
-"""The facts of one finding, or of one recording, by the name of their column."""
+"""Cells of one finding, or of one recording, by the names of the columns."""
 
 
 class ColumnKind(Enum):
@@ -80,11 +80,11 @@ class RowFile:
         try:
             for row in self._held() if resume else ():
                 if not set(row) <= columns.keys():
-                    raise ValueError  # as of another command, which say nothing here
+                    raise ValueError  # rows of another command, which have no meaning here
                 rows = self._done.setdefault(row[self.source], [])
                 rows.append({name: row.get(name) for name in self._judged})
             mode = "ab" if self._done else "wb"
-            # Without a buffer: rows of one recording are in the file together or not at all.
+            # Unbuffered, so that the rows of one recording are written together or not at all.
             self._file = io.FileIO(self._growing, mode, opener=reader_there)
         except (OSError, ValueError, KeyError, TypeError) as error:
             reason = getattr(error, "strerror", None) or "it holds something else than such rows"
@@ -117,13 +117,13 @@ class RowFile:
             return
         with open_regular(self._growing) as file:
             whole = file.read()
-        # A process that was killed may have left half a line.
+        # A process that was killed may have written half a line.
         kept = whole[: whole.rfind(b"\n") + 1]
         if len(kept) < len(whole):
             self._growing.write_bytes(kept)
         lines = kept.decode("utf-8").splitlines()
         if self._suffix == ".csv":
-            # An empty cell was None.
+            # An empty cell is read as None.
             yield from (
                 {name: cell or None for name, cell in row.items()} for row in csv.DictReader(lines)
             )
@@ -249,7 +249,7 @@ def _cell(value: object) -> object:
     if isinstance(value, list):
         return json.dumps(value) if value else ""
     if isinstance(value, str):
-        # A name that a spreadsheet would take for a formula is none; lines stay lines.
+        # A spreadsheet must not read a name as a formula, nor a line break as a new row.
         text = visible(value)
         return f"'{text}" if text[:1] in ("=", "+", "-", "@") else text
     return "" if value is None else value

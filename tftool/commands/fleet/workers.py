@@ -20,7 +20,7 @@ from tftool.base.plain_text import visible
 from tftool.recordings.find import is_url
 
 ANSWERS_WITHIN = "20s"
-"""How long a scheduler may take to answer."""
+"""Longest wait for a scheduler's response."""
 
 
 @contextmanager
@@ -42,11 +42,11 @@ def connected(address: str) -> Iterator[Executor]:
         raise UsageError(
             "--scheduler needs an extra: pip install 'tftool-tf2[fleet]'; --jobs does not."
         ) from None
-    # Its log of workers that come and go is of no use to a user who waits for findings.
+    # Dask logs every start and end of a worker, which does not interest the user.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    # Made apart from its constructor, so that it can be closed if that fails. Garbage collection
-    # would close it otherwise; within the construction of the next client, that waits for ever for
-    # the lock which this construction holds.
+    # Created without its constructor, so that it can be closed if the constructor fails. Otherwise
+    # garbage collection would close it, and that could happen while the next client is constructed,
+    # which would wait forever for a lock.
     client: Any = object.__new__(distributed.Client)
     try:
         try:
@@ -66,7 +66,7 @@ def connected(address: str) -> Iterator[Executor]:
 
 
 _ON_CLUSTER = 512
-"""Recordings that wait at a cluster at once."""
+"""Most recordings submitted to a cluster at the same time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,8 +104,8 @@ class _Here(Executor):
 
 def processes(count: int) -> ProcessPoolExecutor:
     """Return a pool of processes on this machine."""
-    # Spawned, not forked: a fork would carry over threads and locks. The terminal sends Ctrl-C to
-    # every process: it ends a worker silently.
+    # Spawned, not forked, because a fork copies locks of other threads. The terminal sends Ctrl-C
+    # to every process: the default handler ends a worker without a traceback.
     end_with_ctrl_c = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     return ProcessPoolExecutor(count, get_context("spawn"), end_with_ctrl_c)
 

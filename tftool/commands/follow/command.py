@@ -19,7 +19,7 @@ NAME = "turtle_following"
 
 
 SETTLE = seconds(0.5)
-"""How long a joined session is listened to before it counts as not having a frame."""
+"""Nanoseconds to listen to a joined session before a frame counts as missing."""
 
 
 def _tell(record: LogRecord) -> None:
@@ -31,7 +31,7 @@ def _tell(record: LogRecord) -> None:
 async def _last(session: Session, follower: str, run_for: Duration | None) -> None:
     """Run the world for a duration; in a joined session, broadcast the follower if no node does."""
     if not session.is_hosted:
-        # Another process may broadcast the follower already: two would be one too many.
+        # Another process may broadcast the follower already: there must be one broadcaster.
         await session.lasting(SETTLE)
         if not session.world.buffer.frame_exists(follower):
             Broadcaster(session.world, f"broadcaster_{follower}", turtle=follower)

@@ -37,7 +37,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
         if connection.mode is Mode.JOIN and not options.simulated:
             session = open_session(connection, head_start=0)
         else:
-            # It brings all there is to it, and shares a session that runs all the same.
+            # A launch starts all nodes it needs: its world is empty at first, but still shared.
             session = open_empty_session(connection, simulated=options.simulated)
         connection.tell_read_only()
         world = session.world
@@ -59,7 +59,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
             for sentence in running.advice(world) if options.simulated else ():
                 notice(visible(sentence))
         except NodeFailed as failure:
-            # What the launch itself could not do is no failed node.
+            # An error of the launch itself is not reported as a failed node.
             if failure.node == started.name and isinstance(failure.__cause__, TftoolError):
                 raise failure.__cause__ from None
             raise

@@ -45,7 +45,7 @@ from tftool.world.topics import Topic
 from tftool.world.world import TransformMessage, World
 
 ASK_EVERY = seconds(0.5)
-"""How often the delay of a chain is measured; tf2_monitor's own figure."""
+"""Nanoseconds between two measurements of a chain's delay, as in tf2_monitor."""
 
 
 class ReportStyle(Enum):
@@ -89,7 +89,7 @@ class TrafficReport:
         try:
             found = buffer.lookup_transform(self.chain.target, self.chain.source)
         except TransformException:
-            # tf2_monitor would end here; a missing link comes back, or shows in the rates.
+            # tf2_monitor would end here; a missing link may return, or is visible in the rates.
             return
         if found.stamp:
             self.chain.delay.add(as_seconds(now - found.stamp))
@@ -105,7 +105,7 @@ class TrafficReport:
     def table(self, console: Console, now: Stamp, began: Stamp) -> RenderableType:
         """Return the report as a framed table that fits the terminal."""
         ascii_only = console.options.ascii_only
-        # A small terminal has no room for a frame; the line below all of it is the cursor's.
+        # A small terminal has no room for a border; the last line is left for the cursor.
         is_framed = console.width >= 60 and console.height >= 12
         shown = view.table(
             now,
@@ -164,7 +164,7 @@ async def watch_session(
         await wait.wait()
     began = clock.now()
     end = None if lasting is None else pace.now() + lasting
-    # A node that holds up the loop would keep this from ever being over.
+    # Without a limit, a node that blocks the event loop would prevent the end.
     pace.limit(end)
 
     def subscribe(topic: Topic[TransformMessage], is_static: bool) -> Callable[[], None]:
@@ -219,7 +219,7 @@ async def _shown(world: World, report: TrafficReport, life: Coroutine[Any, Any, 
 
 
 LEAST_AT_ONCE = 64
-"""Messages that are received at once; of fewer, one by one is as quick."""
+"""Least number of messages to receive in bulk; fewer are as fast one by one."""
 
 
 def report_recording(
@@ -259,7 +259,7 @@ def report_recording(
     while reported < end:
         now = min(reported + period, end)
         if report.chain is not None:
-            # Of two that are due at one moment, the one with the longer period goes first.
+            # If a report and a measurement are due at the same time, the longer period is first.
             last = now - 1 if period > ASK_EVERY else now
             moments = np.arange(measured + ASK_EVERY, last + 1, ASK_EVERY)
             measured += len(moments) * ASK_EVERY
@@ -269,7 +269,7 @@ def report_recording(
         if report.style is not ReportStyle.TABLE:
             report.write(now)
         elif now == end:
-            # The ones before it would be drawn over at once.
+            # Earlier tables would be replaced at once, so only the last one is printed.
             console.print(report.table(console, now, began))
 
 
@@ -297,7 +297,7 @@ class Arrivals:
             self._receive(self._known.pop(0), start, traffic)
         last = self._timeline.place(moment, after=True)
         while self._place < last:
-            # Up to the next message in which the order among frames counts.
+            # Until the next message whose transforms must be received in order.
             ahead = self._plain[self._place : last]
             plain = len(ahead) if ahead.all() else int(ahead.argmin())
             if traffic is not None and plain >= LEAST_AT_ONCE:
@@ -356,7 +356,7 @@ class Arrivals:
             arrivals, stamps = link
             last = np.searchsorted(arrivals, moments, side="right") - 1
             newest.append(stamps[last])
-            # The buffer prunes by the stamp that was the newest one before an insertion.
+            # The buffer prunes relative to the newest stamp before the insertion.
             kept = stamps[np.maximum(last - 1, 0)] - self.buffer.cache_time
             oldest.append(stamps[np.searchsorted(stamps, kept)])
         if not newest:
@@ -378,7 +378,7 @@ class Arrivals:
         taken = np.zeros(len(moments), dtype=np.bool_)
         by_edge = np.argsort(rows.edges, kind="stable")
         bounds = np.flatnonzero(np.diff(rows.edges[by_edge])) + 1
-        # By the first message of each, in which order a listener comes to know them.
+        # In order of each frame's first message, as a listener discovers the frames.
         for mine in sorted(np.split(by_edge, bounds), key=lambda group: int(group[0])):
             edge, own = timeline.edge(int(rows.edges[mine[0]])), rows.rows[mine]
             sender = names[int(senders[mine[0]])]
@@ -403,12 +403,12 @@ class Arrivals:
             series.add_many(moments[mine[starts]], means)
 
     def _receive(self, due: Due, now: Stamp, traffic: Traffic | None) -> None:
-        # The topic names the sender where no node is recorded.
+        # If no node is recorded, the topic's name is used for the sender.
         sender = due.node or due.topic
         put = self.buffer.set_transform_static if due.static else self.buffer.set_transform
         taken = [sample for sample in due.transforms if put(sample, sender)]
         if due.static:
-            # A message of a sender holds all of its statics, as tf2's broadcasters write it.
+            # Each message has all static transforms of its sender, as tf2's broadcasters send it.
             held = self._statics.setdefault(sender, {})
             held.update((sample.child_frame_id, sample) for sample in taken)
             taken = [*held.values()] if taken else []

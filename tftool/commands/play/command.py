@@ -53,12 +53,12 @@ if TYPE_CHECKING:
 
 REDRAW: Final = seconds(0.1)
 FASTER: Final = 1.1
-"""What a press of an arrow makes of the rate; rosbag2's own figure."""
+"""Factor by which an arrow key changes the rate, as in rosbag2."""
 
 NEAR, FAR = seconds(1), seconds(10)
 
 AT: Final = seconds(0.5)
-"""Time after the begin of a finding in which the key for the one before passes it over."""
+"""Nanoseconds after a finding's start within which the key "N" seeks to the one before it."""
 
 _ERASE = "\r\x1b[2K"
 _ERASE_TWO = f"{_ERASE}\x1b[1A\x1b[2K"
@@ -85,7 +85,7 @@ def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> Non
         player.seek(player.position + _SEEKS[key])
     elif key in ("n", "N"):
         now = player.position - player.start
-        # While it plays, a little after a finding still counts as at it.
+        # During playback, shortly after a finding still counts as being at the finding.
         to = after(marks, now) if key == "n" else before(marks, now - AT)
         if to is not None:
             player.seek(player.start + to)
@@ -153,7 +153,7 @@ class Display:
             self.clear()
             notice(f"{as_seconds(mark.since):.2f} s: {visible(mark.message)}")
         self._done = now.done
-        # The last column stays free: some terminals wrap there.
+        # The last column stays empty, because some terminals wrap there.
         width = shutil.get_terminal_size().columns - 1
         style: Any = {"ascii_only": self._ascii_only, "palette": self._palette}
         lines = [line(now, width, with_keys=self.has_keys, **style)]
@@ -180,10 +180,10 @@ class Display:
 
 
 MOST_JUDGED = 1_000_000
-"""Transforms of a recording that the doctor looks at before it plays: that takes about a second."""
+"""Most transforms of a recording that the doctor examines before playback, for about a second."""
 
 MOST_MARKS = 200
-"""Findings on the line, the worst ones."""
+"""Most findings marked on the line, the worst ones."""
 
 
 def _refuse_to_mix(link: Link) -> None:
@@ -209,7 +209,7 @@ def _span(
     Raises:
         UsageError: If the recording has nothing between them.
     """
-    # Received later than it was stamped, the last message lies behind the last stamp.
+    # The last message is received after its stamp, so it is later than the last stamp.
     low, high = min(timeline.start, recording.start), max(timeline.end, recording.end)
     first = timeline.start if begin is None else begin.stamp(recording.start)
     last = timeline.end if until is None else until.stamp(recording.start)
@@ -307,13 +307,13 @@ def run(connection: Connection, options: PlayOptions) -> ExitStatus:
     if not found.kind.is_recording:
         word = visible(options.file)
         raise UsageError(f"'{word}' is a {found.kind.value}: a recording is needed here.")
-    # The options of sharing are for the session that plays it.
+    # `shares`: the options of sharing apply to the session that plays the recording.
     recording = open_from(connection, options.file, shares=True).recording
     assert isinstance(recording, Recording)
     timeline = Timeline(recording.source, recording.transforms)
     span = _span(recording, timeline, options.begin, options.until)
     marks = _marks(recording, span[0])
-    # Last of all: while it has not been decided who hosts, other processes wait.
+    # Last, because other processes wait until it is decided who hosts.
     link = join_or_host(connection, options.file).link
     if link is not None and connection.reach.is_robots and not options.force:
         _refuse_to_mix(link)

@@ -181,7 +181,7 @@ def _write(options: PlotOptions, output: Path, found: list[Trajectory], start: S
 
 def _print(options: PlotOptions, found: list[Trajectory], start: Stamp) -> None:
     console = Console()
-    # The last line is the prompt's.
+    # The last line is left for the prompt.
     height = console.height - 1 if console.is_terminal else None
     text = drawn(options, found, start, console, height=height)
     if not console.is_terminal:

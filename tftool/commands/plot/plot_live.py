@@ -17,16 +17,16 @@ from tftool.world.stopper import leave_screen
 from tftool.world.world import World
 
 ON_ITS_WAY = seconds(1)
-"""Samples no older than that may still arrive; a live plot ends before them."""
+"""Nanoseconds within which samples may still arrive; a live plot ends before that."""
 
 FARTHEST_BACK = 4
-"""Windows of time that are kept to go back to."""
+"""Number of visible time spans that are stored for going back."""
 
 NEAREST = seconds(0.2)
-"""Least time across the plot."""
+"""Smallest visible time span, nanoseconds."""
 
 _STEP = 1.5
-"""Factor of one step of the zoom."""
+"""Magnification of one step of the zoom."""
 
 
 class PlotSight:
@@ -122,7 +122,7 @@ def _newest(
         newest = world.buffer.newest_common(target, source)
         return newest if now - ON_ITS_WAY < newest < now else now
 
-    # Two moments for each column of dots.
+    # Two times for each column of cells, which has two columns of dots.
     period = max(seconds(0.001), (now - first) // max(20, 2 * console.width))
     begin = -(-max(start, first) // period) * period
     try:

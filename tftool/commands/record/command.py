@@ -36,13 +36,13 @@ if TYPE_CHECKING:
 
 
 TICK: Final = seconds(0.25)
-"""How often new topics are looked for, chunks closed and the line drawn."""
+"""Nanoseconds between two searches for new topics, which also close chunks and redraw the line."""
 
 LOOK_EVERY: Final = seconds(2)
-"""How often the doctor looks at what the ring holds."""
+"""Nanoseconds between two examinations of the ring buffer by the doctor."""
 
 MOST_JUDGED: Final = 20_000
-"""Messages that are looked at, the newest: it must take less than the time between two looks."""
+"""Most messages that the doctor examines, the newest, so that it ends within `LOOK_EVERY`."""
 
 _ERASE: Final = "\r\x1b[K"
 
@@ -168,7 +168,7 @@ _LEAST_SIZE = 100_000
 
 
 RING = seconds(60)
-"""How much of the past is kept with `--on` where nothing is said."""
+"""Nanoseconds that the ring buffer of `--on` stores by default."""
 
 
 @contextmanager
@@ -288,7 +288,7 @@ def run(connection: Connection, options: RecordOptions) -> ExitStatus:
             sys.stdout.write(f"{_summed_up(rolling)}\n")
             raise
         finally:
-            # Whatever ends it, the recording is kept.
+            # However the run ends, the recording is completed.
             rolling.close()
     assert running is not None
     tell(rolling, running.recorder)

@@ -40,10 +40,10 @@ from tftool.world.nodes.joints import (
 )
 
 IN_A_FILE = 100_000
-"""Triangles of a picture in a file, which has more points than a terminal."""
+"""Most triangles of a picture in a file, which has more pixels than a terminal."""
 
 MOST_TOLD = 5
-"""Sentences about missing meshes."""
+"""Most sentences about missing meshes."""
 
 
 def _no_link(described: Robot, link: str) -> str:

@@ -6,7 +6,7 @@ from tftool.commands.shared.options import Json, RunFor, argument, option
 
 class Ros2Options(
     Command,
-    # What follows these words are ROS 2's own options.
+    # Options after COMMAND are ROS 2's.
     settings={"allow_interspersed_args": False},
 ):
     """Ask a session in the words of ROS 2's command line, without ROS.

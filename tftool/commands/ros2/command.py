@@ -33,7 +33,7 @@ _ELSEWHERE = {
     "wtf": "doctor",
     "pkg create": "new",
 }
-"""Words of ROS 2's command line that are commands of their own."""
+"""Commands of ROS 2 that are separate commands of tftool, with the names there."""
 
 
 class _JsonLines:
@@ -41,7 +41,7 @@ class _JsonLines:
 
     def __init__(self, words: Sequence[str]) -> None:
         self._lines: list[str] = []
-        # These never end by themselves, and print lines that are not YAML.
+        # These commands run until stopped, and print lines that are not YAML.
         self._is_endless = words[1:2] in (["hz"], ["bw"], ["delay"])
 
     def __call__(self, line: str) -> None:
@@ -59,7 +59,7 @@ class _JsonLines:
             found = yaml.safe_load("\n".join(self._lines))
         except yaml.YAMLError:
             found = None
-        # Lists of names are no YAML lists: each line is an element.
+        # Lists of names are not printed as YAML lists: each line is an element.
         if not isinstance(found, dict | list | int | float):
             found = self._lines
         typer.echo(json.dumps(found, default=str))
@@ -102,7 +102,7 @@ def run(connection: Connection, options: Ros2Options) -> int:
     try:
         return ending.judge()
     except NodeFailed as failed:
-        # No program of the user's has failed: the named thing does not exist.
+        # Not a failed program of the user, but a name that does not exist.
         if isinstance(failed.__cause__, UsageError):
             raise TftoolError(str(failed.__cause__)) from failed
         raise
@@ -116,7 +116,7 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
     """
     if not words or ":=" in words[0] or words[0].startswith("-"):
         raise UsageError("'ros2 test' needs a file of launch tests, then name:=value arguments")
-    # Tests beside a launch load both; other commands do without.
+    # Imported here: only launch tests need launch files and the test runner.
     from tftool.ros.launch.arguments import arguments_of
     from tftool.ros.launch_testing.runner import run_tests
 

@@ -13,7 +13,7 @@ from tftool.commands.shared.options import (
 
 class RunOptions(
     Command,
-    # What follows a node's file is the node's own.
+    # Options after FILE are for the node.
     settings={"allow_interspersed_args": False},
 ):
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).

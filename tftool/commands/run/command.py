@@ -35,7 +35,7 @@ ROBOTS = ("robot_state_publisher", "joint_state_publisher")
 
 
 KEYBOARD = ("turtlesim", "turtle_teleop_key")
-"""What `tftool teleop` stands for."""
+"""Package and executable of ROS that `tftool teleop` replaces."""
 
 
 SIMULATED = "Simulated time is a world's own, and shares no session"
@@ -168,7 +168,7 @@ def run(connection: Connection, options: RunOptions) -> int:
         status = _run_other(connection, options.target, words, refused=is_of_nodes)
         if status is not None:
             return status
-    # These bring all there is to see; turtles have no place beside them.
+    # These nodes need an empty world, without the turtles of a default one.
     simulator = (options.target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (options.target in ROBOTS and options.place is None)
     with ros_free(force=options.force) as finder:

@@ -37,7 +37,7 @@ def _rates(connection: Connection, link: Link, lasting: Duration) -> dict[str, f
     async def listen() -> None:
         link.middleware.start(asyncio.get_running_loop())
         for name, ros_type in {(one.name, one.ros_type) for one in link.graph.entities(PUBLISHER)}:
-            # What a stranger calls otherwise is listed, and cannot be listened to.
+            # Topics with irregular names, of other programs, are listed without a rate.
             if is_plain(name) and is_plain(ros_type):
                 link.middleware.listen(name, ros_type, count(name))
         link.settle()

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 HOME = "turtles"
-"""The scenario that stands in for the session, where none runs and none was named."""
+"""Name of the scenario that is used if no session runs and no source was named."""
 
 
 class Mode(Enum):
@@ -160,7 +160,7 @@ class Connection:
 
     def options(self) -> Options:
         """Return the options as the link needs them."""
-        # Among a robot's nodes, what only looks has nothing to write.
+        # Among a robot's nodes, a command that only observes must not publish.
         read_only = self.read_only or (self.reach.is_robots and self.kind.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
 
@@ -335,10 +335,10 @@ def _argument(word: str) -> tuple[str, str]:
 
 NO_SESSION = "No session is running here"
 A_MOMENT = "A chosen moment is always simulated"
-"""Why a scenario that was not named is played."""
+"""Reason, as printed, for playing a scenario that the user did not name."""
 
 WHOLE = math.inf
-"""All of a scenario."""
+"""Value of `until` for all of a scenario."""
 
 _MOST_NOTES = 8
 _LONGEST_NAME = 24
@@ -466,7 +466,7 @@ def _bar(place: str) -> "Iterator[Bar | None]":
         return
     from tftool.commands.shared.progress_bars import Bar
 
-    # The end of a path is what tells files apart, and all of it would not fit beside the bar.
+    # The end of a path distinguishes files; the whole path would not fit beside the bar.
     short = place.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]
     bar = Bar(f"Reading {visible(short)}")
     try:

@@ -42,7 +42,7 @@ def options_in(home: type) -> dict[str, tuple[Any, Any]]:
     for name, kind in inspect.get_annotations(home).items():
         value = getattr(home, name, inspect.Parameter.empty)
         if kind is bool and isinstance(value, ParameterInfo) and not value.param_decls:
-            # typer's own name for a flag would have an opposite, --no-NAME.
+            # By default, typer would also add the opposite flag, --no-NAME.
             value.param_decls = (f"--{name.replace('_', '-')}",)
         found[name] = kind, value
     return found
@@ -99,7 +99,7 @@ class _OfRobots:
 ROBOT_OPTIONS = options_in(_OfRobots)
 
 RECORDING = "Recordings"
-"""Heading of the help under which their options are listed."""
+"""Heading in the help above the options of recordings."""
 
 
 class _OfRecordings:
@@ -138,7 +138,7 @@ URDF_OPTION = options_in(_OfUndescribed)
 
 
 POSES = "Pose files"
-"""Heading of the help under which their options are listed."""
+"""Heading in the help above the options of pose files."""
 
 
 class _OfPoseFiles:

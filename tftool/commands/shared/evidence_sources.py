@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 EVERYTHING = Scope()
-"""All of a source."""
+"""Scope that covers a source completely."""
 
 
 def evidence_from(
@@ -66,9 +66,9 @@ def evidence_from(
             f"'tftool tree {shown}' shows its frames, 'tftool diff' compares them."
         )
     if is_recording:
-        # How long it lasts is known, and the description that was given is evidence of its own.
+        # A recording has its own duration, and --urdf is separate evidence, in `scope`.
         connection, lasting = replace(connection, robot=DescriptionOptions()), None
-    # Of a robot read by its address the headers are heard, too; it writes to no topic.
+    # For a robot read by its address, the headers of other topics are evidence, too.
     heard = HeaderListener() if connection.reach.only_reads else None
     watch = None if heard is None else heard.begin
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from tftool.world.link.session import Link
 
 HEAD_START = seconds(3)
-"""How long a hosted world has lived when its command first looks: both turtles are there."""
+"""Nanoseconds simulated before a hosted world is first shown, so that both turtles exist."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +78,8 @@ def join_or_host(
         return JoinDecision(alone=alone)
     there = link.graph.has_sources
     if word is None and connection.mode is not Mode.HOST:
-        # --connect means the world at the other end, now or later; turtles of our own have no
-        # place among a robot's frames.
+        # With --connect, the user wants the world on the other machine, even if it starts later;
+        # hosted turtles would mix with a robot's frames.
         if connection.looks or (there and (not needs_turtles or _has_host(link))):
             session = joined_session(
                 link,
@@ -91,7 +91,7 @@ def join_or_host(
             notice(f"Joined {session.name}.")
             return JoinDecision(session)
         if link.unanswering and not there:
-            # It may host: a second world of the same names would mix with it later.
+            # The silent process may be a host: a second world of equal names would mix with it.
             link.close()
             raise LinkError(
                 f"{link.unanswering} Or avoid it: --domain N makes a separate session, "
@@ -309,7 +309,7 @@ def _hosted(
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, play.world):
-            # People look for as long as they like, whatever the scenario's duration.
+            # A person may watch longer than the scenario's duration.
             await play.live(until, endless=until is None)
 
     name = f"scenario '{visible(scenario.name)}'"
@@ -334,5 +334,5 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
 
 def _has_host(link: "Link") -> bool:
     """Return whether a session runs: hosted by tftool, or with a turtle simulator of ROS."""
-    # A host that has only just begun has no turtles yet, and will have some.
+    # A host that has just started has no turtles yet, but will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))

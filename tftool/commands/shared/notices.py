@@ -12,10 +12,10 @@ if TYPE_CHECKING:
     from tftool.world.log import LogRecord
 
 MOST_NAMED = 12
-"""How many frames a hint names."""
+"""Most frames that a hint names."""
 
 _COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
-"""ROS 2's: green, yellow, red; INFO keeps the terminal's own."""
+"""Numbers of ROS 2's colours for each severity: green, yellow, red; INFO is not coloured."""
 
 
 def notice(sentence: str) -> None:
@@ -74,9 +74,9 @@ def fitting(sentence: str) -> str:
     try:
         width = os.get_terminal_size(sys.stderr.fileno()).columns
     except (OSError, ValueError):
-        # No terminal, or one that does not say how wide it is.
+        # Not a terminal, or a terminal of unknown width.
         return sentence
-    # No sign is wider than two cells.
+    # No character is wider than two cells.
     if width < 20 or all(len(line) <= width // 2 for line in sentence.split("\n")):
         return sentence
     from tftool.drawing.table_columns import wrap_words
@@ -154,7 +154,7 @@ def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
 
 
 MOST_TOLD = 3
-"""Frames that are named; of more it is said how many there are."""
+"""Most frames that get a sentence; further ones are counted."""
 
 
 def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:

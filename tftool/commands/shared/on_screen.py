@@ -24,14 +24,14 @@ if TYPE_CHECKING:
     from tftool.world.world import World
 
 SETTLED = seconds(1)
-"""When a screen knows which turtles there are."""
+"""Nanoseconds after which a screen knows all turtles."""
 
 
 def screen_lacks() -> str:
     """Return half a sentence on why a full-screen display is impossible; empty if possible."""
     if os.environ.get("TERM") == "dumb":
         return "TERM=dumb is one without a screen"
-    # textual draws on stderr, so that one counts too.
+    # textual draws on stderr, so stderr must be a terminal, too.
     streams = {"stdin": sys.stdin, "stdout": sys.stdout, "stderr": sys.stderr}
     lacking = [name for name, one in streams.items() if one is None or not one.isatty()]
     return f"{lacking[0]} is none" if lacking else ""
@@ -40,7 +40,7 @@ def screen_lacks() -> str:
 def at_rest(connection: Connection, frames: Frames) -> StillFrames:
     """Return the frames of a file as screens need them, with a clock that shows the end."""
     start, end = frames.span
-    # Where nothing was recorded both are 0, at which no clock can begin.
+    # In an empty recording both are 0, which is not a valid time of a clock.
     clock = connection.providers.still_clock(max(start, 1), max(end, 1))
     return StillFrames(clock, frames.buffer, Log(clock.now))
 
@@ -148,7 +148,7 @@ def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
 
     def press(key: str) -> None:
         simulator, turtle = scene.simulator, driver.turtle
-        # One of another process is known by its poses: they need a moment to come.
+        # Turtles of another process are known by their poses, which take a while to arrive.
         settled = scene.world.clock.now() - scene.start >= SETTLED
         if settled and simulator is not None and turtle not in simulator.turtles:
             scene.missed = turtle

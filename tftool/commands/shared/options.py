@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from decimal import Decimal
 
 MOST = 9e9
-"""The largest number an option takes: as seconds, about what a stamp of 64 bits can hold."""
+"""Largest number of an option: as seconds, nearly the largest stamp of 64 bits."""
 
 LONGEST_SIMULATED = seconds(86_400)
-"""How much simulated time a command plays: a day, as long as a scenario may last."""
+"""Longest simulated time of a command, nanoseconds: a day, as for a scenario."""
 
 FIRST_STAMP = 100_000_000
-"""In seconds: a moment from here on is a stamp; a smaller one counts from the beginning."""
+"""Seconds from which a time is a stamp; a smaller one is counted from the start."""
 
 _FRACTION = re.compile(r"[.,](\d+)")
 
@@ -96,7 +96,7 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
 
     def parse(text: str | int) -> Duration:
         if isinstance(text, int):
-            return text  # a default, in nanoseconds already
+            return text  # the default, already in nanoseconds
         try:
             check(float(text))
             found, exact = _nanoseconds(text)
@@ -115,7 +115,7 @@ def _nanoseconds(text: str) -> "tuple[int, Decimal]":
     Raises:
         ValueError: If the text is not a number.
     """
-    # Imported here: the help of a command does without it.
+    # Imported here, because the help of a command does not need it.
     from decimal import Decimal, InvalidOperation
 
     try:
@@ -170,7 +170,7 @@ def moment(text: str) -> At:
 
 
 def _date(text: str) -> At:
-    # Its own reader drops digits below a microsecond.
+    # Python's parser of dates drops digits below a microsecond.
     fraction = _FRACTION.search(text)
     try:
         found = datetime.fromisoformat(_FRACTION.sub("", text, count=1))
@@ -188,7 +188,7 @@ def _date(text: str) -> At:
 # Contradictions
 
 Rule = tuple[object, str]
-"""Condition of a contradiction between options, and its sentence."""
+"""Condition under which options are refused, and the text of the error."""
 
 
 def refuse(*rules: Rule) -> None:
@@ -208,7 +208,7 @@ WHEN = "When"
 ROBOT = "Robot descriptions"
 OUTPUT = "Output"
 MANY = "Many recordings"
-"""Headings of the help under which options are listed; "Options" is that of all others."""
+"""Headings in the help above groups of options; all others are below "Options"."""
 
 
 def option(

@@ -20,10 +20,10 @@ from tftool.world.supervisor import beside
 from tftool.world.world import World
 
 EXPLAINED = ("CLOCK_MIXTURE", "NAME", "SINGLE", "SPLIT", "STOPPED")
-"""Causes of a wait that fit in a line; a missing frame has a hint of its own."""
+"""Causes of a wait whose explanation fits in a line; a missing frame has a separate hint."""
 
 SETTLED = seconds(0.75)
-"""How long frames have to arrive before the reason is printed, and between two looks at it."""
+"""Nanoseconds before the reason for the wait is first printed, and between two checks of it."""
 
 NOTHING_NEW = "nothing new has come since its sender left"
 
@@ -101,12 +101,12 @@ class PairWait:
                 if refusal.requested > refusal.available:
                     await self._available(pair.moment(now))
                 elif pair.offset:
-                    # The moment moves on with the clock, until the buffer reaches it.
+                    # The requested time follows the clock: wait until the buffer has data for it.
                     await clock.sleep_until(refusal.available - pair.offset, Phase.WATCH)
                 elif isinstance(refusal, BackwardExtrapolationException):
                     raise
                 else:
-                    # Of a single sample tf2 does not say that the moment is before it.
+                    # With a single sample, tf2 does not say that the requested time is earlier.
                     await self._available(refusal.available + 1)
             else:
                 return
@@ -128,7 +128,7 @@ class PairWait:
             await pace.sleep(SETTLED, Phase.WATCH)
             buffer, now = self.world.buffer, self.world.clock.now()
             reason = self.pair.why_not(buffer, now) or NOTHING_NEW
-            # The times in it change with every sample; the reason does not.
+            # The times in the text change with every sample, but the reason is the same.
             kind = re.sub(r"-?\d+\.\d{6}", "<time>", reason)
             if kind != told:
                 told = kind
@@ -148,7 +148,7 @@ class PairWait:
 
     def _because(self) -> str:
         """Return cause and remedy as text if `explain` finds more than the reason; else empty."""
-        # Heavy imports wait until there is something to say.
+        # Imported here because it is slow, and needed only for an explanation.
         from tftool.doctor.explanation import explain
 
         buffer, now = self.world.buffer, self.world.clock.now()

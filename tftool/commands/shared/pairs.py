@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from tftool.frames.pair_samples import Moments
 
 IDENTITY = "A frame seen from itself is always the identity."
-"""Said where target and source are one frame."""
+"""Note that is printed if target and source are the same frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ class FramePair:
             TransformException: If the transform is not available.
         """
         if self.target == self.source and not buffer.frame_exists(self.target):
-            # tf2 calls any frame in itself the identity, even one that is not known.
+            # tf2 returns the identity for a frame in itself, even for an unknown frame.
             raise LookupException(_unknown(self.target), frame=self.target)
         then = self.moment(now)
         if self.fixed_frame is None:

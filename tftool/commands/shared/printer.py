@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 LOG_WIDTH = 2000
-"""How wide a line gets where there is no terminal to wrap it for."""
+"""Longest line in characters if stdout is not a terminal."""
 
 
 def line_width() -> int | None:
@@ -34,7 +34,7 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
     console = Console()
     if is_wide and not console.is_terminal:
         console.width = LOG_WIDTH
-    # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
+    # Not written by rich, which ends the process with 1 if the pipe's reader (`| head`) ended.
     with console.capture() as captured:
         console.print(what, end=end)
     for line in captured.get().splitlines():
@@ -61,7 +61,7 @@ def write_file(path: Path, content: str | bytes) -> None:
 
     refuse_stdout(path)
     data = content if isinstance(content, bytes) else content.encode()
-    # A link stays a link: what it names is replaced.
+    # A symbolic link stays; its target is replaced.
     there = path.resolve() if path.is_symlink() else path
     try:
         if there.is_file() or not there.exists():

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 PATIENCE = seconds(0.5)
-"""How long reading goes on before a bar shows."""
+"""Nanoseconds of reading before the bar is shown."""
 
 _REDRAWN = seconds(0.1)
 
@@ -76,14 +76,14 @@ class Bar:
             console=Console(stderr=True),
             transient=True,
             auto_refresh=False,
-            # Nothing else is printed meanwhile.
+            # Nothing else is printed while the bar is shown.
             redirect_stdout=False,
             redirect_stderr=False,
         )
-        # Drawn as it starts, and shown until the next round: with how far it is by now.
+        # Starting draws the bar, so the progress must be set before.
         self._task = self._progress.add_task("", completed=done, total=total)
         self._progress.start()
-        # A signal ends the process at once: what it leaves behind must be as it was.
+        # A signal may end the process at once, so the cursor must be visible.
         self._progress.console.show_cursor(True)
         self._erase_when_killed()
 
@@ -101,7 +101,7 @@ class Bar:
                 frame: FrameType | None,
                 before: Callable[[int, FrameType | None], object] = before,
             ) -> None:
-                # Past Python's own buffer, which the signal may have met in the middle of a write.
+                # Not through Python's buffer: the signal may have interrupted a write to it.
                 with suppress(OSError):
                     os.write(2, b"\r\x1b[2K")
                 before(number, frame)
@@ -121,7 +121,7 @@ class Bar:
 Look: TypeAlias = "Callable[[Frames], Sequence[Text]]"
 
 _SHARE = 4
-"""How many times as long as a look took the next one is put off."""
+"""Pause between two calls of `look`, in multiples of the last call's duration."""
 
 
 class ListeningBar:
@@ -164,13 +164,13 @@ class ListeningBar:
 
     def __enter__(self) -> Self:
         self._live.start()
-        # A signal may end the process at once: the cursor must be there then.
+        # A signal may end the process at once, so the cursor must be visible.
         self._console.show_cursor(True)
         self._draw()
         return self
 
     def __exit__(self, *error: object) -> None:
-        # A look may be under way in its thread.
+        # `look` may still be running in its thread.
         with self._lock:
             self._is_over = True
             self._live.stop()
@@ -191,7 +191,7 @@ class ListeningBar:
         self._draw()
 
     def _draw(self) -> None:
-        # Lines that do not fit would scroll, and could not be erased.
+        # Lines that do not fit would scroll the screen, and could not be erased.
         room = max(self._console.height - 3, 0)
         shown = [*self._lines[:room]]
         if len(self._lines) > room:

@@ -17,7 +17,7 @@ from tftool.world.clock import Clock
 from tftool.world.stopper import leave_screen
 
 _layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
-"""What leaves the terminal and what takes it again, outermost first."""
+"""Functions `leave` and `enter` of each open block of `left_while_stopped`, outermost first."""
 
 
 @contextmanager
@@ -60,8 +60,8 @@ def _stop() -> None:
     layers = list(_layers)
     for leave, _ in reversed(layers):
         leave()
-    # Not SIGTSTP: a process whose group no shell looks after would go on at once.
-    os.kill(os.getpid(), signal.SIGSTOP)  # returns once the process goes on
+    # Not SIGTSTP, which does not stop a process without a shell that controls its group.
+    os.kill(os.getpid(), signal.SIGSTOP)  # returns when the process continues
     for _, enter in layers:
         enter()
 
@@ -94,7 +94,7 @@ def keys_in(typed: bytes) -> list[str]:
         else:
             char = typed[:1]
             if char == b"\x1b":
-                break  # another key that sends several bytes
+                break  # an unknown key that sends several bytes
             if char == b" ":
                 found.append("space")
             elif 0x20 < char[0] < 0x7F:
@@ -116,7 +116,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
         number = sys.stdin.fileno()
         before = termios.tcgetattr(number)
-        # In the background, to change the terminal would stop the process.
+        # A process in the background that changes the terminal's settings is stopped.
         is_ours = os.tcgetpgrp(number) == os.getpgrp()
     except (ImportError, OSError, ValueError, AttributeError, termios_error()):
         is_ours = False
@@ -185,7 +185,7 @@ class Redrawing:
     def show(self, picture: RenderableType) -> None:
         """Draw a picture in place of the last one."""
         if self._live is None:
-            # stderr that goes to a file goes on to the file.
+            # If stderr is a file, its lines still go to the file.
             self._live = Live(
                 console=self.console, auto_refresh=False, redirect_stderr=sys.stderr.isatty()
             )

@@ -14,7 +14,7 @@ Radians = Annotated[str | None, typer.Option(metavar="RADIANS")]
 
 class StaticOptions(
     Command,
-    # A frame may be at a negative place: -1 is a number there, not an option.
+    # Coordinates may be negative: -1 is a number here, not an option.
     settings={"ignore_unknown_options": True},
 ):
     """Publish where CHILD is in PARENT (static_transform_publisher).

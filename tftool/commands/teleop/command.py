@@ -26,14 +26,14 @@ from tftool.world.nodes.turtle_drivers import BANNER, KEYS
 from tftool.world.world import World
 
 START = seconds(5)
-"""When the first scripted key is pressed: by then every turtle of the world is there."""
+"""Nanoseconds before the first key of --keys, after which every turtle of the world exists."""
 
 
 LOOK = seconds(0.1)
 
 
 PATIENCE = seconds(10)
-"""For how long a key's turtle is waited for; no key's effect lasts as long."""
+"""Longest wait in nanoseconds for a key's effect to end; every effect is shorter."""
 
 
 def press_all(connection: Connection, turtle: str, keys: str) -> str:
@@ -94,7 +94,7 @@ async def press_there(world: World, turtle: str, words: list[str]) -> str:
         UsageError: If there is no such turtle.
     """
     poses = world.topic(f"{turtle}/pose", Pose)
-    # Subscribed, so that they come in.
+    # Poses are only received while there is a subscription.
     stop = poses.subscribe(lambda pose: None)
     clock = world.clock
 
@@ -108,7 +108,7 @@ async def press_there(world: World, turtle: str, words: list[str]) -> str:
     try:
         await seen(0, lambda pose: True)
         if poses.latest is None:
-            # Our own subscription made a topic of the one that is not there.
+            # Our own subscription has created the topic that no turtle publishes.
             names = sorted(set(world.topics()) - {poses.name})
             there = ", ".join(name.removesuffix("/pose") for name in names if "/pose" in name)
             raise UsageError(f"There is no turtle {turtle!r} here; there are {there or 'none'}.")
@@ -118,7 +118,7 @@ async def press_there(world: World, turtle: str, words: list[str]) -> str:
             if driver.press(word) == "quit":
                 break
             await clock.sleep(LOOK)
-            # It takes a few poses until the command has crossed and shows.
+            # The command takes effect after a few poses.
             await seen(past + 10, _is_at_rest)
         pose = poses.latest
     finally:
@@ -146,7 +146,7 @@ def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
 
     session = open_session(connection, needs_turtles=True, by_hand=True)
     driver = driver_of(session.world, options.turtle)
-    # Said before the screen is taken, so that it can be read after it is given back too.
+    # Printed before the screen opens, so that it is visible again after the screen closes.
     sys.stdout.write("\n".join(BANNER) + "\n")
     sys.stdout.flush()
 

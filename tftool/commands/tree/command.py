@@ -25,10 +25,10 @@ from tftool.recordings.target import refuse_existing
 LINES_AT_ONCE = 400
 
 MOST_ON_SCREEN = 5_000
-"""Frames drawn on a terminal: of a tree of tens of thousands, nobody scrolls through the rest."""
+"""Most frames drawn on a terminal, because nobody scrolls through tens of thousands."""
 
 Moving = frozenset[str] | None
-"""The links of a description whose joint moves; None for other frames."""
+"""Links of a description whose joints move; None for frames of other sources."""
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> Iterator[str]:
@@ -46,7 +46,7 @@ def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> It
         lines: Sequence[Text] = list(picture.split("\n"))
     else:
         lines = fitting(snapshot, moving, marks, console)
-    # A few hundred at a time: the first show at once, and rich takes no longer for them.
+    # A few hundred lines at a time: the first appear at once, and rich is not slower.
     for first in range(0, len(lines), LINES_AT_ONCE):
         with console.capture() as capture:
             console.print(Text("\n").join(lines[first : first + LINES_AT_ONCE]), soft_wrap=True)
@@ -83,11 +83,11 @@ TEXTS = {
     ".yaml": TreeFormat.yaml,
     ".yml": TreeFormat.yaml,
 }
-"""What a file's suffix asks for, where it is no drawing."""
+"""Output format for each suffix of a file that is not a drawing."""
 
 
 WITHOUT_MARKS = (TreeFormat.dot, TreeFormat.mermaid, TreeFormat.yaml)
-"""Forms without a place for the doctor's marks."""
+"""Output formats that cannot show the doctor's marks."""
 
 
 def run(connection: Connection, options: TreeOptions) -> ExitStatus:
@@ -130,7 +130,7 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
 
             buffer = up_to(buffer, now)
     snapshot = buffer.snapshot(now)
-    # A description at rest sends nothing.
+    # A description that is not published has no messages for the doctor to judge.
     is_silent = form in WITHOUT_MARKS or frames.moving is not None
     marks = {} if is_silent else doctor_marks(buffer, snapshot)
     _write(snapshot, frames.moving, form, options.output, marks, wide=options.wide)

@@ -99,7 +99,7 @@ def _page_data(connection: Connection, options: ViewOptions) -> StandaloneData:
         displays.append(LiveDisplays(world, IN_A_FILE))
 
     frames = open_from(connection, options.place, options.run_for, until=WHOLE, watch=listen)
-    # 0 would mean the latest; what only holds at all times has no other moment.
+    # Static transforms alone have the span 0, which would mean the latest time.
     start, end = frames.span
     start = max(1, start)
     end = max(start, end)
@@ -204,7 +204,7 @@ async def _show(
             notice(f"Port {page.asked_port} is not free: taking {page.port}.")
         url = page.url
         said = f"The frames of {name} are at"
-        # An address that is broken at the edge of the terminal cannot be clicked.
+        # An address that is wrapped at the terminal's edge cannot be clicked.
         is_long = len(f"{said} {url}") > shutil.get_terminal_size().columns
         between = "\n" if is_long and sys.stdout.isatty() else " "
         sys.stdout.write(f"{said}{between}{url}\n")
@@ -248,7 +248,7 @@ def _redirect_to(url: str) -> Iterator[str]:
 
 
 async def _opened(url: str) -> bool:
-    # Some browsers are started and waited for: not in the loop the world lives in.
+    # Opening some browsers takes long, so it is done outside the event loop.
     return await asyncio.get_running_loop().run_in_executor(None, webbrowser.open, url)
 
 
@@ -260,7 +260,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
         return _write(connection, options, options.output)
     if options.force:
         raise UsageError("--force goes with -o FILE.")
-    # Here, as a file needs no server, and websockets takes a moment to import.
+    # Imported here, because a file needs no server, and websockets is slow to import.
     from tftool.screens.browser.server import PageServer
 
     found = None if options.place is None else named(options.place)
