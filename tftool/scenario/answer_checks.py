@@ -49,7 +49,7 @@ class AnswerCheck(ABC):
 
     def refused(self, error: TransformException) -> Judged:
         """Judge the exception of a question that has no answer."""
-        # Some of tf2's sentences end in a full stop and a blank, others in neither.
+        # Some of tf2's error texts end in ". ", others without it.
         hint = _meant(error)
         said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
         return Judged(False, f"{type(error).__name__}: {said}")
@@ -244,7 +244,7 @@ class NamesCheck(AnswerCheck):
         return f"are {listed(sorted(self.wanted)) or 'none'}"
 
 
-# The question itself holds what its answer must be: nothing stands beside it.
+# The question itself contains the expected answer, so no other key is beside it.
 NAMES_FORM = Form({}, lambda given, *_: NamesCheck(frozenset(given["names"])))
 COUNT_FORM = Form(
     {},

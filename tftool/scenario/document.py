@@ -84,7 +84,7 @@ class Document:
         self.text = text.removeprefix("\ufeff")
         self.name = name
         self.mistakes: list[Mistake] = []
-        # Not splitlines: YAML's own idea of a line has neither form feed nor \x1c.
+        # Not splitlines: in YAML, form feed and \x1c do not end a line.
         unified = self.text.replace("\r\n", "\n").replace("\r", "\n").replace("\x85", "\n")
         self._lines = unified.replace("\u2028", "\n").replace("\u2029", "\n").split("\n")
 
@@ -153,7 +153,7 @@ class _TreeReader:
         assert isinstance(event, yaml.NodeEvent)
         tag: str | None = getattr(event, "tag", None)
         if tag is not None and tag != "!":
-            # Noted, not more: nothing is ever constructed, and the rest can be read.
+            # Only recorded as a mistake, because tags construct nothing, and the rest can be read.
             text = f"tags ({showable(tag)}) are not used in scenarios"
             self.document.mistakes.append(self.document.mistake(_place(event), text))
         place = _place(event)

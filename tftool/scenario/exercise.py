@@ -84,7 +84,7 @@ class Exercise:
                 run(clock, play.live())
             except NodeFailed as error:
                 if isinstance(error.__cause__, UsageError | InputError):
-                    # Said of a launch file, with its line; who says it is no news.
+                    # An error about a launch file names its line, so the node's name is left out.
                     play.failure = str(error.__cause__)
         if failures:
             play.failure = "\n".join([*failures, *filter(None, [play.failure])])

@@ -68,7 +68,7 @@ class Expectations(Node):
         while True:
             await self.clock.sleep_until(self._scene.start + at, self.phase, self.rank)
             judged = judge(expectation, self._scene)
-            # "by" is over when it holds, "during" when it does not, both at the last moment.
+            # "by" is decided once it holds, "during" once it does not, else both at the end.
             settled = {"at": True, "by": judged.ok, "during": not judged.ok}[when.kind]
             if settled or at >= when.last:
                 break

@@ -165,7 +165,7 @@ class Reading:
                 found[name] = self.try_read(wanted.read, entries[name][1])
             elif wanted.default is REQUIRED:
                 whole = False
-                # Misspelt is not missing as well.
+                # A misspelt key is not also reported as missing.
                 if name not in meant:
                     self.note(place, f"{what} needs the key '{name}'")
             else:

@@ -146,7 +146,7 @@ class _ScenarioReader:
             not_a_tree=tuple(self.not_a_tree),
         )
 
-    # What the rest is read with.
+    # Arguments, which the other parts use.
 
     def arguments(self, node: Node, reading: Reading) -> Mapping[str, str]:
         """Return the declared arguments, with given values in place of defaults."""
@@ -158,7 +158,7 @@ class _ScenarioReader:
                 whole = False
                 reading.note(key, f"{quoted(name)} names no argument: letters, digits and _ only")
                 continue
-            # A default is a text here; what it is used as decides what it must be.
+            # A default is read as text; each use of the argument parses it.
             default = reading.try_read(values.text, value)
             whole = whole and default is not UNREAD
             declared[name] = default
@@ -288,7 +288,7 @@ class _ScenarioReader:
             return kind, self.name_of(value), UNREAD
         name = parameters.pop("name")
         try:
-            # Made once in a world of its own: a node knows best what it cannot be.
+            # Created once in a separate world, so that the node checks its parameters itself.
             KINDS[kind].build(World(SimClock()), name or kind, parameters)
         except TftoolError as error:
             reading.note(key, str(error))
@@ -333,7 +333,7 @@ class _ScenarioReader:
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
         """Read one expectation, which is several if it has several times."""
-        # Most commands expect nothing: they do without the questions.
+        # Imported here, because most commands judge no expectations.
         from tftool.scenario.questions import SUBJECTS
 
         beside = {name: subject.form.fields for name, subject in SUBJECTS.items()}
@@ -373,7 +373,7 @@ class _ScenarioReader:
         """Read the times at which an expectation is judged."""
         said = [key for key in _WHEN if given[key] is not None]
         if len(said) != 1:
-            raise Unreadable  # said already
+            raise Unreadable  # already reported
         every = LOOK_EVERY if given["every"] is None else given["every"]
         if said == ["at"]:
             if given["every"] is not None:

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 def robot_file(node: document.Node, reading: Reading) -> "Robot":
     """Read the path of a robot description, and load it; xacro is refused, since it runs code."""
-    # numpy comes with it, which other scenarios do without.
+    # Imported here: it imports numpy, which other scenarios do not need.
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import load_description
 
@@ -121,7 +121,7 @@ class NodeKind:
         """
         self.make = make
         readers |= {name: USUAL[name] for name in usual.split()}
-        # In the order of the signature: messages list the keys so.
+        # In the order of the signature, in which error texts list the keys.
         self.fields: Mapping[str, Key] = {
             name: Key(readers[name])
             if name in required or one.default is inspect.Parameter.empty

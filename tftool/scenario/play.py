@@ -79,7 +79,7 @@ class Play:
         self._script = Script(self.world, steps) if steps else None
         self._expectations: Expectations | None = None
         if scenario.expect:
-            # Most commands expect nothing: they do without the questions.
+            # Imported here, because most commands judge no expectations.
             from tftool.scenario import expectations
 
             self._expectations = expectations.Expectations(
@@ -161,7 +161,7 @@ def run_scenario(
     """
     clock = SimClock()
     play = build(scenario, clock, arguments)
-    # The verdict says so.
+    # The verdict reports the failed node.
     with watch(play.world), suppress(NodeFailed):
         run(clock, play.live())
     return play.verdict()
@@ -208,7 +208,7 @@ def played(
     play = build(scenario, clock)
     if watch is not None:
         watch(play.world)
-    # What the listener forgets counts from `end` on.
+    # The cache time is counted back from `end`, so the margin is added.
     memory = None if cache_time is None else cache_time + margin
     with heard_in(play.world, memory) as (buffer, log):
         run_apart(clock, play.live(end + margin))

@@ -386,7 +386,7 @@ class Turtles(Subject):
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
         """Return the names of the turtles."""
-        # Topics outlive turtles and come before them; a turtle's services do neither.
+        # Topics may exist before and after their turtle; its services exist only with it.
         ending = "/teleport_absolute"
         services = scene.world.services()
         return [name.removesuffix(ending) for name in services if name.endswith(ending)]

@@ -200,7 +200,7 @@ class KillTurtle(Action):
 
     async def do(self, script: Script) -> None:
         """Call the service that removes the turtle."""
-        # The answer says nothing, as in ROS 2.
+        # The response has no fields, as in ROS 2.
         is_there = script.world.has_service(f"{self.turtle}/set_pen")
         await script.call("kill", build(Kill.Request, self.turtle))
         if not is_there:
@@ -348,11 +348,11 @@ class StopNode(Action):
 
     async def do(self, script: Script) -> None:
         """Remove the node, and end a user's program that it belongs to."""
-        # It may be gone already: stopped before, or left out by what hosts this world.
+        # The node may be missing: stopped before, or omitted by the command that hosts.
         gone = [node for node in script.world.nodes if node.name == self.node]
         for node in gone:
-            # A program of the user's ends with its node. Asked this way, because what runs such
-            # programs is loaded only where there are some.
+            # A user's program ends with its node. Read by `getattr`, because the module that runs
+            # such programs is imported only if there are any.
             script.world.remove(getattr(node, "program", node))
         if not gone:
             script.warn(f"No node is named '{self.node}' (any more); nothing is stopped")

@@ -59,7 +59,7 @@ def play_through(
     clock = SimClock()
     play = build(scenario, clock)
     until = None if duration is None else clock.now() + duration
-    # The verdict says so.
+    # The verdict reports the failed node.
     with watch(play.world), suppress(NodeFailed):
         run(clock, play.live(until))
     snapshot = play.world.buffer.snapshot(clock.now())

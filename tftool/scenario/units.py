@@ -62,7 +62,7 @@ def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
     digits, written = match[1], match[2]
     if written and written not in unit.factors:
         raise reading.refuse(node, f"{quoted(text)} is not {unit.kind}: {_about(written, unit)}")
-    # As a float first: 1e999999999 must not be written out.
+    # Compared as a float, because 1e999999999 as a Decimal would be written out.
     if not abs(float(digits)) <= FARTHEST:
         raise reading.refuse(node, f"{quoted(text)} is too large: more than {FARTHEST:.0e}")
     return digits, written or unit.name
@@ -105,7 +105,7 @@ def time(*, least: float = 0.0) -> Reader:
         digits, written = _measure(node, reading, DURATION)
         exact = Decimal(0)
         if abs(float(digits)) > 1e-30:
-            # The factors are powers of ten or whole: no digit is lost.
+            # The factors are powers of ten or integers, so no digit is lost.
             exact = Decimal(digits) * Decimal(repr(DURATION.factors[written]))
         if not least <= float(exact) <= LONGEST:
             raise reading.refuse(

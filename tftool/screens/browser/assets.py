@@ -8,7 +8,7 @@ from importlib import resources
 
 from tftool.base.errors import TftoolError
 
-# The folder of each: built files have one of their own.
+# Folder of each file: built files are in a separate one.
 _FILES = {
     "index.html": ("page", "text/html; charset=utf-8"),
     "page.css": ("page", "text/css; charset=utf-8"),
@@ -19,7 +19,7 @@ _FILES = {
 }
 
 SAFETY: Mapping[str, str] = {
-    # Nothing but our own files, whatever a name manages to put into the page.
+    # Only our own files may be loaded, even if a frame's name injects HTML into the page.
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; "
         # A mesh may carry its own textures and buffers.

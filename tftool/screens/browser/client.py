@@ -29,7 +29,7 @@ class Cadence:
     def after(self, began: Stamp, ended: Stamp) -> Stamp:
         """Return the time of the next turn, after one with this begin and end."""
         self._due += self._period
-        # Thousands of frames may take longer than a period: never more than half the time.
+        # Thousands of frames may take longer than a period: use at most half of the time.
         earliest = ended + (ended - began)
         if earliest - self._due > FORGIVEN:
             self._due = earliest
@@ -162,7 +162,7 @@ class PageClient:
             word, self._word = self._word, None
             if word is not None:
                 await self.socket.send(word)
-            # Not before the names: a page of another session starts again with them.
+            # Not before the frames' names, because a page resets itself when it receives them.
             while self._displays and self.sent:
                 await self.socket.send(self._displays.pop(next(iter(self._displays))))
             if not self._next or not self._ready():

@@ -109,7 +109,7 @@ def _fill(track: DrawnTopic, recording: Recording, limits: Limits) -> None:
     last = None
     try:
         for place, (received, message) in enumerate(recording.messages(track.topic)):
-            # The first message says how large they are.
+            # `every` is computed from the size of the first message.
             is_kept = not every or place % every == 0
             if not is_kept and track.type not in ACCUMULATED:
                 continue
@@ -280,7 +280,7 @@ class LiveDisplays:
             if self._is_due(one):
                 told[topic] = one.block = self._packed(one)
                 room -= len(one.block)
-                # Those that found no room are the first of the next round.
+                # Topics without room in this round are first in the next one.
                 self._heard[topic] = self._heard.pop(topic)
         return told
 
@@ -293,7 +293,7 @@ class LiveDisplays:
 
     def _listen(self, topic: str, offers: list[Endpoint]) -> None:
         type_name = offers[0].interface
-        # What every publisher gives, so that none of them is left out.
+        # A quality that every publisher offers, so that all of them are received.
         quality = Quality(
             USUAL.depth,
             is_reliable=all(one.quality.is_reliable for one in offers),
@@ -311,7 +311,7 @@ class LiveDisplays:
         elif known.quality == quality or known.drawn.type != type_name:
             return
         heard = known
-        # Noted first: to subscribe calls for another look.
+        # Set first, because subscribing calls this function again.
         heard.quality = quality
         heard.stop()
 
@@ -324,7 +324,7 @@ class LiveDisplays:
                 "view", topic, INTERFACES.message(type_name), take, quality
             )
         except TftoolError:
-            # It carries messages of another type here.
+            # In this world, the topic has messages of another type.
             self._refused.add(topic)
             del self._heard[topic]
 
@@ -364,7 +364,7 @@ class LiveDisplays:
 
     def _packed(self, one: _HeardTopic) -> bytes:
         one.is_news = False
-        # A block for each topic: the page forgets them one by one.
+        # A block for each topic, because the page discards them separately.
         block = PackedBlock()
         tracks = pack_tracks(block, [one.drawn], self._world.buffer, self._world.clock.epoch)
         return block.plain({"tracks": tracks})

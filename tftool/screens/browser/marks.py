@@ -38,7 +38,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
         for low, high in holes(track, gap.limits)
     ]
     gaps = sorted(gaps, key=lambda hole: hole[1] - hole[2])[:MOST_GAPS]
-    # A robot's localiser jumps; turtles, which have no base, turn sharply.
+    # Jumps are only judged for robots: turtles, which have no base frame, turn sharply.
     robots = any(base_of(tree) for tree in diagnosis.model.trees)
     steps = steps_of(diagnosis.model) if robots else ()
     found = [one for one in diagnosis.findings if one.since is not None]

@@ -71,7 +71,7 @@ def _checked(is_right: bool, value: Any) -> Any:
 
 
 def _number(limit: float) -> Callable[[Any], float]:
-    # Compared first: a whole number too large for a float cannot be converted.
+    # Compared before the conversion, which fails for integers too large for a float.
     return lambda value: float(
         _checked(isinstance(value, (int, float)) and abs(value) < limit, value)
     )

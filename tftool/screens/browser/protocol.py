@@ -208,7 +208,7 @@ def encode_trails(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
             path = buffer.lookup_transforms(asked["fixed"], frame, stamps, missing="nan")
         except TransformException:
             continue
-        # A place that is very far away has no digits behind the point to round to.
+        # A very large number overflows when it is rounded, and has no decimals anyway.
         with np.errstate(over="ignore"):
             rounded = np.round(path.translations, _TRAIL_DIGITS)
         known = path.valid & np.isfinite(rounded).all(axis=1)
@@ -234,7 +234,7 @@ SERIES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 def _finite(values: Iterable[float]) -> list[float | None]:
-    # JSON knows no NaN and no infinity; the page shows a dash for null.
+    # JSON has no NaN and no infinity; the page shows a dash for null.
     return [value if math.isfinite(value) else None for value in values]
 
 

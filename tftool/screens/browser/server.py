@@ -72,7 +72,7 @@ DISPLAYS_RATE = 10.0
 TREES_KEPT = 8
 """Most states of the tree whose messages with names are stored."""
 
-# What the library has to say of strangers' broken handshakes is not for the user's terminal.
+# The library logs failed handshakes of any client, which must not reach the terminal.
 _LOGGER = logging.getLogger("tftool.view")
 _LOGGER.addHandler(logging.NullHandler())
 _LOGGER.propagate = False
@@ -177,7 +177,7 @@ class PageServer:
         if robot is not None and robot.mover is not None and robot.robot.takes(joint):
             lower, upper = slide_range(robot.robot.joints[joint])
             robot.mover.move(joint, min(upper, max(lower, position)))
-            # Pages that open later begin with it.
+            # Stored for pages that open later.
             self._robot_text = ""
 
     @property
@@ -207,7 +207,7 @@ class PageServer:
                     HOST,
                     port,
                     process_request=self._receive,
-                    compression=None,  # a loopback has room; the time is better spent elsewhere
+                    compression=None,  # the loopback is fast, and compression would take longer
                     max_size=page_messages.MOST_BYTES,
                     max_queue=4,
                     logger=_LOGGER,
@@ -281,7 +281,7 @@ class PageServer:
         for client in self.clients:
             client.show_displays(blocks)
         ended = clock.now()
-        # Without a page they are only kept, so that one that opens sees them.
+        # Without an open page, messages are only stored for pages that open later.
         period = self._displays_period * (1 if self.clients else 10)
         return max(began + period, ended + 2 * (ended - began))
 
@@ -309,12 +309,12 @@ class PageServer:
                 self._begin,
             )
             tree = TreeMessage(self._revision, text, shown)
-            # One page may look at a past in which a frame had another parent: not one shape
-            # alone is in use, yet they are few.
+            # A page may show a past time at which a frame had another parent: more than one tree
+            # is in use, but few are.
             while len(self._trees) >= TREES_KEPT:
                 del self._trees[next(iter(self._trees))]
             self._trees[key] = tree
-            # The frames that have come may say the prefix of the links' names.
+            # New frames may reveal the prefix of the links' names.
             if self._robot is not None and self._robot.place(
                 frozenset(self.source.buffer.frames())
             ):
@@ -335,7 +335,7 @@ class PageServer:
         if request.headers.get_all("Host") not in [[host] for host in ours]:
             return _refuse(HTTPStatus.FORBIDDEN, f"This page is served as {self.origin}/ only.")
         path, _, query = request.path.partition("?")
-        # Scripts and styles are the same for everybody, and tell nothing of the frames.
+        # Scripts and styles are the same for everybody, and contain no data of the frames.
         if path not in self._files or path in ("/", "/index.html"):
             given = parse_qs(query).get("token", [""])[-1]
             if not secrets.compare_digest(given.encode(), self._secret.encode()):
@@ -385,7 +385,7 @@ class PageServer:
             return _refuse(HTTPStatus.NOT_FOUND, str(refusal))
         if not is_packed or served.kind.startswith("image/"):
             return _answer(HTTPStatus.OK, served.kind, served.content)
-        # Large meshes take a tenth of a second to compress: in another thread, as nodes run here.
+        # Large meshes take a tenth of a second to compress, so it is done in another thread.
         compressed = partial(gzip.compress, served.content, 1, mtime=0)
         content = await asyncio.get_running_loop().run_in_executor(None, compressed)
         answer = _answer(HTTPStatus.OK, served.kind, content)
@@ -434,7 +434,7 @@ class PageServer:
             except asyncio.CancelledError:
                 return None
 
-        # Beside the loop: a recording takes seconds.
+        # In another thread, because a recording takes seconds.
         writing = asyncio.get_running_loop().run_in_executor(None, written)
         leaving = asyncio.ensure_future(connection.wait_closed())
         try:
@@ -449,7 +449,7 @@ class PageServer:
         if page is None:
             return _refuse(HTTPStatus.SERVICE_UNAVAILABLE, "The server stops.")
         answer = _answer(HTTPStatus.OK, "text/html; charset=utf-8", page.content)
-        # To be kept, not looked at here, where the policy for our own page would stop it.
+        # To be saved, not opened here, where our page's security policy would block its script.
         answer.headers["Content-Disposition"] = "attachment"
         return answer
 

@@ -159,7 +159,7 @@ def _packed(
 ) -> bytes:
     block = PackedBlock(is_rounded=is_rounded)
     header = _header(data, block)
-    # Deflated with the rest, which saves half a megabyte of every file.
+    # Compressed together with the data, which saves half a megabyte per file.
     header["script"] = block.section(files["/page.js"].content)
     return block.deflated(header, most=most, progress=progress)
 
@@ -197,7 +197,7 @@ def _frames(
         if not len(samples):
             continue
         names, which = np.unique(samples.parents.astype(str), return_inverse=True)
-        # A parent that is not shown stands for none.
+        # A parent that is not shown counts as no parent.
         parents = np.array([places.get(name, -1) for name in names.tolist()])[which]
         one |= {
             "static": samples.is_static,
@@ -220,7 +220,7 @@ def _robot(
     if robot is None:
         return None, []
     if robot.mover is not None:
-        # Nothing publishes from a file: the page moves them, from where they are.
+        # A file publishes nothing: the page moves the joints, from their present positions.
         robot = replace(robot, mover=None, rest=dict(robot.mover.positions))
     robot.place(frozenset(frame.frame for frame in shown))
     message: dict[str, Any] = json.loads(robot.as_text())
@@ -241,7 +241,7 @@ def _robot(
         try:
             served = robot.folders.read(address)
         except MeshRefused:
-            # The page then says that it cannot be drawn, as it does of its server's.
+            # The page then reports that the mesh cannot be drawn, as it does with a server.
             continue
         files.append(
             {"address": address, "kind": served.kind, "content": block.section(served.content)}

@@ -214,7 +214,7 @@ class FrameTrails:
         for frame in islice(frames, MOST_FRAMES):
             way = self._way(frame, fixed, at - REACH, at)
             if fixed == self.fixed:
-                # What the buffer has lost since.
+                # Positions that the buffer has pruned since.
                 first = int(way.stamps[0]) if len(way.stamps) else at
                 way = self._ways.get(frame, NOWHERE).before(first).followed_by(way)
             ways[frame] = way

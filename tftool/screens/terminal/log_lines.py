@@ -42,9 +42,9 @@ class Journal:
 
     KEPT = 300
     STAMPS = 400
-    # What a node warns of again and again differs in its numbers.
+    # Repeated warnings of a node differ only in their numbers.
     _NUMBERS = re.compile(r"-?\d+(\.\d+)?")
-    # A stamp of a lookup's refusal, which is another one every time.
+    # Stamps in the error of a lookup, which differ each time.
     _STAMP = re.compile(r"\b(\d+)\.(\d{6})\b")
 
     def __init__(self, records: Iterable[LogRecord] = ()) -> None:
@@ -59,7 +59,7 @@ class Journal:
         warns = record.level in PROBLEMS
         text = (self._NUMBERS if warns else self._STAMP).sub("#", record.text)
         kind = f"{record.level}\n{record.node}\n{text}"
-        # Those that repeat themselves take turns: the last few lines are looked at.
+        # Several messages may repeat alternately, so the last few lines are compared.
         for entry in list(self._entries)[-4:]:
             if entry.kind == kind:
                 entry.record = record
@@ -148,14 +148,14 @@ class Journal:
         colors = {"WARN": palette.warning, "ERROR": palette.error, "FATAL": palette.error}
         color = colors.get(record.level, palette.text)
         last = entry.last(until)
-        # The session's clock may be another one than that on which the screen began.
+        # The session's clock may have changed since the screen started.
         when = f"{as_seconds(last - start):.1f} " if last >= start else "- "
         indent = 2 if width < 40 else 7
         when = when.rjust(indent)
         count = entry.times(until)
         times = f" {'x' if look.ascii_only else '×'}{count}" if count > 1 else ""
         words = f"{record.node}: {self._STAMP.sub(_seconds_since(start), record.text)}"
-        # The first line shares its place with the time, the others stand a little in.
+        # The first line follows the time, the other lines are indented.
         room = max(8, (width if first is None else first) - len(when))
         lines = wrapped(words, max(8, width - indent), look.ink(color), first=room)
         lines[0] = Text.assemble((when, look.ink(palette.dim)), lines[0])

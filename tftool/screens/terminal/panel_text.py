@@ -43,7 +43,7 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
     at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
     space = max(1, height - 1)
     if len(listed) > space > 2:
-        # The last line counts the others.
+        # The last line says how many rows are not shown.
         space -= 1
     first = max(0, min(at - space // 2, len(listed) - space))
     return listed[first : first + space]
@@ -70,7 +70,7 @@ def tree(
     lines = [Text(fitted(head + ("  from" if columns.sender else ""), width, more=""), dim)]
     visible = in_view(listed, cursor, height)
     room = columns.name - 2
-    # One cell a level instead of three, where names would be cut otherwise.
+    # Indent by one cell per level instead of three if names would be cut otherwise.
     tight = any(len(row.guide) + len(row.info.frame) > room for row in visible)
     for row in visible:
         info = row.info
@@ -209,7 +209,7 @@ def _away(x: float, y: float, z: float, look: Look) -> str:
 
 def _number(value: float, digits: int) -> str:
     shown = f"{value:.{digits}f}"
-    # Nothing is not less than nothing.
+    # No minus sign before a zero.
     return shown.lstrip("-") if not shown.strip("-0.") else shown
 
 
@@ -422,7 +422,7 @@ class PairPlot:
             look: Colours and characters to use.
         """
         now = moment.stamp + moment.behind
-        # Until there is so much of it, the curve grows from the left.
+        # While the data is shorter than the span, the curve grows from the left.
         begin = max(scene.start, now - SPAN)
         span = PlotSpan(begin, begin + SPAN, scene.start)
         if moment.behind:
@@ -431,7 +431,7 @@ class PairPlot:
         pair = moment.pair
         columns = max(1, width - PAIR_LABELS - 1)
         period = max(1, SPAN // (2 * columns))
-        # On a grid of its own, so that a curve moves and does not tremble.
+        # At fixed times, so that a moving curve does not change its shape.
         stamps = np.arange(span.first // period + 1, span.last // period + 1) * period
         newest = scene.newest(pair.target, pair.source)
         if newest is not None and span.first < newest <= span.last:

@@ -35,7 +35,7 @@ class Camera:
     def view(self, picture: PlanePicture, columns: int, rows: int) -> Viewport:
         """Return the visible part of the plane for a picture of columns × rows of cells."""
         if picture.fixed != self._fixed:
-            # What a person zoomed into is elsewhere in another frame.
+            # A section that the user zoomed into has no meaning in another fixed frame.
             self._fixed, self._box, self._own = picture.fixed, None, None
         if self._own is None:
             self._box = self._fitted(picture.bounds())
@@ -90,7 +90,7 @@ class Camera:
             return box
         if (left, bottom, right, top) == kept:
             return kept
-        # With some room to come, or it would grow at every look.
+        # With a margin, or the view would grow at every update.
         room = 0.1 * max(right - left, top - bottom)
         return (
             left - room * (left < kept[0]),

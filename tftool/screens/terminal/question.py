@@ -96,7 +96,7 @@ class SceneQuestion:
         """Return the pair, or another one if its frames are gone and the user chose none."""
         asked, snapshot = (self.target, self.source), moment.snapshot
         if not self._picked and all(name in snapshot for name in self._wished):
-            # They came late.
+            # The chosen frames exist now.
             return self._wished
         names = [info.frame for info in snapshot.frames if info.parent is not None]
         if self._picked or not names:
@@ -106,7 +106,7 @@ class SceneQuestion:
         simulator = self.scene.simulator
         turtles = simulator is not None and bool(simulator.turtles)
         soon = turtles and moment.elapsed < PATIENCE
-        # The pair shown in place of the chosen one may get another root as long as links come.
+        # The pair shown in place of the chosen one may change its root while links appear.
         settled = asked == self._wished or moment.elapsed >= self._first_link_at + PATIENCE
         if soon or (settled and all(name in snapshot for name in asked)):
             return asked

@@ -185,7 +185,7 @@ class RobotApp(PanelApp):
         panel = self.panel("joints")
         columns, rows = panel.size
         place = next((n for n, one in enumerate(shown) if one.is_chosen), 0)
-        # Before the first layout there was no row, and after a resize there may be more.
+        # Before the first layout there are no rows, and after a resize there may be more.
         most = max(0, len(shown) - rows)
         self._first = min(most, max(min(self._first, place), place - rows + 1, 0))
         lines = self._rows(shown[self._first : self._first + rows], columns)
@@ -215,7 +215,7 @@ class RobotApp(PanelApp):
         names = max((len(one.joint.name) for one in shown), default=0)
         limits = width >= 72
         room = width - (36 if limits else 16)
-        # A name is whole where the bar keeps some cells.
+        # Names are cut only if the bar would become too short.
         name_width = min(names, max(10, room - LEAST_BAR))
         return [self._row(one, name_width, room - name_width, limits, look) for one in shown]
 

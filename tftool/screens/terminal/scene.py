@@ -136,7 +136,7 @@ class Scene:
         self.missed = ""
         self._news: dict[str, tuple[Stamp, Stamp]] = {}
         self._seen: deque[_Seen] = deque()
-        # Trails that were wiped, for as long as one can go back to them.
+        # Trails that were cleared, stored while the screen can go back to them.
         self._wiped: dict[int, tuple[int, tuple[Stroke, ...]]] = {}
         self._strokes: tuple[Stroke, ...] = ()
         self._hits: dict[str, int] = {}
@@ -151,7 +151,7 @@ class Scene:
         if simulator is None or not (simulator.turtles or self._seen):
             return
         if self.missed in simulator.turtles:
-            # The refusal would stand as the newest line although it no longer holds.
+            # Otherwise the outdated error would remain the newest line of the log.
             self.world.log.info("screen", f"{self.missed} is here now: the keys drive it")
             self.missed = ""
         trail = simulator.trail
@@ -172,7 +172,7 @@ class Scene:
         self._seen.append(
             _Seen(now, turtles, walls, simulator.background, trail.wipes, trail.drawn)
         )
-        # One older than the buffer reaches stays: it says how things were at its very end.
+        # The newest state from before the buffer's start stays: it is the state at the start.
         reach = now - self.world.buffer.cache_time
         while len(self._seen) > 1 and self._seen[1].stamp <= reach:
             self._seen.popleft()
@@ -281,7 +281,7 @@ class Scene:
             else:
                 news = self._news.get(info.frame)
                 if news is None or news[0] != info.newest:
-                    # First seen late: it is at least not younger than its stamp, within reason.
+                    # If first seen now, the frame may be old: its stamp is the best estimate.
                     since = now if news is not None else min(now, max(info.newest, 1))
                     news = self._news[info.frame] = info.newest, since
                 ages[info.frame] = as_seconds(now - news[1])
@@ -349,7 +349,7 @@ class Scene:
         self._field_frame = next(iter(parents), self._field_frame)
         pose = lookup(picture.fixed, self._field_frame) if self._field_frame else None
         if pose is None and self._field_frame in snapshot:
-            # Its frame is in a tree of its own, or where nothing is known of it.
+            # The robot's frame is in another tree, or its pose is unknown.
             return picture
         pose = pose or Transform.identity()
         field = TurtleField(

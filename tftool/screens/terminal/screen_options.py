@@ -114,7 +114,7 @@ def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:
         return ScreenLayout(small=True)
-    # A top line, the log's strip and a line of keys; and every panel has a border.
+    # Without the top line, the log's line and the line of keys.
     room = height - 3 - banner
     log = max(4, min(12, room // 3))
     if width < WITH_PANELS:
@@ -130,7 +130,7 @@ def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
         )
     if room >= 36:
         pair = BLOCK_LINES + 2
-    # A line less of the plots is better than a frame that is not listed.
+    # Rather one line less for the plots than a frame that is not listed.
     plot = LEAST_PLOT - 1 if tree == room - pair - LEAST_PLOT + 1 else LEAST_PLOT
     tree = min(tree, max(5, room - pair - max(plot, room // 4)))
     across = 2 * beside + 2

@@ -30,7 +30,7 @@ def space_picture(moment: SceneMoment, solids: Solids | None = None) -> SpacePic
         ends.insert(0, np.pad(flat, ((0, 0), (0, 0), (0, 1))))
         inks = [plane.field.color] * 4 + [stroke[4] for stroke in strokes]
         colors.insert(0, np.array([packed(ink) for ink in inks]))
-    # Few colours: each is drawn by itself.
+    # Few colours, because each one is drawn separately.
     lines = ColoredLines(np.concatenate(ends), np.concatenate(colors) & FEW)
     return SpacePicture(plane.fixed, frames, solids, lines, moment.pair.source, plane.pair)
 

@@ -99,7 +99,7 @@ class TrafficWatch(PanelApp):
     def _draw(self) -> None:
         now, look = self.world.clock.now(), self.look
         frames, below = self.panel("frames"), self.panel("senders")
-        # Its border and heading; at most a third of the screen.
+        # Rows with border and heading; at most a third of the screen.
         wanted = min(len(self._traffic.senders) + 3, self.size.height // 3)
         below.display = self.size.height >= 16
         below.styles.height = wanted
@@ -141,7 +141,7 @@ class TrafficWatch(PanelApp):
             return sorted(links, key=lambda link: -(link.series.rate or 0.0))
         if self._order == "delay":
             return sorted(links, key=lambda link: -(link.series.average_delay or 0.0))
-        # A static has no curve: below the others it does not part them.
+        # Static links have no curve; they are listed last, so that the curves stay together.
         return sorted(links, key=lambda link: link.is_static)
 
     # Keys

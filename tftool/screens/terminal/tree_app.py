@@ -129,7 +129,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     #rows, #space {{ height: 1fr; }}
     .tiny #rows {{ border: none; }}
     """
-    # Every other key is a letter while a filter is typed.
+    # While the user types a filter, all other keys are letters of it.
     BINDINGS: ClassVar[list[BindingType]] = WorldApp.BINDINGS
 
     def __init__(

@@ -218,13 +218,13 @@ class TurtleApp(PanelApp):
             return
         began = loop.time()
         self.guarded(self._look)
-        # A world of thousands of frames is drawn less often, so that it still lives.
+        # A world of thousands of frames is drawn less often, so that its nodes get time to run.
         self._rest_until = loop.time() + REST * (loop.time() - began)
 
     def _look(self) -> None:
         self._count += 1
         if self._idle is not None and (self._question.at is not None or self._is_over()):
-            # A person reads: nothing moves meanwhile.
+            # The turtle draws no curve while the user sees the past, the help or the scenarios.
             self._idle.touch()
         self.scene.look()
         self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
@@ -265,10 +265,10 @@ class TurtleApp(PanelApp):
                 self._arrange(width, height)
         else:
             moment = question.wait(moment)
-        # Only the next look knows the tree's new size.
+        # The tree's new size is only known after the next update.
         self._stale = has_grown
         self._draw_field(moment)
-        # A picture of frames beside a tree without them would be two moments on one screen.
+        # The picture and the tree must show the same frames.
         if panels_too or has_grown:
             self._draw_panels(moment)
 
@@ -324,7 +324,7 @@ class TurtleApp(PanelApp):
         told = panels.pair(moment, *pair.size, look)
         is_long = moment.pair.found is None and len(told) > self._pair_height - 2
         if plot.display == is_long:
-            # A refusal is read to its end: there is nothing to plot meanwhile.
+            # The whole error text is shown instead of the plot, which would be empty.
             plot.display = not is_long
             pair.styles.height = "1fr" if is_long else self._pair_height
         pair.show(told)
@@ -491,7 +491,7 @@ class TurtleApp(PanelApp):
     def action_fix(self) -> None:
         """Draw the picture in the frame under the cursor, or again in its tree's root."""
         if self.setting.drive_only:
-            # Teleop has no cursor: there the letter is what it is in either case.
+            # In teleop, f has the same meaning in both cases.
             self.action_drive("f")
             return
         self._question.fix()
@@ -564,7 +564,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def _show_offered(self) -> None:
-        # Inside its border, by the size it was given: its own is known only after the layout.
+        # Computed from the offered size, because the panel's own is only known after the layout.
         wide, high = self._offered_size()
         lines = panels.scenarios(self._offered, self._offer, wide - 2, high - 2, self.look)
         self.panel("scenarios").show(lines)

@@ -58,7 +58,7 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
                 try:
                     super().run_input_thread()
                 except UnicodeDecodeError as error:
-                    # Input read together with them is kept; the next round reads what follows.
+                    # Valid input around the bad bytes is processed; the next round continues.
                     for event in input_events(error.object.decode(errors="ignore")):
                         self.process_message(event)
                     continue
@@ -155,7 +155,7 @@ class WorldApp(App[None]):
             terminal_colors: Whether to draw in the terminal's own colours.
         """
         self.setting = setting or Setting()
-        # Without this, textual shows greys where NO_COLOR asks for none.
+        # Without this, textual shows grey text although NO_COLOR is set.
         super().__init__(ansi_color=terminal_colors or not self.setting.colors)
         self.world = world
         self.ready = asyncio.Event()
@@ -171,10 +171,10 @@ class WorldApp(App[None]):
 
     def on_mount(self) -> None:
         """Prepare the event loop for the world's nodes; report when the first picture is shown."""
-        # textual makes new tasks start eagerly where Python can; the nodes of the world on
-        # this loop are to run in the order they always run in.
+        # If Python can, textual starts new tasks eagerly; the world's nodes in this event loop
+        # need the usual order.
         asyncio.get_running_loop().set_task_factory(None)
-        # Between Ctrl-Z and fg the shell wrote over the picture; textual sends only what changed.
+        # After Ctrl-Z and fg, the shell's text covers the picture, and textual draws only changes.
         self.app_resume_signal.subscribe(self, lambda _: self.refresh(layout=True))
         self.call_after_refresh(self.ready.set)
 
@@ -305,13 +305,13 @@ async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool
         TftoolError: If the screen itself failed.
         KeyboardInterrupt: If the user pressed Ctrl-C.
     """
-    # Ctrl-C as a signal, not as a key: the loop, which reads keys, may be held up by a node.
+    # Ctrl-C as a signal, not a key: a node may block the event loop, which reads keys.
     os.environ.setdefault("TEXTUAL_ALLOW_SIGNALS", "1")
     undo = app.world.clock.when_killed.add(leave_screen, "screen")
     screen = asyncio.ensure_future(app.run_async(headless=headless))
 
     async def lived() -> None:
-        # Making the panels takes a while in which no node would get its turn.
+        # The nodes start after the panels were created, which takes a while.
         await app.ready.wait()
         app.begin(app.world.clock.now())
         await life
