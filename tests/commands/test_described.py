@@ -183,7 +183,7 @@ def test_a_recording_takes_the_description_it_lacks(tftool, recording, robot):
     ("words", "status", "told"),
     [
         (["--joint", "turn=1"], 2, "The joints of a recording cannot be set"),
-        (["a:=b"], 2, "Only a description takes arguments"),
+        (["a:=b"], 2, "Only a robot description has arguments"),
         (["--urdf", "none.urdf"], 3, "cannot read 'none.urdf'"),
     ],
 )

@@ -255,7 +255,7 @@ def test_more_texts_and_messages_than_we_make_are_refused(monkeypatch, text, ite
         return CDR.header + struct.pack("<I", count) + item * count
 
     assert len(Codec(made(text)).decode(body(most)).data) == most
-    with pytest.raises(MalformedMessage, match="hold more than 5 texts and messages"):
+    with pytest.raises(MalformedMessage, match="contain more than 5 texts and messages"):
         Codec(made(text)).decode(body(most + 1))
 
 

@@ -297,7 +297,7 @@ def test_a_topic_whose_number_is_none_is_left_out_and_told(tmp_path, number):
 
     with open_recording(path) as recording:
         assert [topic.name for topic in recording.topics] == ["/tf"]
-        assert recording.damage == ("Topic '/odd' is left out: its id is no whole number.",)
+        assert recording.damage == ("Topic '/odd' is left out: its id is not a whole number.",)
 
 
 @pytest.mark.parametrize("odd", [None, "abc", b"\x00", 1e300])
@@ -313,7 +313,7 @@ def test_a_row_without_a_moment_is_left_out_and_told(tmp_path, odd, is_first):
         assert recording.source.start == sent[0].log_time
         assert recording.source.end == sent[-1].log_time
         (damage,) = recording.damage
-        assert "no whole number" in damage
+        assert "not a whole number" in damage
 
 
 def test_rows_whose_numbers_are_texts_are_left_out_and_told(tmp_path):
@@ -321,7 +321,7 @@ def test_rows_whose_numbers_are_texts_are_left_out_and_told(tmp_path):
 
     with open_recording(path, progress=lambda done, total: None) as recording:
         assert len(recording.transforms) == 0
-        assert any("no whole number" in one for one in recording.damage)
+        assert any("not a whole number" in one for one in recording.damage)
 
 
 def test_moments_before_1970_are_written_as_their_beginning(tmp_path, capsys):

@@ -229,7 +229,7 @@ def test_a_mimic_of_nothing_is_noted_and_read():
     arm = parse(text)
 
     assert arm.joints["shoulder"].mimic.joint == "elbow"
-    assert "'elbow', which is no joint here" in arm.notes[0]
+    assert "'elbow', which is not a joint here" in arm.notes[0]
 
 
 def test_limits_that_leave_no_room_are_noted_and_read():

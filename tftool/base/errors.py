@@ -260,7 +260,7 @@ class LookupException(TransformException):
     def remedy(self) -> str:
         """Return advice with similar frame names, or that no frame is known yet."""
         if self.looped:
-            return "Some frame hangs from one of its own children: see who sends the links named."
+            return "A frame is below one of its own children: check who publishes the links named."
         if self.frame is None:
             return ""
         # Computed only for printing: a waiting program may create this error thousands of times.

@@ -273,7 +273,7 @@ def _compared(
     if before.pose is not None and after.pose is not None:
         offset = _static_offset(second.buffer, child, before, after)
     elif Behaviour.joint in (before.kind, after.kind):
-        note = "a joint, whose place is left open"
+        note = "a joint, whose position is unknown"
     else:
         offset, note = _moving_offset(child, first, second, held, shift, before.parent, tolerance)
     if offset is not None and (

@@ -40,7 +40,7 @@ def odometry_notes(recording: "Recording") -> Iterator[str]:
         found = [f"'{topic.name}' ({topic.type})" for topic in implying(recording.topics)]
         if found:
             yield (
-                "No transform was recorded; --with-odometry takes these messages for some: "
+                "No transform was recorded; --with-odometry uses these messages instead: "
                 f"{', '.join(found[:5])}{' …' if len(found) > 5 else ''}."
             )
 
@@ -59,7 +59,7 @@ def _described_notes(described: "DescribedFrames | None") -> Iterator[str]:
         shown = ", ".join(described.gaps[:5]) + (" …" if len(described.gaps) > 5 else "")
         yield (
             f"{count(len(described.gaps), 'link')} without a frame, as neither tf nor joint states "
-            f"say where: {shown}."
+            f"have their poses: {shown}."
         )
 
 
@@ -130,7 +130,7 @@ def _robot_beside(options: DescriptionOptions) -> Robot | None:
     if options.urdf is None and not options.arguments:
         return None
     if options.urdf is None:
-        options.refuse("Only a description takes arguments: give it with --urdf FILE")
+        options.refuse("Only a robot description has arguments: name it with --urdf FILE")
 
     assert options.urdf is not None
     return load_urdf(options.urdf, options.arguments)

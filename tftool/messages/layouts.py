@@ -266,7 +266,7 @@ class Reader:
         self._items += items
         if self._items > MOST_ITEMS:
             raise MalformedMessage(
-                self.kind, f"its lists hold more than {MOST_ITEMS} texts and messages"
+                self.kind, f"its lists contain more than {MOST_ITEMS} texts and messages"
             )
 
     def text(self, bound: int | None) -> str:

@@ -60,7 +60,7 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
     except Exception as error:
         raise InputError(f"its {method} data is damaged ({error})") from error
     if len(found) != size:
-        raise InputError(f"its {method} data gives {len(found)} bytes instead of {size}")
+        raise InputError(f"its {method} data expands to {len(found)} bytes instead of {size}")
     return found
 
 

@@ -82,7 +82,7 @@ def read_joint_states(source: Recorded, topics: Sequence[str]) -> RecordedJoints
             try:
                 template = _template(payload, is_cdr=encodings[topic] != "ros1")
             except (struct.error, ValueError):
-                ignored[f"'{topic}' has a message that is no JointState"] += 1
+                ignored[f"'{topic}' has a message that is not a JointState"] += 1
                 continue
             if template.problem:
                 ignored[f"'{topic}' has a message {template.problem}"] += 1

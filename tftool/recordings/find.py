@@ -300,7 +300,9 @@ def _prefixed(word: str, path: Path) -> Found:
     """
     kind = _kind_with_options(word, path)
     if kind is not Kind.POSES:
-        raise InputError(f"'{word}' gives a prefix to a {kind.value}: only pose files take one.")
+        raise InputError(
+            f"'{word}' has a prefix, but is a {kind.value}: only pose files can have one."
+        )
     return Found(word, kind, (path,))
 
 

@@ -164,7 +164,7 @@ class MeshFolders:
         if not path.is_relative_to(root):
             raise MeshRefused(f"'{name}' is outside of '{root.name}', and is never shown")
         if path.suffix.lower() not in KINDS:
-            raise MeshRefused(f"'{name}' is no mesh or texture ({', '.join(SHAPES)})")
+            raise MeshRefused(f"'{name}' is not a mesh or texture ({', '.join(SHAPES)})")
         try:
             real = path.resolve(strict=True)
         except (OSError, RuntimeError):
@@ -172,7 +172,7 @@ class MeshFolders:
         if not real.is_relative_to(root.resolve()):
             raise MeshRefused(f"'{name}' is a link that leads out of '{root.name}'")
         if real.suffix.lower() not in KINDS or not real.is_file():
-            raise MeshRefused(f"'{name}' is no mesh or texture ({', '.join(SHAPES)})")
+            raise MeshRefused(f"'{name}' is not a mesh or texture ({', '.join(SHAPES)})")
         return path.relative_to(root)
 
     def _package(self, name: str) -> Path | None:

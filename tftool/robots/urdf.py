@@ -350,7 +350,7 @@ class _Reader:
         if max(map(abs, (roll, pitch, yaw))) > math.tau:
             self.notes.append(
                 f"line {origin.line + 1}: rpy {roll:g} {pitch:g} {yaw:g} is more than a whole "
-                "turn: URDF takes radians, and 90 degrees are 1.5708"
+                "turn: URDF uses radians, and 90 degrees are 1.5708"
             )
         return Transform(xyz, quaternion_from_rpy(roll, pitch, yaw))
 
@@ -587,7 +587,7 @@ class _Reader:
         hint = did_you_mean(link, links)
         self._note(
             _end(place, tag),
-            f"joint '{joint.name}' names the {tag} '{link[:100]}', which is no link here{hint}",
+            f"joint '{joint.name}' names the {tag} '{link[:100]}', which is not a link here{hint}",
             "link",
         )
 
@@ -600,7 +600,7 @@ class _Reader:
                 if name not in joints:
                     if leader is joint:
                         self.notes.append(
-                            f"joint '{joint.name}' mimics '{name}', which is no joint here: "
+                            f"joint '{joint.name}' mimics '{name}', which is not a joint here: "
                             "it is treated as a joint of its own"
                         )
                     break

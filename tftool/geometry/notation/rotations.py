@@ -288,7 +288,7 @@ def _beyond(numbers: Sequence[float], degrees: bool) -> tuple[str, ...]:
     beyond = [number for number in numbers if abs(number) > 2.0 * math.pi]
     if degrees or not beyond:
         return ()
-    return (f"{beyond[0]:g} radians are more than a full turn: degrees take --degrees.",)
+    return (f"{beyond[0]:g} radians are more than a full turn: for degrees add --degrees.",)
 
 
 def _quaternion(numbers: Sequence[float], form: str) -> Written:

@@ -126,7 +126,7 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
             if part.exists() and path.exists() and part.samefile(path):
                 raise UsageError(f"'{path}' is where '{output}' would be written: rename it first.")
             if path.parent.resolve() == output.resolve() and output.exists():
-                raise UsageError(f"'{output}' holds the input: name another output.")
+                raise UsageError(f"'{output}' contains the input: name another output.")
 
 
 class _Job:

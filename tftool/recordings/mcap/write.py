@@ -204,7 +204,9 @@ class McapWriter(ChunkedWriter):
         while number in taken:
             number += 1
         if number > MOST_CHANNELS:
-            raise InputError(f"An MCAP file holds at most {MOST_CHANNELS} channels and schemas.")
+            raise InputError(
+                f"An MCAP file can contain at most {MOST_CHANNELS} channels and schemas."
+            )
         return number
 
     def _define(self, channel: int) -> None:

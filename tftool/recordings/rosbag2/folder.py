@@ -207,7 +207,7 @@ def unpack_file(path: Path, target: Path) -> str:
             except zstandard().ZstdError as error:
                 if not done:
                     raise InputError(f"'{path}' is damaged zstd data ({error}).") from error
-                return f"Its zstd data is damaged behind byte {done} ({error})."
+                return f"Its zstd data is damaged after byte {done} ({error})."
             if not piece:
                 if not done:
                     raise InputError(

@@ -336,7 +336,7 @@ class Sqlite:
             )
             shown = channel.readable()
             if not isinstance(number, int):
-                self._tell(f"Topic '{shown.topic}' is left out: its id is no whole number.")
+                self._tell(f"Topic '{shown.topic}' is left out: its id is not a whole number.")
                 continue
             self.channels[len(self.streams)] = channel
             self.topic_ids.append(number)
@@ -428,7 +428,7 @@ class Sqlite:
                     # A column may contain values of any type.
                     sound = [row for row in rows if type(row[0]) is type(row[-2]) is int]
                     if len(sound) < len(rows):
-                        self._note("an id or a timestamp is no whole number")
+                        self._note("an id or a timestamp is not a whole number")
                     if not sound:
                         continue
                     yield batch_of_rows(sound, streams)
