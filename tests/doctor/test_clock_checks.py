@@ -424,3 +424,14 @@ def test_a_localiser_out_of_order_hangs_on_the_odometry_that_its_scans_wait_for(
         at = tick * 0.1
         made.sent("map", "odom", at, latency=released - at - 0.01 * (tick % 10))
     assert found(made, "out-of-order").because_of == "sensor-outruns-tf"
+
+
+def test_a_sensor_alone_is_off_the_recorders_clock():
+    made = Robot()
+    made.hears("/scan", "laser", latency=-1.8)
+    assert found(made, "clock-offset").message == "/scan is 1.80 s off the recorder's clock"
+    made.hears("/points", "laser", kind="sensor_msgs/PointCloud2")
+    assert found(made, "clock-offset").message == "/scan is 1.80 s off the other clocks"
+    # Without a transform nothing is known of an image's axes.
+    made.hears("/image", "camera", kind="sensor_msgs/Image")
+    assert found(made, "image-not-optical").because_of == "no-transforms"

@@ -373,6 +373,8 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         if ahead > allowed or is_off:
             same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
             alike[same].append(heard)
+    groups = _offsets(model) if alike else []
+    other = "the other clocks" if len(groups) > 1 else "the recorder's clock"
     for ahead, streams in alike.items():
         names = tuple(dict.fromkeys(one.name for one in streams))
         heards = [one for one in streams if isinstance(one, Heard)]
@@ -388,9 +390,9 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             facts={
                 "topic": several(names),
                 "ahead": ahead,
-                "groups": _offsets(model),
-                "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} off the other "
-                "clocks" + told,
+                "groups": groups,
+                "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} off {other}"
+                + told,
                 "so": "no lookup across the two clocks can succeed"
                 if told
                 else "each lookup at these stamps asks for what is not there"

@@ -276,7 +276,10 @@ def _stem(name: str) -> str | None:
         *threads("usnistgov/ARIAC#345"),
     ),
     needs=("headers",),
-    because_of=(("frame", "unknown-frame"),),
+    because_of=(
+        ("frame", "unknown-frame"),
+        ("anything", "no-transforms"),
+    ),
 )
 def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
     """Images are stamped in a body frame."""
