@@ -496,15 +496,20 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
     assert "is 'tftool robot FILE' here" in capsys.readouterr().err
 
 
-def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool):
+def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool, monkeypatch):
     echo = tftool("run", "tf2_ros", "tf2_echo", "world", "turtle1", "--once")
     assert (echo.status, echo.out.splitlines()[1]) == (0, "- Translation: [5.544, 5.544, 0.000]")
     assert "Without ROS this is 'tftool echo world turtle1 --once'." in echo.err
 
-    file = tmp_path / "frames.pdf"
-    words = ["tf2_tools", "view_frames", "--output", file, "--ros-args", "-r", "a:=b"]
-    assert tftool("run", *words).status == 0
-    assert file.read_bytes().startswith(b"%PDF")
+    monkeypatch.chdir(tmp_path)
+    words = ["tf2_tools", "view_frames", "--ros-args", "-r", "a:=b"]
+    for file, more in (
+        ("frames.pdf", []),
+        ("frames.pdf", []),
+        ("own.pdf", ["--output", "own.pdf"]),
+    ):
+        assert tftool("run", *words[:2], *more, *words[2:]).status == 0
+        assert (tmp_path / file).read_bytes().startswith(b"%PDF")
 
     misplaced = tftool("run", "--for", "1", "rviz2", "rviz2")
     assert (misplaced.status, "is 'tftool view' here" in misplaced.err) == (2, True)

@@ -258,7 +258,7 @@ _OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
 COMMANDS = {
     ("tf2_ros", "tf2_echo"): ("echo",),
     ("tf2_ros", "tf2_monitor"): ("monitor",),
-    ("tf2_tools", "view_frames"): ("tree", "--format", "pdf"),
+    ("tf2_tools", "view_frames"): ("tree", "--format", "pdf", "-o", "frames.pdf", "--force"),
     ("rqt_tf_tree", "rqt_tf_tree"): ("tree", "--watch"),
     ("rviz2", "rviz2"): ("view",),
     ("launch_testing", "launch_test"): ("ros2", "test"),
