@@ -364,7 +364,7 @@ class Solver:
         return number
 
     def fault(self, frame: str) -> str:
-        """Return `can_transform`'s sentence on what is wrong with a frame name; empty if valid."""
+        """Return `can_transform`'s sentence about the fault of a frame name; empty if valid."""
         if why := tree.fault(frame):
             return why
         return "" if frame in self._tree.numbers else "frame does not exist"

@@ -240,7 +240,7 @@ class Model:
 
     @cached_property
     def trees(self) -> tuple[Tree, ...]:
-        """All trees, by the newest parents, the largest first."""
+        """Trees of the frames, as connected by the newest parents, the largest first."""
         root_of: dict[str, tuple[str, bool]] = {}
         for frame in sorted(self.frames):
             walked: dict[str, None] = {}

@@ -277,7 +277,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
     """Insert validated samples in their order; return a mask of the samples that were too old."""
     n = len(stamps)
     limit = min(history.limit, 2**63 - 1)
-    # The newest stamp before each row: it decides whether the row is too old, and what is pruned.
+    # The newest stamp before each row decides if the row is too old, and which samples are pruned.
     before = np.empty(n, dtype=np.int64)
     before[0] = history.newest_stamp if len(history) else _LEAST
     np.maximum(before[0], np.maximum.accumulate(stamps[:-1]), out=before[1:])

@@ -47,7 +47,7 @@ class EditedFile:
         copied: Size of each copied chunk, bytes, by its offset in the file.
         start: Log time of the first message.
         end: Log time of the last message.
-        refused: Topics that cannot be converted, each with what was done and the reason.
+        refused: Topics that cannot be converted, each with its treatment and the reason.
     """
 
     def __init__(
