@@ -93,6 +93,17 @@ def test_statics_that_are_missing_explain_frames_that_are_unknown():
     assert found(made, "unknown-frame").because_of == "static-missing"
 
 
+def test_joint_states_without_transforms_of_joints_need_robot_state_publisher():
+    made = robot(laser=False)
+    made.hears("/joint_states", "", kind="sensor_msgs/JointState")
+    finding = found(made, "static-missing")
+    assert "robot_state_publisher did not run" in finding.message
+    assert finding.fixes[0].text.startswith("start robot_state_publisher")
+    assert not any("record" in fix.text for fix in finding.fixes)
+    made.moving("base_link", "wheel")
+    assert found(made, "static-missing").fixes[0].text.startswith("record /tf")
+
+
 DESCRIBED = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="lidar_top"/>
 <joint name="mast" type="fixed"><parent link="base_link"/><child link="lidar"/></joint>
 <joint name="spin" type="continuous"><parent link="lidar"/><child link="lidar_top"/></joint>

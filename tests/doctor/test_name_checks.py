@@ -44,6 +44,45 @@ def test_no_cure_names_a_frame_with_a_slash():
     assert not any("/camera_frame" in fix.text + fix.command for fix in fixes)
 
 
+def test_an_unknown_frame_of_what_no_map_needs_is_a_warning():
+    made = robot()
+    made.hears("/gps/fix", "navsat", kind="sensor_msgs/NavSatFix")
+    assert found(made, "unknown-frame").severity is Severity.WARNING
+    made.hears("/points", "navsat", kind="sensor_msgs/PointCloud2")
+    assert found(made, "unknown-frame").severity is Severity.ERROR
+
+
+@pytest.mark.parametrize("name", ["navsat_link", "utm_link"])
+def test_a_frame_is_not_near_because_it_is_a_link_too(name):
+    made = robot()
+    made.static("base_link", "arm_link")
+    made.hears("/gps/fix", name, kind="sensor_msgs/NavSatFix")
+    finding = found(made, "unknown-frame")
+    assert "near" not in finding.evidence[0]
+    # A frame of the world is no mount.
+    assert bool(finding.fixes[0].command) == (name == "navsat_link")
+
+
+def test_a_mount_is_proposed_for_a_sensor_of_a_device_without_a_base():
+    made = Robot(kind="ROS 1 bag")
+    made.moving("tilt_base", "tilt_axis")
+    made.static("tilt_axis", "laser")
+    made.hears("/imu", "/base_imu", kind="sensor_msgs/Imu")
+    (mount, slash) = found(made, "unknown-frame").fixes
+    assert mount.command.endswith("X Y Z YAW PITCH ROLL PARENT base_imu")
+    assert slash.text.startswith('and set frame_id to "base_imu"')
+
+
+def test_an_unknown_frame_of_two_robots_is_not_in_their_namespaced_transforms_either():
+    made = Robot()
+    made.moving("odom", "base_link", topic="/r1/tf")
+    for robot_name in ("r1", "r2"):
+        made.hears(f"/{robot_name}/gps/fix", "navsat_link", kind="sensor_msgs/NavSatFix")
+    finding = found(made, "unknown-frame")
+    assert finding.because_of is None
+    assert finding.evidence[0].endswith("; 2 robots use this name: r1, r2")
+
+
 def test_slashes_in_transforms_are_a_note_and_two_of_them_an_error():
     made = robot()
     made.slashed["odom", "base_link", False] = 7

@@ -299,13 +299,13 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
     detail="messages are in {frames}, which no transform names",
     consequence="these sensors cannot be placed",
     fixes=(
-        Fix("{record}"),
         Fix(
-            "take the statics from the first part of the recording, or the robot description:",
-            "tftool edit RECORDING -o WHOLE --statics-from FIRST_PART",
+            "take the statics from another recording of the robot, or from its description:",
+            "tftool edit RECORDING -o WHOLE --statics-from OTHER",
         ),
     ),
     causes=(
+        "robot_state_publisher was not started",
         "the second part of a split recording",
         "/tf_static not in the recorder's list",
         "the recorder's QoS for /tf_static",
@@ -326,17 +326,20 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     if not unknown:
         return
     static = [topic for topic in model.evidence.topics if topic.static]
+    why = "there is no /tf_static in it"
+    if static:
+        why = f"{static[0].name} is there and has no message"
+    cure = model.words["record"]
+    if model.lacks_state_publisher:
+        why = "robot_state_publisher did not run (joint states came, but no transform of a joint)"
+        cure = "start robot_state_publisher with the robot's description"
     names = sorted({heard.frame for heard in unknown})
     yield Hit(
         frames=tuple(names),
         topics=tuple(sorted({heard.topic for heard in unknown})),
         count=sum(len(heard.stamps) for heard in unknown),
-        facts={
-            "frames": names,
-            "why": f"{static[0].name} is there and has no message"
-            if static
-            else "there is no /tf_static in it",
-        },
+        facts={"frames": names, "why": why},
+        fixes=(Fix(cure),),
         alone=True,
     )
 

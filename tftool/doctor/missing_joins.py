@@ -15,6 +15,8 @@ BASES = ("base_link", "base_footprint", "base")
 
 _PLAIN = frozenset({"base", "link", "frame", "footprint", "body", ""})
 
+_WORLDS = frozenset({"map", "odom", "world", "earth", "ecef", "wgs84", "utm", "enu", "ned"})
+
 _MOUNTED = frozenset(
     {"LaserScan", "PointCloud2", "Imu", "Image", "CameraInfo", "CompressedImage", "Range"}
     | {"NavSatFix", "MagneticField", "DepthImage"}
@@ -79,10 +81,16 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
         if found is not None:
             return found
     base = next((one for tree in model.trees if (one := base_of(tree))), "")
-    if base and any(last_part(kind) in _MOUNTED for kind in kinds):
-        text = f"if it is a mount of its own, fixed to {base}, publish where it is:"
-        return Join((base, name), "", _mount(model, text, base, name))
-    return None
+    if is_world(name) or not any(last_part(kind) in _MOUNTED for kind in kinds):
+        return None
+    fixed = f", fixed to {base}" if base else ""
+    text = f"if it is a mount of its own{fixed}, publish where it is:"
+    return Join((base, name) if base else None, "", _mount(model, text, base or "PARENT", name))
+
+
+def is_world(name: str) -> bool:
+    """Whether a name is of a frame that is fixed to the world, not mounted on a robot."""
+    return not _WORLDS.isdisjoint(last_part(name).lower().split("_"))
 
 
 def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
@@ -143,7 +151,7 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
     """Return a proposal if another tree has a similar name for the root, such as base_footprint."""
     root = tree.root
     for name in sorted(other.frames):
-        if _prefix(name) != _prefix(root) or _core(name) != _core(root):
+        if _prefix(name) != _prefix(root) or distinctive_words(name) != distinctive_words(root):
             continue
         why = f"{name} is near: {root} may be a frame of the same part"
         fix = _mount(model, f"{why}; if so, publish where it is:", name, root)
@@ -155,6 +163,12 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
     """Return the remedy for a missing mount: publish it, unless no statics were recorded."""
     if not model.lacks_statics or not model.evidence.recorded:
         return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
+    if model.lacks_state_publisher:
+        return Fix(
+            "robot_state_publisher did not run: start it with the robot's description; to mend the "
+            "recording:",
+            "tftool edit RECORDING -o WHOLE --statics-from DESCRIPTION",
+        )
     # The robot probably sends it: a second publisher would contradict the first one.
     return Fix(
         f"the statics are missing from the recording, {child} in {parent} probably among them: "
@@ -163,7 +177,7 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
     )
 
 
-def _core(name: str) -> frozenset[str]:
+def distinctive_words(name: str) -> frozenset[str]:
     """Return the distinctive words in a frame name: "laser" in base_laser_link."""
     return frozenset(last_part(name).lower().split("_")) - _PLAIN
 

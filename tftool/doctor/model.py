@@ -13,7 +13,7 @@ from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
 from tftool.doctor.evidence import Evidence
 from tftool.doctor.ros_words import ros_words
-from tftool.doctor.stamp_stream import WILD, Heard, Stream, Track, last_part
+from tftool.doctor.stamp_stream import JOINT_STATES, WILD, Heard, Stream, Track, last_part
 from tftool.recordings.contract import Stamps
 from tftool.recordings.description_frames import prefix_of
 from tftool.recordings.timeline import through_clock
@@ -174,6 +174,15 @@ class Model:
         if any(topic.static for topic in self.evidence.topics):
             return True
         return all(track.moves or len(track.by_stamp) < 2 for track in self.dynamic)
+
+    @cached_property
+    def lacks_state_publisher(self) -> bool:
+        """Whether joint states came, and no transform but those of odometry and localisers."""
+        came = any(h.type == JOINT_STATES and len(h) for h in self.evidence.headers.values())
+        return came and all(
+            track.is_localisation or last_part(track.parent).startswith("odom")
+            for track in self.tracks
+        )
 
     @cached_property
     def start(self) -> Stamp:

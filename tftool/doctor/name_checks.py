@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from tftool.base.plain_text import near_names
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import proposed_frame, quoted
+from tftool.doctor.missing_joins import distinctive_words, is_world, proposed_frame, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import Heard, family, last_part
@@ -27,7 +27,9 @@ MOST_COMPARED = 300_000
 @check(
     "unknown-frame",
     Severity.ERROR,
-    rule="the frame of a message with a position is in no transform of the whole recording",
+    rule="the frame of a message with a position is in no transform of the whole recording. A "
+    "warning if none of the messages is a scan, a point cloud or a range, which costmaps and "
+    "maps have to place",
     headline="no transform names {frame}",
     detail="{says}{hint}",
     consequence="none of these messages can be placed anywhere",
@@ -43,7 +45,6 @@ MOST_COMPARED = 300_000
     because_of=(
         ("anything", "static-missing"),
         ("frame", "slash-twins namespace-twins case-twins typo-twins"),
-        ("anything", "namespaced-topic"),
     ),
 )
 def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -58,13 +59,15 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             by_name[heard.frame].append(heard)
     for name, heards in by_name.items():
         count = sum(len(heard.stamps) for heard in heards)
-        near = near_names(last_part(name), sorted(model.frames), 3)
+        near = _near(model, name)
         alike = _fitting(model, heards[0].type)
         hint = f"; in tf, {' and '.join(alike)} fits and no message uses it" if alike else ""
         if near and not alike:
             hint = f"; near: {', '.join(near)}"
         if _is_scoped(model, name):
             hint += "; this is a simulator's scoped name"
+        if robots := _sharing(heards):
+            hint += f"; {len(robots)} robots use this name: {', '.join(robots)}"
         first = min(int(heard.logs[0]) for heard in heards)
         yield Hit(
             frames=(name,),
@@ -78,9 +81,26 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 "alike": alike,
                 "hint": hint,
             },
+            severity=None
+            if any(last_part(heard.type) in _PLACED for heard in heards)
+            else Severity.WARNING,
             fixes=_renames(model, name, alike, [heard.type for heard in heards]),
             alone=True,
         )
+
+
+_PLACED = frozenset({"LaserScan", "MultiEchoLaserScan", "PointCloud", "PointCloud2", "Range"})
+"""Types of messages that costmaps, maps and localisers have to place."""
+
+
+def _sharing(heards: Iterable[Heard]) -> list[str]:
+    """Return the namespaces of robots that send the same topic in one frame; empty for one."""
+    robots: dict[str, set[str]] = defaultdict(set)
+    for heard in heards:
+        robot, _, topic = heard.topic.removeprefix("/").partition("/")
+        robots[topic].add(robot)
+    shared = [found for topic, found in robots.items() if topic and len(found) > 1]
+    return sorted(max(shared, key=len, default=()))
 
 
 def _is_scoped(model: Model, name: str) -> bool:
@@ -96,9 +116,16 @@ def _slashed(heard: Heard, model: Model) -> Iterable[str]:
 
 def alike_frames(model: Model, name: str) -> list[str]:
     """Return known frames that were probably meant by an unknown name."""
-    kinds = [heard.type for heard in model.heard if heard.frame == name]
-    near = near_names(last_part(name), sorted(model.frames), 3)
-    return list(dict.fromkeys((*(f for kind in kinds for f in _fitting(model, kind)), *near)))
+    kinds = [heard.type for heard in model.heard if heard.frame.removeprefix("/") == name]
+    fitting = (frame for kind in kinds for frame in _fitting(model, kind))
+    return list(dict.fromkeys((*fitting, *_near(model, name))))
+
+
+def _near(model: Model, name: str) -> list[str]:
+    """Return known names that share a distinctive word with an unknown one, or a misspelling."""
+    words = {word for word in distinctive_words(name) if not word.isdigit()}
+    found = near_names(last_part(name), sorted(model.frames), 3)
+    return [one for one in found if words & distinctive_words(one) or distance(name, one, 1) <= 1]
 
 
 def _fitting(model: Model, kind: str) -> list[str]:
@@ -129,7 +156,7 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
         # Evidence for the frame itself comes before similar names.
         fixes = [join.fix, *fixes] if join.why else [*fixes, join.fix]
     if not fixes:
-        source = "a localiser" if last_part(name) == "map" else "a driver, robot_state_publisher"
+        source = "a localiser" if is_world(name) else "a driver, robot_state_publisher"
         fixes = [
             Fix(
                 "set frame_id of the publisher to the name in tf, or start what should publish "
