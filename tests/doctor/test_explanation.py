@@ -57,6 +57,48 @@ def test_a_higher_rate_is_advised_only_where_the_link_comes_too_seldom(hz, advis
     assert ("rate" in [remedy.kind for remedy in found.remedies]) is advised
 
 
+@pytest.mark.parametrize(("hours", "cure"), [(0.004, "synchronise"), (168.0, "played beside")])
+def test_a_path_across_two_clocks_is_no_matter_of_the_cache(hours, cure):
+    made = robot(log_from=START + hours * 3600.0)
+    made.hears("/points", "laser", 5.0, "sensor_msgs/PointCloud2")
+    offset = seconds(hours * 3600.0)
+    made.moving("map", "odom", hz=20, pose=stands)
+    rows = made.records["map", "odom", False]
+    made.records["map", "odom", False] = [(at + offset, pose, number) for at, pose, number in rows]
+
+    found = asked(made, "map", "base_link", 4.0)
+
+    assert (found.cause, found.check) == (Cause.CLOCK_OFFSET, "clock-offset")
+    assert found.why[0].startswith("odom in map is ")
+    assert [cure in remedy.text for remedy in found.remedies] == [True]
+
+
+def test_a_frame_with_a_slash_is_used_by_its_messages():
+    made = robot()
+    made.hears("/camera/info", "/camera_frame", kind="sensor_msgs/CameraInfo")
+
+    found = asked(made, "base_link", "camera_frame", 4.0)
+
+    assert "/camera/info says /camera_frame, 80 times" in found.why
+    assert found.remedies[0].command.endswith("--child-frame-id camera_frame")
+    assert found.remedies[1].text.startswith('and set frame_id to "camera_frame"')
+
+
+def test_a_mount_that_odometry_displaced_is_mended_at_the_end_of_the_odometry():
+    made = robot(odometry=False, laser=False)
+    made.static("r1/base_link", "base_link")
+    made.static("base_link", "laser")
+    made.moving("odom", "base_link", begin=1.0)
+    made.odometry = Robot()
+    made.odometry.moving("odom", "r1/base_link", topic="/odom")
+
+    found = asked(made, "odom", "r1/base_link", 4.0)
+
+    assert found.remedies[0].text.startswith("let base_link in odom end at r1/base_link")
+    (doctor,) = [one for one in made.judged().findings if one.id == "static-and-dynamic"]
+    assert doctor.fixes[0].text == found.remedies[0].text
+
+
 def test_waiting_so_long_answers():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=5, latency=0.25)

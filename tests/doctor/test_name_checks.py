@@ -83,6 +83,16 @@ def test_an_unknown_frame_of_two_robots_is_not_in_their_namespaced_transforms_ei
     assert finding.evidence[0].endswith("; 2 robots use this name: r1, r2")
 
 
+def test_unknown_frames_with_one_cure_are_one_finding():
+    made = robot()
+    for name in ("utm", "wgs84"):
+        made.hears(f"/{name}", name, kind="sensor_msgs/NavSatFix")
+    assert ids(made) == ["unknown-frame"]
+    finding = found(made, "unknown-frame")
+    assert finding.message == "no transform names utm, wgs84"
+    assert [line.split(" (")[0] for line in finding.evidence] == ["utm: /utm", "wgs84: /wgs84"]
+
+
 def test_slashes_in_transforms_are_a_note_and_two_of_them_an_error():
     made = robot()
     made.slashed["odom", "base_link", False] = 7

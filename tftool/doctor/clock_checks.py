@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
@@ -398,11 +398,16 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 else "each lookup at these stamps asks for what is not there"
                 + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
             },
-            fixes=_SYNCHRONISE if abs(ahead) < _PLAYED else (_PLAY_AGAIN,),
+            fixes=cures_of_offset(ahead),
             alone=True,
         )
     if not alike:
         yield from _groups_apart(model, limits)
+
+
+def cures_of_offset(ahead: Duration) -> tuple[Fix, ...]:
+    """Return the remedies for two clocks, or for old data, by how far they differ."""
+    return _SYNCHRONISE if abs(ahead) < _PLAYED else (_PLAY_AGAIN,)
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:

@@ -16,16 +16,18 @@ import numpy as np
 from tftool.base.errors import ExtrapolationException, TransformException
 from tftool.base.stamps import CACHE_TIME, LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 from tftool.buffer.buffer import Buffer
+from tftool.doctor.clock_checks import cures_of_offset
 from tftool.doctor.coverage_checks import Waits, edge_stopped, least_rate, rounded_up, waits_of
 from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Edge
 from tftool.doctor.missing_joins import proposed_frame, proposed_join
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.name_checks import alike_frames
+from tftool.doctor.ros_words import in_words
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import NEVER, Heard, Track
 from tftool.doctor.trace import LinkVerdict, LookupTrace, Question, TracedLink
-from tftool.doctor.wording import dated, moment, span
+from tftool.doctor.wording import dated, moment, several, span
 from tftool.recordings.contract import Stamps
 
 if TYPE_CHECKING:
@@ -134,9 +136,14 @@ def _described(model: Model, name: str) -> str | None:
 
 def _unknown(trace: LookupTrace, name: str) -> Reason:
     model = trace.model
-    says = {heard.topic: len(heard.stamps) for heard in model.heard if heard.frame == name}
+    says = [heard for heard in model.heard if heard.frame.removeprefix("/") == name]
+    slashed = [heard for heard in says if heard.frame != name]
     why = [f"no transform names {name}"]
-    why += [f"{topic} says it, {count:,} times" for topic, count in says.items()]
+    why += [
+        f"{heard.topic} says {heard.frame if heard in slashed else 'it'}, {len(heard.stamps):,} "
+        "times"
+        for heard in says
+    ]
     described = _described(model, name)
     if described is not None:
         return Reason(Cause.UNKNOWN_FRAME, (*why, described))
@@ -146,11 +153,13 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
         why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
         mistyped = "" if says else f"ask for {alike[0]}, or "
         remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
-    kinds = [heard.type for heard in model.heard if heard.frame == name]
-    join = proposed_frame(model, name, kinds)
+    join = proposed_frame(model, name, [heard.type for heard in says])
     if join is not None:
         remedies.append(Remedy("join", join.fix.text, join.fix.command))
         why += [join.why] if join.why else []
+    if slashed:
+        text = f'and set frame_id to "{name}": no frame of tf2 begins with a slash'
+        remedies.append(Remedy("name", text))
     return Reason(
         Cause.UNKNOWN_FRAME, tuple(why), tuple(remedies), ("a timeout: nothing publishes it",)
     )
@@ -212,6 +221,8 @@ def refusing_link(known: TraceResult) -> Reason:
         )
     if _is_simulated(trace.moment) != _is_simulated(int(track.sorted_stamps[-1])):
         return _two_clocks(link, track, trace)
+    if (apart := _on_another_clock(trace.model, known.way)) is not None:
+        return apart
     other = [one for one in known.way if one in trace.model.unshifted]
     if other and any(not one.static and one not in other for one in known.way):
         (told, *_) = (one.name for one in other)
@@ -261,6 +272,27 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
             Remedy(
                 "clock", trace.model.words["sim_time_of"].format(setting=setting, edge=link.name)
             ),
+        ),
+        ("a timeout, a larger cache: the two clocks never meet",),
+    )
+
+
+def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
+    """Return why a path across two clocks fails, as `clock-offset` finds them; else None."""
+    moving = [track for track in way if not track.static]
+    off = [track for track in moving if track in model.unshifted]
+    if not off or len(off) == len(moving):
+        return None
+    ahead = -off[0].median_latency
+    is_or_are = "is" if len(off) == 1 else "are"
+    return Reason(
+        Cause.CLOCK_OFFSET,
+        (
+            f"{several([track.name for track in off])} {is_or_are} {span(abs(ahead))} off the "
+            "other clocks: no lookup across the two clocks can succeed",
+        ),
+        tuple(
+            Remedy("clock", in_words(fix.text, model.words)) for fix in cures_of_offset(ahead)[:1]
         ),
         ("a timeout, a larger cache: the two clocks never meet",),
     )

@@ -1,7 +1,7 @@
 """Proposals for missing transforms, from the data or the robot description."""
 
 import shlex
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from tftool.doctor.findings import Edge, Fix
@@ -48,12 +48,12 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
         main: The larger tree.
         lesser: The smaller tree.
     """
+    if (replaced := _replaced(model, main, lesser)) is not None:
+        return replaced
     for tree, other in ((lesser, main), (main, lesser)):
         found = _described(model, tree.root, other.frames) or _in_odometry(model, tree, other)
         if found is not None:
             return found
-    if (replaced := _replaced(model, main, lesser)) is not None:
-        return replaced
     if _are_two_robots(main, lesser):
         text = (
             f"two robots: give both a frame in common, as a map that the localiser of each places "
@@ -129,10 +129,29 @@ def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
     for track in model.tracks:
         ends = {model.tree_of[name].root for name in track.edge}
         if ends == {main.root, lesser.root}:
-            other = model.parents[track.child].parent
-            why = f"{track.name} joined them until {track.child} got the parent {other}"
-            return Join(track.edge, why, Fix(f"{why}: keep one of the two parents"), guess=False)
+            other = model.parents[track.child]
+            why = f"{track.name} joined them until {track.child} got the parent {other.parent}"
+            fix = Fix(f"{why}: keep one of the two parents")
+            if track.static and not other.static:
+                fix = ends_at_the_root(model, [other], [track]) or fix
+            return Join(track.edge, why, fix, guess=False)
     return None
+
+
+def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Track]) -> Fix | None:
+    """Propose the mounts' root as a child of the moving frame, if that has two parents."""
+    if {track.parent for track in moving} & {track.parent for track in statics}:
+        return None
+    # The newest parent of the frame may be either; the root of the mount is above that.
+    parent = statics[-1].parent
+    above = [track.parent for track in model.above(parent)]
+    root = above[-1] if above else parent
+    if {track.parent for track in moving} & {parent, *above}:
+        return None
+    return Fix(
+        f"let {moving[0].name} end at {root}, the root of the mounts, instead of "
+        f"{moving[0].child} (base_frame, robot_base_frame), or leave {parent} out of the mounts"
+    )
 
 
 def _localised(tree: Tree, other: Tree) -> Join | None:

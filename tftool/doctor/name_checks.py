@@ -30,8 +30,8 @@ MOST_COMPARED = 300_000
     rule="the frame of a message with a position is in no transform of the whole recording. A "
     "warning if none of the messages is a scan, a point cloud or a range, which costmaps and "
     "maps have to place",
-    headline="no transform names {frame}",
-    detail="{says}{hint}",
+    headline="no transform names {named}",
+    detail="{frame}: {says}{hint}",
     consequence="none of these messages can be placed anywhere",
     causes=(
         "a simulator's scoped name (robot/base_link/gpu_lidar)",
@@ -66,9 +66,11 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             hint = f"; near: {', '.join(near)}"
         if _is_scoped(model, name):
             hint += "; this is a simulator's scoped name"
-        if robots := _sharing(heards):
+        robots = [] if is_world(name) else _sharing(heards)
+        if robots:
             hint += f"; {len(robots)} robots use this name: {', '.join(robots)}"
         first = min(int(heard.logs[0]) for heard in heards)
+        fixes = _renames(model, name, alike, [heard.type for heard in heards])
         yield Hit(
             frames=(name,),
             topics=tuple(sorted(heard.topic for heard in heards)),
@@ -76,6 +78,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             count=count,
             facts={
                 "frame": name,
+                "named": name,
                 "says": [f"{h.topic} ({h.type}, {len(h.stamps)} messages)" for h in heards],
                 "near": near,
                 "alike": alike,
@@ -84,8 +87,8 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             severity=None
             if any(last_part(heard.type) in _PLACED for heard in heards)
             else Severity.WARNING,
-            fixes=_renames(model, name, alike, [heard.type for heard in heards]),
-            alone=True,
+            fixes=fixes,
+            alone=fixes[0].text if len(fixes) == 1 and not fixes[0].command else True,
         )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import BASES, quoted
+from tftool.doctor.missing_joins import BASES, ends_at_the_root, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import JOINT_STATES, Places, Track, family, last_part, rate
 from tftool.doctor.wording import span
@@ -493,6 +493,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
         order = np.argsort(logs, kind="stable")
         turns = np.flatnonzero(np.diff(kinds[order].astype(np.int8)))
         bounds = np.concatenate((logs[order][:1], logs[order][turns + 1], logs[order][-1:]))
+        root = ends_at_the_root(model, moving[child], statics)
         yield Hit(
             edges=tuple(dict.fromkeys(track.edge for track in tracks)),
             frames=(child,),
@@ -506,28 +507,9 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "turns": len(turns),
                 "history": int(np.diff(bounds).max()) if len(bounds) > 1 else 0,
             },
-            fixes=_ends_at_the_root(model, moving[child], statics),
+            fixes=() if root is None else (root,),
             alone=True,
         )
-
-
-def _ends_at_the_root(
-    model: Model, moving: Sequence[Track], statics: Sequence[Track]
-) -> tuple[Fix, ...]:
-    """Return the remedy to end the moving transform at the root of the mounts, if that applies."""
-    if {track.parent for track in moving} & {track.parent for track in statics}:
-        return ()
-    # Either parent may be the latest; use the parent in the mount's static transform.
-    parent = statics[-1].parent
-    above = [track.parent for track in model.above(parent)]
-    root = above[-1] if above else parent
-    if {track.parent for track in moving} & {parent, *above}:
-        return ()
-    text = (
-        f"let {moving[0].name} end at {root}, the root of the mounts, instead of "
-        f"{moving[0].child} (base_frame, robot_base_frame), or leave {parent} out of the mounts"
-    )
-    return (Fix(text),)
 
 
 @check(
