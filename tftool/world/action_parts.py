@@ -122,7 +122,7 @@ class ActionParts:
         is_new = goal_id not in self._goals and goal_id not in self._undecided
         accepted = is_new and self._has_room()
         if accepted:
-            # Deciding takes a while, in which the same goal may come again.
+            # Deciding takes a while, during which a client may send the same goal again.
             self._undecided.add(goal_id)
             try:
                 goal = self._world.send_goal(self._name, asked.goal, goal_id=goal_id)

@@ -65,7 +65,7 @@ class Clock(ABC):
         self.when_killed = Listeners()
         self.stopper = None
         self._waiters: list[tuple[Stamp, int, int, int, asyncio.Future[None]]] = []
-        # Counts the waiters: among equals, who asked first is woken first.
+        # Number of waiters so far: of equal waiters, the first one is woken first.
         self._asked = 0
 
     @abstractmethod
@@ -198,14 +198,14 @@ class SimClock(Clock):
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
 
-        # A thread rings, since timers of this loop count simulated seconds.
+        # A thread wakes the loop, since the loop's own timers count simulated seconds.
         def ring() -> None:
             with contextlib.suppress(RuntimeError):  # the loop has been closed
                 loop.call_soon_threadsafe(_set, future)
 
         alarm = threading.Timer(patience, ring)
         alarm.daemon = True
-        # Something from outside is on its way: simulated time is not at its end.
+        # An event from outside will arrive, so simulated time must not end before.
         self.alarms += 1
 
         def forget(_: "asyncio.Future[None]") -> None:
@@ -248,11 +248,11 @@ class SimClock(Clock):
             loop_timer: Seconds until asyncio's own next timer; None without one.
         """
         due = self._next_due()
-        # Rounded up: of a timer that is a nanosecond early asyncio would ask again, for ever.
+        # Rounded up: if woken a nanosecond early, asyncio would ask again, forever.
         timer = None if loop_timer is None else self._now + math.ceil(loop_timer * NANOSECONDS)
         if due is None and timer is None:
             return False
-        # At a tie our waiters go first: data that arrives in time beats its timeout.
+        # At a tie our waiters are first: data that arrives in time beats its timeout.
         if timer is not None and (due is None or timer < due):
             self._now = timer
             return True
@@ -296,7 +296,7 @@ class WallClock(Clock):
             ValueError: If `rate` is not a positive number between a billionth and a
                 billion, the head start negative, or the epoch not after 0.
         """
-        # Beyond, a moment would not be a finite number of real seconds away.
+        # Beyond these rates, real durations would not be finite numbers of seconds.
         if not 1e-9 <= rate <= 1e9:
             raise ValueError(f"a rate must be a positive number from 1e-9 to 1e9, not {rate!r}")
         if head_start < 0:
@@ -306,7 +306,7 @@ class WallClock(Clock):
         super().__init__(time.time_ns() - head_start if epoch is None else epoch, rate)
         self._started = time.monotonic_ns() - round(head_start / rate)
         self._alarm: asyncio.TimerHandle | None = None
-        # Up to here time stands still while anything runs; from here on it is real.
+        # Until this time, time stands still while any task runs; then it is real.
         self._caught_up = self.epoch + head_start
         self._behind = head_start
         self._simulated: Stamp | None = self.epoch if head_start else None
@@ -336,7 +336,7 @@ class WallClock(Clock):
         """Set the time after which a node that blocks the event loop is ended."""
         if self.stopper is not None:
             wait = None if until is None else (until - self.now()) / (NANOSECONDS * self.rate)
-            # A thread waits for no more than some hundred years.
+            # A thread cannot wait longer than some hundred years.
             self.stopper.limit(None if wait is None or wait > 1e9 else max(wait, 0.0))
 
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
@@ -355,7 +355,7 @@ class WallClock(Clock):
         if self._simulated is not None:
             self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
         elif due is not None:
-            # A wait longer than any stamp lasts is interrupted once in between.
+            # A wait longer than the largest stamp is split in two.
             delay = max(0, min(due - self.now(), 2**63)) / (NANOSECONDS * self.rate)
             self._alarm = asyncio.get_running_loop().call_later(delay, self._wake)
 
@@ -381,14 +381,14 @@ class WallClock(Clock):
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
-            # To live through the last stretch took a while itself; what fell due in it is
-            # lived through as well, and takes less.
+            # Simulating the last part of the past took real time; what became due meanwhile is
+            # simulated as well, which takes less time.
             self._caught_up, self._behind = real, behind
         if due is not None and due <= self._caught_up:
             return max(due, moment)
         if due is not None and due <= real:
-            # This world is no faster than time is: better a clock that lags behind the
-            # system's than everything late at once.
+            # This world is no faster than real time: rather a clock that lags behind the
+            # system's than all timers late at once.
             self._started += round(behind / self.rate)
         return None
 
@@ -436,7 +436,7 @@ class FollowedClock(WallClock):
         change = self._told - before
         if is_first:
             self.epoch = self._told
-            # Real time can no longer tell who holds up the loop.
+            # From here on, waiting in real time is no sign that a node blocks the loop.
             self.limit(None)
         if is_first or change < 0:
             self._shift(change)
@@ -555,14 +555,14 @@ def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[
         loop.run_until_complete(task)
     except BaseException as error:
         failure = error
-    # Tasks that the main one left behind: each gets to run its `finally`.
+    # Tasks that are left after the main one are cancelled, so that their `finally` runs.
     left_failure = _cancel_leftovers(clock, loop)
-    # A cancellation is the consequence; the failure of a leftover is the cause.
+    # If a left task failed, a cancellation of the main task is only the consequence.
     if failure is None or isinstance(failure, asyncio.CancelledError):
         failure = left_failure or failure
     if clock.interrupted and (failure is None or isinstance(failure, Exception)):
         raise KeyboardInterrupt from failure
-    # What came out is a cancellation or the like: the signal explains it.
+    # The exception is a consequence of the signal.
     if clock.interrupted:
         raise KeyboardInterrupt from None
     if failure is not None:
@@ -576,7 +576,7 @@ def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseExce
     async def cancel(tasks: "set[asyncio.Task[Any]]") -> BaseException | None:
         for task in tasks:
             task.cancel()
-        # Those that do not heed it in time; they must not hold up the end of the program.
+        # Tasks that do not end in time must not block the end of the program.
         for task in await clock.wait_for_end(tasks):
             abandon(task)
         for task in tasks:
@@ -591,7 +591,7 @@ def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseExce
     try:
         return loop.run_until_complete(ending)
     finally:
-        # The loop itself may refuse to go on: nothing of this is left for when it is closed.
+        # The loop itself may fail: nothing may be pending when it is closed.
         if not ending.done():
             abandon(ending)
             ending.get_coro().close()
@@ -601,7 +601,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
     """Event loop that runs in the time of a simulated clock."""
 
     def __init__(self, clock: "SimClock") -> None:
-        # Before the base class, whose constructor asks for the time already.
+        # Before the base class, whose constructor calls `time`.
         self.clock = clock
         super().__init__(_VirtualSelector(self))
 
@@ -612,7 +612,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
     def is_forsaken(self) -> bool:
         """Return whether no file, thread or real timer can wake this loop any more."""
         selector: Any = getattr(self, "_selector", None)
-        # The one file that is always there is the loop's own wake-up pipe.
+        # One file is always registered: the loop's own wake-up pipe.
         files = 0 if selector is None else len(selector.get_map())
         helpers = getattr(self, "_default_executor", None), self.clock.alarms, self.clock.paced
         return files <= 1 and not any(helpers)
@@ -630,7 +630,7 @@ class _VirtualSelector(selectors.DefaultSelector):
 
     def select(self, timeout: float | None = None) -> Any:
         """Poll for signals and threads now and then; let time jump when no task can run."""
-        # A real poll costs a system call; a run of a million jumps cannot afford one for each.
+        # A real poll is a system call, which is too slow for each of a million time jumps.
         self._calls += 1
         if self._calls % self.POLL_EVERY == 0 or self.has_files():
             events = super().select(0)
@@ -641,7 +641,7 @@ class _VirtualSelector(selectors.DefaultSelector):
         clock = self._loop.clock
         if clock.paced and (events := clock.wait_really(timeout, super().select)):
             return events
-        # Every task sleeps: time jumps to the next timer, which the loop then finds due.
+        # Every task sleeps, so time jumps to the next timer, which is then due.
         if clock.advance(timeout):
             return []
         if self._loop.is_forsaken():
@@ -649,7 +649,7 @@ class _VirtualSelector(selectors.DefaultSelector):
                 "every task waits and nothing is due, so this run would never end: give it "
                 "an end (until), or a timer."
             )
-        # A thread or a file may still wake the loop: simulated time waits for it in real time.
+        # A thread or a file may still wake the loop, so wait for that in real time.
         return super().select(None)
 
     def has_files(self) -> bool:

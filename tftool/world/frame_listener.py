@@ -73,7 +73,7 @@ def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
         return run(clock, work)
     from concurrent.futures import ThreadPoolExecutor
 
-    # A loop cannot run inside another one: in a notebook the caller's waits meanwhile.
+    # Event loops cannot be nested: in a notebook, the caller's loop waits for this thread.
     with ThreadPoolExecutor(1, "tftool.open") as pool:
         return pool.submit(run, clock, work).result()
 
@@ -101,7 +101,7 @@ class HeaderListener:
         world.watch(self._look, "doctor")
 
     def _look(self) -> None:
-        # To subscribe changes the world, which calls this again.
+        # Subscribing changes the world, which calls this function again.
         if self._is_looking or self._world is None:
             return
         self._is_looking = True

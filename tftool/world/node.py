@@ -113,12 +113,12 @@ class Node(Resident):
         slipped = False
         while True:
             await self.clock.sleep_until(due, self.phase, self.rank)
-            # A clock set from outside may have fallen back meanwhile: the grid restarts there.
+            # A clock set from outside may have fallen back: the schedule restarts at its time.
             due = min(due, self.clock.now())
             missed = (self.clock.now() - due) // period
             if missed > CATCH_UP:
                 due += missed * period
-                # A short hitch is nothing a person can do anything about.
+                # A short delay is not reported, because the user cannot avoid it.
                 if not slipped and missed * period >= LATE:
                     slipped = True
                     self.warn(

@@ -162,7 +162,7 @@ def parameter_services(
 def answered(
     package: str, *rows: tuple[str, str, Callable[[Any], Any]]
 ) -> Iterator[tuple[str, Any, Answer]]:
-    """Yield services that fill one field of their response: name below a node, type, handler.
+    """Yield (name below a node, type, handler) of services that fill one field of a response.
 
     Args:
         package: Package of the services' types.

@@ -83,7 +83,7 @@ class Stopper:
         self._asked_at: float | None = None
         self._raised_at: float | None = None
         self._thread: threading.Thread | None = None
-        # Python writes each signal's number into this socket, also while a node holds the loop.
+        # Python writes each signal's number to this socket, even while a node blocks the loop.
         self._inbox, self._outbox = socket.socketpair()
         self._outbox.setblocking(False)
         self._handlers: dict[signal.Signals, Any] = {}
@@ -92,7 +92,7 @@ class Stopper:
         if threading.current_thread() is threading.main_thread():
             self._wakeup_fd = signal.set_wakeup_fd(self._outbox.fileno(), warn_on_full_buffer=False)
             for number in _SIGNALS:
-                # A handler must exist, or the system's default would end the process at once.
+                # Without a handler, the system's default would end the process at once.
                 self._handlers[number] = signal.signal(number, _pass_over)
             self._begin()
 
@@ -112,7 +112,7 @@ class Stopper:
 
     def close(self) -> None:
         """Stop the thread, and restore the former signal handlers."""
-        # Set before the poke: the thread looks at it as soon as it wakes up.
+        # Set before the thread is woken, which then reads it.
         self._over = True
         for number, before in self._handlers.items():
             if before is not None:
@@ -132,10 +132,10 @@ class Stopper:
 
     def _poke(self) -> None:
         with contextlib.suppress(BlockingIOError):
-            # 0 is no signal: it only wakes the thread, which then looks at the deadlines.
+            # 0 is not a signal: it only wakes the thread, which then checks the deadlines.
             self._outbox.send(b"\0")
 
-    # On the thread of its own
+    # In the stopper's thread
 
     def _watch(self) -> None:
         while not self._over:
@@ -148,7 +148,7 @@ class Stopper:
                 if number in _SIGNALS:
                     self._caught()
                 elif number:
-                    # Another signal: its handler runs once the loop's thread wakes up.
+                    # Another signal: its handler runs when the loop's thread wakes up.
                     self._ask(_nothing)
             if not self._over:
                 self._look()
@@ -168,13 +168,13 @@ class Stopper:
         return min(waits) + 0.01 if waits else None
 
     def _caught(self) -> None:
-        # The second signal: no node gets another chance.
+        # The second signal: the process ends at once.
         if self.interrupted:
             self._kill(INTERRUPTED)
         self.interrupted = True
         self._interrupted_at = self._now()
         self._on_interrupt()
-        # On the loop's thread: tasks may not be cancelled from another.
+        # In the loop's thread, because tasks cannot be cancelled in another one.
         self._ask(self._task.cancel)
 
     def _look(self) -> None:
@@ -189,18 +189,18 @@ class Stopper:
                     _say(f"{name} has not returned after the end of the run, which ends it")
                 self._kill(FAILED)
             return
-        # A question is put to the loop; one that answers is alive, however long its nodes take.
+        # A call is sent to the loop: if the loop makes it, no node blocks the loop.
         due = self._deadline is not None and now >= self._deadline
         if self._asked_at is None:
             if due or self._standstill is not None:
                 self._asked_at = now
                 self._ask(self._answered)
             return
-        # No answer: a node holds the loop. Overdue is raised in whatever it runs.
+        # If not, a node blocks the loop: `Overdue` is raised in the code that it runs.
         patience = PATIENCE if due else self._standstill
         if patience is not None and now >= self._asked_at + patience:
             self._raised_at = now
-            import ctypes  # takes as long as all of this module
+            import ctypes  # as slow to import as the rest of this module
 
             ctypes.pythonapi.PyThreadState_SetAsyncExc(
                 ctypes.c_ulong(self._loop_thread), ctypes.py_object(Overdue)
@@ -222,7 +222,7 @@ class Stopper:
             return [f"{_title(current)}{_in_brackets(_line(_stack(frame)))}"]
         try:
             tasks = [task for task in asyncio.all_tasks(self._loop) if _is_node(task)]
-        except RuntimeError:  # they come and go faster than they can be listed
+        except RuntimeError:  # tasks start and end while they are listed
             tasks = []
         names = sorted(f"{_title(task)}{_in_brackets(line_of_task(task))}" for task in tasks)
         return names[:_MOST_NAMED] or ["the run"]
@@ -235,7 +235,7 @@ class Stopper:
 
             with contextlib.suppress(termios.error):
                 termios.tcsetattr(0, termios.TCSANOW, self._terminal)
-        # Not `sys.exit`: `finally` blocks of a node that hangs would hang as well.
+        # Not `sys.exit`, because the `finally` blocks of a blocked node could block, too.
         os._exit(status)
 
 
@@ -260,7 +260,7 @@ def node_task_name(name: str) -> str:
 def abandon(task: "asyncio.Task[Any]") -> None:
     """Stop waiting for a task that ignores its cancellation."""
     _abandoned.add(task)
-    # asyncio's own way not to complain about it when the loop is closed.
+    # This prevents asyncio's error message when the loop is closed.
     task._log_destroy_pending = False  # type: ignore[attr-defined]
 
 
@@ -317,7 +317,7 @@ def _in_brackets(line: str) -> str:
 
 
 def _say(sentence: str) -> None:
-    # Not by sys.stderr: the thread that is held up may be writing there.
+    # Not through sys.stderr, because the blocked thread may be writing to it.
     text = "".join(one if one.isprintable() else "?" for one in sentence)
     with contextlib.suppress(OSError):
         os.write(2, f"tftool: {text}\n".encode(errors="backslashreplace"))
@@ -331,7 +331,7 @@ def _terminal_settings() -> Any:
         return termios.tcgetattr(0)
     except (ImportError, OSError, ValueError):
         return None
-    except Exception:  # termios.error, which is no OSError
+    except Exception:  # termios.error, which is not an OSError
         return None
 
 

@@ -54,7 +54,7 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
         ValueError: If `until` has passed: it is a stamp, not a duration.
     """
     clock = world.clock
-    # Real time may pass a moment between its choice and this call; that is no mistake.
+    # In real time, `stamp` may be over before this call, which is allowed.
     earliest = clock.now() if isinstance(clock, SimClock) else clock.epoch
     if until is not None and until < earliest:
         raise ValueError(
@@ -69,7 +69,7 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
     if end is not None:
         end.add_done_callback(lambda _: supervisor.stop())
     try:
-        # A copy: a node that starts may add others, which start by themselves.
+        # A copy of the list, because a starting node may add others, which start themselves.
         for node in list(world.nodes):
             supervisor.start(node)
         await supervisor.over
@@ -77,12 +77,12 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
         if end is not None:
             end.cancel()
         world.failure = supervisor.failure
-        # A node that starts something on its way out, or fails there, is supervised as well.
+        # Tasks and errors of a node that is ending are supervised, too.
         await supervisor.cancel()
         world._supervisor = None
         world.clock.limit(None)
         world.failure = supervisor.failure
-        # Asked last: a node may also fail on its way out, of a run that was cancelled, too.
+        # Checked last, because a node may also fail while it ends, even after a cancelled run.
         if supervisor.failure is not None:
             raise supervisor.failure
     if supervisor.error is not None:
@@ -116,7 +116,7 @@ async def beside(
     both = {helping, working}
     try:
         await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
-        # The helper came to its end first; its failure, if any, is raised here.
+        # The helper ended first; its error, if any, is raised here.
         if not working.done():
             helping.result()
             await asyncio.wait({working})
@@ -129,7 +129,7 @@ async def beside(
             task.cancel()
         await asyncio.gather(*both, return_exceptions=True)
         for task in (helping, working):
-            # A failure on the way out counts even where the work itself was cancelled.
+            # An error while the work ends counts, even if the work was cancelled.
             if task.done() and not task.cancelled() and (error := task.exception()) is not None:
                 raise error
     return working.result()
@@ -209,7 +209,7 @@ class Supervisor:
             for task in await self._clock.wait_for_end(tasks):
                 self._has_not_returned(self._tasks[task], Overdue(), line_of_task(task))
                 abandon(task)
-            # Those that were just started are looked at in the next round.
+            # Tasks that were started meanwhile are checked in the next round.
             for task in tasks:
                 self._tasks.pop(task, None)
         for resident in self._nodes:
@@ -218,7 +218,7 @@ class Supervisor:
     def _start(self, resident: Resident, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T]":
         task = asyncio.get_running_loop().create_task(work, name=node_task_name(resident.name))
         self._tasks[task] = resident
-        # Not by a `finally` in it: one that leaves as it comes never gets so far as to begin.
+        # Not by a `finally` in the task, which does not run if the task never starts.
         task.add_done_callback(self._ended)
         return task
 
@@ -237,12 +237,12 @@ class Supervisor:
         except Overdue as overdue:
             self._has_not_returned(resident, overdue, line_of(overdue, users_only=True))
         except (Exception, SystemExit, KeyboardInterrupt) as error:
-            # The stopper takes signals: here, KeyboardInterrupt is raised by the node's own code.
+            # The stopper handles signals, so this KeyboardInterrupt is raised by the node's code.
             self.fail(resident, error)
         return None
 
     def _ended(self, task: "asyncio.Task[Any]") -> None:
-        # What it subscribed to goes on: many nodes only listen.
+        # The node's subscriptions stay, because many nodes only have subscriptions.
         self._tasks.pop(task, None)
         if not self._tasks and not self._has_end:
             self.stop()

@@ -69,11 +69,11 @@ async def wait_for_transform_full(
                 target_frame, target_time, source_frame, source_time, fixed_frame
             )
         except (InvalidArgumentException, LookupException):
-            # A frame to itself is given whatever its name, here names are checked as well:
-            # to ask again would never come to an end.
+            # A lookup of a frame in itself succeeds for any name, but here names are checked, so
+            # waiting again would never end.
             raise
         except TransformException:
-            # The first half was forgotten while the second was waited for.
+            # The first transform was pruned while the second one was waited for.
             continue
 
 
@@ -90,7 +90,7 @@ async def _wait(
     answer: asyncio.Future[TransformStamped] = asyncio.get_running_loop().create_future()
 
     def answered(handle: int, available: bool) -> None:
-        # Looked up inside the set that made it possible: a moment later it may be gone.
+        # Looked up during the insertion that made it available; later it may be pruned.
         if answer.done():
             return
         try:

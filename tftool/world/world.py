@@ -61,7 +61,7 @@ class TopicPublisher(Generic[T]):
         self.name = name.removeprefix("/")
         self.kind = kind
         self._world = world
-        # Those of tf have a memory of their own.
+        # Topics of transforms store their messages separately.
         latched = quality.is_latched and kind is not TransformMessage
         self._endpoint, self._withdraw = world.enter(
             PUBLISHER, node, self.name, kind, quality, keeps=latched
@@ -134,7 +134,7 @@ class World:
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
         self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
-        # What the buffer refused, by the code it begins with.
+        # Errors of the buffer that repeat, by the code at the beginning of the text.
         self._refused: dict[str, Repeats] = {}
         self._failed_listeners = Repeats()
         self._statics: dict[str, dict[str, TransformStamped]] = {}
@@ -217,13 +217,13 @@ class World:
                 return callback(value)
 
             def taken(value: Any) -> object:
-                # What other processes send comes by `deliver`.
+                # Messages of other processes are passed to `deliver`.
                 sender = topic.sender
                 if sender is not None and sender.is_remote:
                     return None
                 return callback(value)
 
-        # Entered first: the link shows a subscriber without a name for those that are not.
+        # Before the subscription: otherwise the link shows a subscriber without a name.
         _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality, deliver=deliver)
         stop = topic.subscribe(taken, node)
         if deliver is not None:
@@ -633,22 +633,22 @@ class World:
                 self.fail(node, failure)
                 return
         if isinstance(failure, BrokenPipeError) and self._supervisor is not None:
-            # The reader of a listener's output has gone: the run has no purpose any more.
+            # The reader of a listener's output has ended, so the run is ended.
             self._supervisor.end_by(failure)
         elif not self._is_reporting:
-            # A listener of the log that fails at every line fails at this one, too.
+            # A listener of the log that fails at every message would fail at this one, too.
             self._is_reporting = True
             try:
                 text = listener_text("", failure)
-                # A listener of messages fails at each one that a peer sends.
+                # A listener may fail at every message, so its error is not always logged.
                 if text := self._failed_listeners.said(f"{owner}: {text}", text):
                     self.log.error(owner or "world", text)
             finally:
                 self._is_reporting = False
 
     def _log_buffer(self, level: str, text: str) -> None:
-        # A node whose samples are refused usually sends them at a high rate, and one that sends
-        # garbage names a new frame each time.
+        # A node whose transforms are rejected usually sends them at a high rate, and one with
+        # corrupt data sends a new frame name each time.
         code = text.partition(" ")[0]
         kind = text.partition(" because ")[0].partition(" at time ")[0]
         kinds = self._refused.setdefault(code, Repeats())

@@ -22,7 +22,7 @@ Lookup = Callable[[str, str], Transform | None]
 
 
 def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
-    """Return the default fixed frame of a picture.
+    """Return the fixed frame that a picture has by default.
 
     It is the root of the tree that contains both frames of the pair, else of the largest tree; ""
     without frames.

@@ -81,7 +81,7 @@ class LinkContext:
     def awaits_statics(self) -> bool:
         """Whether a known publisher of static transforms has sent none yet."""
         if b"" in self.heard_statics:
-            return False  # one that does not say who it is
+            return False  # a sender that does not identify itself
         publishers = self.graph.entities(PUBLISHER, name="tf_static")
         return any(
             one.gid not in self.heard_statics and one.quality.is_latched for one in publishers
@@ -117,7 +117,7 @@ class LinkContext:
         return self.endpoints[entity]
 
     def _sender(self, gid: bytes, topic: str) -> GraphEntity | None:
-        # By topic, too: a message without a gid is taken for the only publisher's there.
+        # By topic, too: a message without a gid is assigned to the topic's only publisher.
         key = gid, topic
         if key not in self._senders:
             if len(self._senders) > 1000:

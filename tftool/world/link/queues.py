@@ -40,7 +40,7 @@ class Inbox:
         with self._lock:
             self._loop = loop
             self._scheduled = bool(self._waiting)
-        # Messages that came before the loop did.
+        # Messages that arrived before the loop started.
         if self._scheduled:
             loop.call_soon(self._drain)
 
@@ -71,19 +71,19 @@ class Inbox:
         with self._lock:
             if self._closed:
                 return
-            # Events (arrivals, departures) pass even a full inbox: the graph must not miss one.
+            # Events (arrivals, departures) enter even a full inbox: the graph needs them all.
             full = len(self._waiting) >= MOST_WAITING or self._bytes + (size or 0) > MOST_BYTES
             if size is not None and full:
                 self.lost += 1
                 return
             self._waiting.append((callback, argument, size or 0))
             self._bytes += size or 0
-            # One wake-up serves all that wait: a flood costs the loop no flood of wake-ups.
+            # One wake-up of the loop serves all waiting calls.
             if self._scheduled or self._loop is None:
                 return
             self._scheduled = True
             loop = self._loop
-        # A loop that has just been closed wants to hear no more.
+        # The loop may just have been closed.
         with contextlib.suppress(RuntimeError):
             loop.call_soon_threadsafe(self._drain)
 
@@ -106,7 +106,7 @@ class Inbox:
             except Exception as error:
                 self._report(callback, error)
         if self._loop is not None:
-            # More may wait: behind whatever else the loop has to do now.
+            # More calls may wait: the loop first runs other callbacks.
             self._loop.call_soon(self._drain)
 
     def _report(self, callback: Callable[..., object], error: Exception) -> None:
@@ -170,11 +170,11 @@ class Outbox:
         if self._thread is None:
             self._thread = threading.Thread(target=self._run, name="outbox", daemon=True)
             self._thread.start()
-        # The sender gave no sign of life for two seconds: waiting once more would stop the world.
+        # The sender made no progress for two seconds: waiting again would stop the world.
         if self._is_full and self._is_hopeless:
             self.dropped += 1
             return
-        # Counted before it is queued: the sender may be done with it in the next instant.
+        # Counted before it is queued, because the sender may process it at once.
         self._put += 1
         self._put_bytes += size
         self._queue.put((send, size))
@@ -219,10 +219,10 @@ class Outbox:
             if waiting is None:
                 return
             send, size = waiting
-            # Who it was for may be gone by now, or the session closed.
+            # The receiver may have left, or the session may be closed.
             with contextlib.suppress(Exception):
                 send()
-            # Named no more, so that what counts as sent is free as well.
+            # Delete the references, so that the memory of sent messages is free.
             del waiting, send
             self._sent_bytes += size
             self._sent += 1

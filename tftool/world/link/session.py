@@ -145,8 +145,8 @@ class Link(LinkContext):
         """
         if self._closed:
             return
-        # While all is being matched this changes nothing, and the look that comes soon finds
-        # what a step that is over has not seen.
+        # During a matching this has no effect; the matching that is requested below finds what
+        # the running one has missed.
         self._match(self._match_nodes, self._carry_topics)
         self._reconcile_soon()
 
@@ -164,7 +164,7 @@ class Link(LinkContext):
         )
 
     def _match(self, *steps: Callable[[], None]) -> None:
-        # Serving another's service changes the world, which calls this in between.
+        # Serving another process's service changes the world, which calls this function again.
         if self._closed or self._settling:
             return
         self._settling = True
@@ -289,7 +289,7 @@ class Link(LinkContext):
     def _warn_of_rival(self, name: str, served: str) -> None:
         for rival in self.graph.entities(SERVER, name=served):
             process = self.graph.process(rival.session)
-            # Of two the second says so.
+            # Of two processes, the one that started later reports it.
             if process is None or process.since < self._since:
                 self.say_once(
                     "rival",
@@ -325,8 +325,8 @@ class Link(LinkContext):
     def _came(self, process: Process) -> None:
         is_only_host = process.role is Role.HOST and len(hosts(self.graph.processes())) == 1
         if is_only_host and self.departures > self._forgotten:
-            # Another world under the same names, perhaps by another clock: samples of the
-            # one before would only be in its way.
+            # Another world with the same names, perhaps with another clock: transforms of the
+            # previous world would be mixed with its own.
             self._forgotten = self.departures
             self.world.buffer.clear()
             self.world.log.warn(NAME, f"{process} hosts now.")

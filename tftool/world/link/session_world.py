@@ -136,7 +136,7 @@ async def lasting(clock: Clock, duration: Duration | None) -> None:
         await asyncio.get_running_loop().create_future()
         return
     pace = pace_of(clock)
-    # A node that holds up the loop would keep this from ever being over.
+    # Without a limit, a node that blocks the event loop would prevent the end.
     pace.limit(pace.now() + duration)
     try:
         await pace.sleep(duration, Phase.WATCH)
@@ -289,6 +289,6 @@ async def _glances(
     while True:
         span = start, session.world.clock.now()
         heard = Frames("session", session.name, span=span, log=log.copy())
-        # In a thread: what arrives meanwhile is dated by this loop, and must not wait.
+        # In a thread, because the loop must continue to stamp the messages that arrive.
         await asyncio.to_thread(glance, heard, pace.now() - began)
         await pace.sleep(_GLANCES, Phase.WATCH)

@@ -62,7 +62,7 @@ class TopicBridge:
             for one in publishers:
                 if one not in self._senders:
                     self._senders[one] = self._sender(one)
-                    # What it kept before there was a link is for those who come late, too.
+                    # Messages stored before the link existed are also for late subscribers.
                     for value in one.kept or ():
                         self._put(self._senders[one], value)
 
@@ -108,7 +108,7 @@ class TopicBridge:
             if read is not None:
                 hand_over(*read)
 
-        # Shown last: what sees it may send at once and is heard.
+        # Shown last, because others may send as soon as they see the subscription.
         stop = self._listen(arrived, is_latched=True)
         hide = link.middleware.subscription(node, name, ros_type, quality)
 
@@ -154,7 +154,7 @@ class TopicBridge:
         sender = self._senders.get(stated)
         if sender is None:
             sender = self._senders[stated] = self._sender(stated)
-        # Encoded only if a subscriber or a cache takes it.
+        # Encoded only if a subscriber or a cache needs the message.
         if sender.is_wanted:
             self._put(sender, value)
 
@@ -270,12 +270,12 @@ class TransformBridge:
                 self._inbound = None
 
     def _takes_paths(self, payload: bytes, authority: str) -> bool:
-        """Insert a large message with long histories at once; return False if it is not one.
+        """Insert a large message's transforms as arrays, one per link; return False for others.
 
         Raises:
             MalformedMessage: If the bytes are not transforms.
         """
-        # A subscriber of the topic gets every single one, so they are made anyway.
+        # A subscriber of the topic gets every transform as an object, so arrays save nothing.
         listened_to = self._topic.near_subscribers > 0
         if self.quality.is_latched or len(payload) < LARGE or listened_to:
             return False
@@ -311,7 +311,7 @@ class TransformBridge:
     def _compare_clocks(self, stamp: Stamp, authority: str) -> None:
         clock, graph = self._link.world.clock, self._link.graph
         if isinstance(clock, FollowedClock) and not clock.is_told and is_clock_shown(graph):
-            return  # what time it is will be told in a moment
+            return  # the first time from /clock will arrive soon
         ahead = stamp - clock.now()
         if -YEAR < ahead < AHEAD:
             return
@@ -387,7 +387,7 @@ class ClockFollower:
             self._stop_listening()
 
     def _look(self) -> None:
-        # To subscribe changes the world, which is told here in turn.
+        # Subscribing changes the world, which calls this function again.
         if self._is_looking:
             return
         self._is_looking = True
@@ -411,7 +411,7 @@ class ClockFollower:
 
     def _fell_back(self, by: Duration) -> None:
         if must_clear(-by):
-            # A recording played in a loop falls back at each round.
+            # The time of a recording played in a loop falls back in each round.
             if text := self._falls.said("", FELL_BACK):
                 self._world.log.warn(NAME, text)
             self._world.buffer.clear()

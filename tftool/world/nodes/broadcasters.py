@@ -56,7 +56,7 @@ class Broadcaster(Node):
         self.subscribe(self.topic, Pose, self._on_pose)
 
     def _on_pose(self, pose: Any) -> None:
-        # A turtle at rest publishes the very same value again and again.
+        # A turtle at rest publishes the same object repeatedly.
         if pose is not self._pose:
             self._pose = pose
             self._transform = transform_from_pose(pose.x, pose.y, pose.theta)
@@ -152,7 +152,7 @@ def carrot_offset(
     stamp: Stamp, radius: float = 10.0, *, whole_seconds: bool = False
 ) -> tuple[float, float]:
     """Return the moving carrot's x and y in its parent's frame at a time, metres."""
-    # Reduced as whole numbers: the seconds of a real clock are too large for an exact sine.
+    # Reduced in nanoseconds, because a real clock's seconds are too large for an exact sine.
     turn = stamp % (2 * NANOSECONDS)
     if whole_seconds:
         turn -= turn % NANOSECONDS
@@ -254,7 +254,7 @@ class Noise(Node):
         Raises:
             UsageError: If a deviation is negative.
         """
-        # Imported here: few scenarios have noise, and all import this module.
+        # Imported here, because few scenarios have noise, but all import this module.
         from random import Random
 
         super().__init__(world, name)

@@ -180,8 +180,8 @@ class Spawning:
             self._node.warn(f"Could not spawn '{self._request.name}', asking again: {answer}")
             self._is_asked, self._answer = False, None
             return
-        # Any answer counts, as in the tutorial: an empty name says that a turtle of
-        # that name is there already, and that one will do.
+        # Any response counts, as in the tutorial: an empty name means that a turtle of
+        # that name exists already, which is used.
         if answer.name:
             self._node.info(f"Successfully spawned {answer.name}")
         else:

@@ -33,7 +33,7 @@ MOTIONS: Final[tuple[Motion, ...]] = get_args(Motion)
 
 def _described(text: str) -> "Robot":
     """Return the robot that the text of a description describes."""
-    # Here, since numpy and expat come with it: every scenario imports this module.
+    # Imported here, with numpy and expat, because every scenario imports this module.
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import parse_description
 
@@ -255,7 +255,7 @@ class JointStatePublisher(Node):
 
     async def run(self) -> None:
         """Publish the joint positions every period until the end of the run."""
-        # A publisher before there is a value, so that others see who will publish.
+        # The publisher exists before the first message, so that others see who will publish.
         self.publisher(self.topics[0], joint_state_type())
         if self.robot is None:
             self.subscribe(self.topics[1], description_type(), self._on_description, LATCHED)

@@ -250,7 +250,7 @@ def _pose_of(truth: Any) -> Transform:
 
 
 def _moved(start: Placement, distance: float, turned: float) -> Placement:
-    """Return a pose moved along an exact arc: errors should come from the wheels, not the step."""
+    """Return a pose moved along an exact arc, so that only the wheels cause errors."""
     middle = start.theta + turned / 2
     chord = distance * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
     return Placement(

@@ -89,8 +89,8 @@ class Player(Node):
         self._is_silent = is_silent or is_restamped
         self._names_topics = names_topics
         self._feed = feed
-        self._anchor = self.start  # where it was
-        self._since = pace.now()  # when it was there
+        self._anchor = self.start  # position at `_since`
+        self._since = pace.now()  # real time at which the position was `_anchor`
         self._place = timeline.place(self.start)
         self._listeners = world.tf.subscribers
         if not self._is_silent:
@@ -181,7 +181,7 @@ class Player(Node):
     def _start_over(self) -> None:
         self.laps += 1
         self.seek(self.start)
-        # The very first messages are sent once more, as in the first round.
+        # Start again with the first messages, as in the first round.
         self._place = self._timeline.place(self.start)
 
     def _send_due(self) -> bool:
@@ -189,7 +189,7 @@ class Player(Node):
         position = self.position
         last = min(self._timeline.place(position, after=True), self._place + AT_ONCE)
         while self._place < last:
-            # Before the transforms of that moment, so that it lies in the past of its listeners.
+            # Before the transforms of that time, so that listeners' clocks are not behind them.
             self._tell(int(self._timeline.moments[self._place]))
             self._send(self._place)
             self._place += 1
@@ -266,7 +266,7 @@ class Player(Node):
 
 
 def _restamped(sample: TransformStamped, later: Duration, static: bool) -> TransformStamped:
-    # Static transforms may have the stamp 0, which says nothing of when.
+    # Static transforms may have the stamp 0, which is not a time.
     if static and not sample.stamp:
         return sample
     return sample._replace(stamp=max(sample.stamp + later, 1))

@@ -69,7 +69,7 @@ class PointDrawer(Node):
         super().__init__(world, name)
         self.target_frame, self.turtle = target_frame, turtle
         self.patience = require_period(patience)
-        # A dict keeps the order in which they came.
+        # A dict, because it keeps the order of arrival.
         self._waiting: dict[asyncio.Task[Any], None] = {}
 
     async def run(self) -> None:

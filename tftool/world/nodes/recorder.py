@@ -72,7 +72,7 @@ class Recorder:
         self._stops: list[Callable[[], object]] = []
         self._channels: dict[tuple[str, str, str], Channel] = {}
         self._failure: Exception | None = None
-        self._inner: set[str] = set()  # what only this process has
+        self._inner: set[str] = set()  # topics that only this process has
         self.topics: set[str] = set()
         self.left_out: dict[str, str] = {}
         if link is None:
@@ -234,7 +234,7 @@ def recorded(world: World, path: Path, *, force: bool = False) -> "Iterator[Roll
         UsageError: If the file exists and `force` is false.
         InputError: If the file cannot be written.
     """
-    # Writers bring numpy along, which a demonstration that is not recorded starts without.
+    # Imported here, because writers import numpy, which a demo without recording avoids.
     from tftool.recordings.decompression import best_compression
     from tftool.recordings.rolling_writer import RollingRecording
 

@@ -79,7 +79,7 @@ class FarTurtles(Node):
         self._known: dict[str, FarTurtle] = {}
         self._listened_to: set[str] = set()
         self._drawing = FarDrawing(self.trail)
-        # Turtles whose strokes their simulator tells.
+        # Names of turtles whose strokes the simulator has sent.
         self._told: frozenset[str] = frozenset()
         self._until_end(world.watch(self._look, name))
         self._look()
@@ -148,7 +148,7 @@ class FarTurtles(Node):
                 return
             if name.endswith(_POSE) and topic.kind is Pose and name not in self._listened_to:
                 turtle = name.removesuffix(_POSE)
-                # Noted first: to subscribe may call this again.
+                # Added first, because subscribing may call this function again.
                 self._listened_to.add(name)
                 self._until_end(topic.subscribe(self._taker(turtle), self.name))
 
@@ -158,7 +158,7 @@ class FarTurtles(Node):
             turtle = self._known.get(name)
             if turtle is None or turtle.heard < now - SILENT:
                 if not self.turtles and not self._told:
-                    # The first, or the first of another simulator, on an empty sheet.
+                    # For the first strokes, or those of another simulator, the drawing is cleared.
                     self.trail.wipe()
                 self._known[name] = FarTurtle(name, pose, now)
                 self.revision += 1

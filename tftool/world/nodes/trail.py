@@ -57,7 +57,7 @@ class Trail:
         self.segments.append(segment)
         self.drawn += 1
         self._unpainted.append(segment)
-        # Waiting strokes are bounded too: beyond it one old stroke is painted per new one.
+        # Unpainted strokes are limited, too: beyond it, one old stroke is painted per new one.
         if len(self._unpainted) > KEPT_SEGMENTS:
             self._pixels.paint(self._unpainted.popleft())
 
@@ -115,12 +115,12 @@ class _Pixels:
             left, right = _between(-along_y, down * along_x, -half, half)
             self._fill(row, x0 + max(first, left), x0 + min(last, right), number)
         for x, y in ((x0, y0), (x1, y1)):
-            # Far outside nothing is painted; asked first, as infinity has no pixel.
+            # Far outside nothing is painted; checked first, because infinity has no pixel.
             if -1.0 < y < WINDOW:
                 self._fill(_nearest(y), _nearest(x), _nearest(x), number)
 
     def _fill(self, row: int, left: float, right: float, number: int) -> None:
-        # Held to the layer on both sides first: an empty range is (inf, -inf).
+        # Limited to the layer first, because an empty range is (inf, -inf).
         first = math.ceil(min(max(left, 0.0), float(WINDOW)))
         last = math.floor(max(min(right, WINDOW - 1.0), -1.0))
         if first > last or not 0 <= row < WINDOW:

@@ -128,7 +128,7 @@ class Turtle:
         self._shown_state: tuple[float, ...] = ()
         self.pose = self._pose()
 
-    # What the simulator hands on, at the start of a tick
+    # Commands and requests from the simulator, at the start of a tick
 
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
         """Set the velocities of a command, which replace all previous ones, with one exception.
@@ -213,7 +213,7 @@ class Turtle:
             if self.pen_on and (place.x != before.x or place.y != before.y):
                 stroke = self._stroke(before, place)
         self.pose = self._pose()
-        # At rest, every further update would change nothing, until something comes in.
+        # At rest, updates change nothing until the next command or request.
         self._settled = not (
             self.forward or self.sideways or self.turn or self._goal or self._wall_met
         )
@@ -242,10 +242,10 @@ class Turtle:
 
     def _meet_wall(self, place: Placement, now: Stamp, say: Say) -> None:
         self.wall_hits += 1
-        # Pushing meets the wall 62 times a second: said at first, then once a second.
+        # A turtle may hit the wall 62 times a second: log the first hit, then one per second.
         if not self._wall_met or now - self._wall_told >= NANOSECONDS:
             self._wall_told = now
-            # turtlesim counts y downward here.
+            # In this text, turtlesim's y axis points down.
             say(
                 "WARN",
                 f"Oh no! I hit the wall! (Clamping from [x={place.x:f}, y={FIELD - place.y:f}])",
@@ -257,7 +257,7 @@ class Turtle:
 
     def _pose(self) -> Any:
         state = (*self.place, self.forward, self.sideways, self.turn)
-        # A turtle at rest publishes the very same value again.
+        # A turtle at rest publishes the same object repeatedly.
         if state != self._shown_state:
             self._shown_state = state
             speed = math.hypot(self.forward, self.sideways)
@@ -313,7 +313,7 @@ class TickQueue:
 
     def deliver(self, tick: Stamp) -> None:
         """Run the work that was queued before this tick."""
-        # Asked of the clock: on the wall clock a late tick takes all that came meanwhile.
+        # The clock's time, not the tick's: a late tick processes all commands until now.
         moment = self._clock.now()
         while self._waiting and self._waiting[0][0] < moment:
             self._waiting.popleft()[1](tick)
@@ -411,14 +411,14 @@ class TurtlePorts:
 
     def _ignore(self, why: str) -> None:
         now = self._world.clock.now()
-        # A broken sender sends many: logged once a second.
+        # Logged once a second, because a broken sender may send many.
         if self._told is None or now - self._told >= NANOSECONDS:
             self._told = now
             self._say("WARN", f"Ignoring a velocity command for [{self._turtle.name}]{why}")
 
     def _on_teleport_absolute(self, request: Any) -> Awaitable[None]:
         x, y, theta = requested_placement(request)
-        # Above the field means the top edge, without a word; the other sides meet the wall.
+        # Above the field means the top edge, without a log message; the other sides hit the wall.
         there = Placement(x, min(y, FIELD), theta)
         return self._queue.ask(lambda _: self._turtle.teleport(lambda _: there))
 

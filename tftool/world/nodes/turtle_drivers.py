@@ -62,7 +62,7 @@ class DrawSquare(Node):
         self.publisher(f"{self.turtle}/cmd_vel", Twist)
         self.subscribe(f"{self.turtle}/pose", Pose, self._on_pose)
         async for _ in self.every(TICK, immediately=True):
-            # The answer to the reset is not waited for, only that it was asked.
+            # Wait until the reset was requested, but not for its response.
             if self._asked_for_reset() and self._pose is not None:
                 self._look(self._pose)
 
@@ -117,7 +117,7 @@ class DrawSquare(Node):
         )
 
     def _set_goal(self, goal: Placement) -> None:
-        # Goals are kept as 32-bit floats, like the poses they are compared with.
+        # Goals are rounded to 32-bit floats, like the poses that they are compared with.
         self.goal = Placement(*map(float32, goal))
         self.info(f"New goal [{self.goal.x:f} {self.goal.y:f}, {self.goal.theta:f}]")
 
@@ -250,7 +250,7 @@ class IdleDrawing(Node):
             self.is_drawing = False
 
     def _send(self, command: Any) -> None:
-        # In one process subscribers get a message before this returns.
+        # In one process, subscribers receive a message before `publish` returns.
         self._is_sending = True
         try:
             self.publish(f"{self.turtle}/cmd_vel", command)
@@ -417,15 +417,15 @@ class Teleop(Node):
         if meaning.action == "cmd_vel":
             linear = meaning.linear * float(self.get_parameter("scale_linear"))
             angular = meaning.angular * float(self.get_parameter("scale_angular"))
-            # Nothing plus nothing: a key that does not turn must not send minus zero.
+            # Adding 0.0 converts -0.0 to 0.0.
             self.publish(f"{self.turtle}/cmd_vel", twist(linear + 0.0, angular + 0.0))
         elif meaning.action == "rotate":
-            # Keys come from a topic as well, and its publisher may never pause.
+            # Keys also arrive on a topic, whose publisher may never pause.
             if self._sending < MOST_SENDING:
                 self._sending += 1
                 self.start_soon(self._rotate(meaning.theta))
         elif meaning.action == "cancel":
-            # Without a goal, or when it has ended by now, there is nothing to cancel.
+            # Without a running goal, there is nothing to cancel.
             if self._goal is not None:
                 self._goal.cancel()
         else:

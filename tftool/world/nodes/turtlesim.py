@@ -89,7 +89,7 @@ class Turtlesim(Node):
         self._counter = 0
         self._queue = TickQueue(world.clock)
 
-    # What others may see
+    # Public state
 
     @property
     def turtles(self) -> Mapping[str, Turtle]:
@@ -127,12 +127,12 @@ class Turtlesim(Node):
 
     async def run(self) -> None:
         """Simulate the turtles until the end of the run."""
-        # Two simulators in one world carry their namespace in their names as well.
+        # If a world has two simulators, their names contain their namespaces.
         name = self.name.removeprefix(self._prefix)
         self.info(f"Starting turtlesim with node name /{self._prefix}{name}")
         there = self.world.services().get(f"{self._prefix}spawn")
         if there is not None and not there.is_remote:
-            # As in ROS 2 both move on one cmd_vel, and one of them answers services.
+            # As in ROS 2, both turtles follow the same cmd_vel, and one of them has the services.
             self.warn(
                 f"'{there.node}' answers the services here already: give this simulator a "
                 "namespace of its own (-r __ns:=/sim2), or the two share every topic"
@@ -156,7 +156,7 @@ class Turtlesim(Node):
         async for now in self.every(TICK, immediately=True):
             self._queue.deliver(now)
             if first:
-                # turtlesim's first tick moves no turtle; the start is published all the same.
+                # turtlesim's first tick moves no turtle, but publishes the poses.
                 first = False
                 for name, turtle in self._turtles.items():
                     self._ports[name].pose.publish(turtle.pose)
@@ -177,7 +177,7 @@ class Turtlesim(Node):
     def _update(self, now: Stamp) -> None:
         for name, turtle in tuple(self._turtles.items()):
             ports = self._ports.get(name)
-            if ports is None:  # a subscriber of a pose removed the simulator
+            if ports is None:  # a subscriber of a pose has removed the simulator
                 return
             before = turtle.pose
             stroke = turtle.update(now, self._say, self._draw)
@@ -203,7 +203,7 @@ class Turtlesim(Node):
             self.error(f"No turtle was spawned: {refusal}")
             return ""
         turtle = Turtle(name, place, now)
-        # Kept in the order of the names: that is the order of updates and of drawing.
+        # In the order of the names, in which turtles are updated and drawn.
         self._turtles = dict(sorted({**self._turtles, name: turtle}.items()))
         self._ports[name] = TurtlePorts(
             self.world, self.name, self._prefix, turtle, self._queue, self._say, self._is_holonomic

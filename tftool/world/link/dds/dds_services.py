@@ -101,7 +101,7 @@ class CycloneServer:
 
     def _asked(self, sample: DdsSample) -> None:
         sender = self._part.sender(sample)
-        # A writer that is not known yet is taken for Cyclone's: its announcement is on the way.
+        # An unknown writer is assumed to be Cyclone's; its announcement will follow.
         if sender[:2] not in (names.CYCLONE, b""):
             self._on_stranger(names.vendor(sender))
             return
@@ -113,7 +113,7 @@ class CycloneRequest:
 
     def __init__(self, payload: bytes, reply: Callable[[bytes], object]) -> None:
         self._number = payload[_HEAD : _HEAD + _NUMBER]
-        # Both numbers are sixteen bytes, so that nothing behind them is aligned otherwise.
+        # Both numbers take sixteen bytes, so that the alignment of later fields is unchanged.
         self.payload: bytes = payload[:_HEAD] + payload[_HEAD + _NUMBER :]
         self._reply = reply
 
@@ -141,12 +141,12 @@ class CycloneClient:
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
         """Send a request, and wait for the response at most `timeout` seconds."""
         vendors = {
-            # The first bytes of a GUID name the library.
+            # The first bytes of a GUID identify the library.
             one.gid[:2]
             for one in self._part.graph.entities(SERVER, name=self._name)
             if one.ros_type == self._ros_type
         }
-        # Without a server there is no vendor either: then the request waits for one to come.
+        # Without a server the vendor is unknown: then the request waits for a server.
         if vendors and names.CYCLONE not in vendors:
             raise LinkError(REFUSED.format(vendor=names.vendor(next(iter(vendors)))))
         number = next(self._numbers)
@@ -159,14 +159,14 @@ class CycloneClient:
         except TimeoutError:
             raise LinkError(f"no server answered within {timeout:g} s, or it has left") from None
         finally:
-            # After a timeout or a cancellation, too: a late reply finds nothing.
+            # Also after a timeout or a cancellation, so that a late reply is ignored.
             del self._waiting[number]
 
     async def _send(self, number: int, payload: bytes) -> None:
         if not self._close:
             self._open()
         clock = WallClock()
-        # No server gets a request written before both sides know each other.
+        # A request that is written before both sides are matched is lost.
         while not self._is_matched():
             await clock.sleep(_PAUSE)
         beside = struct.pack("<Qq", self._guid, number)
@@ -175,7 +175,7 @@ class CycloneClient:
     def _open(self) -> None:
         request, reply = self._part.kinds(self._ros_type)
         take_part = self._part.participant
-        # The reader first: a reply must not come before there is one to take it.
+        # The reader first, so that it exists before any reply arrives.
         reader = take_part.reader(f"{names.REPLY}{self._name}Reply", reply, QUALITY, self._answered)
         writer = take_part.writer(f"{names.REQUEST}{self._name}Request", request, QUALITY, b"")
         self._close = [reader.close, writer.close]
@@ -187,7 +187,7 @@ class CycloneClient:
         # The second byte of CDR's header: servers may write either order.
         order = "<" if payload[1] & 1 else ">"
         guid, number = struct.unpack_from(f"{order}Qq", payload, _HEAD)
-        # All clients of a service get all replies, and their numbers begin at 1 alike.
+        # All clients of a service receive all replies, and each client counts from 1.
         answer = self._waiting.get(number)
         if guid == self._guid and answer is not None and not answer.done():
             answer.set_result(payload[:_HEAD] + payload[_HEAD + _NUMBER :])

@@ -49,7 +49,7 @@ MOST: Final = 20_000
 _KINDS: Final = {
     (names.TOPIC, PUBLISHER): PUBLISHER,
     (names.TOPIC, SUBSCRIPTION): SUBSCRIPTION,
-    # A service is two topics; each side is shown by its end of the requests.
+    # A service has two topics; the reader of requests is the server, the writer a client.
     (names.REQUEST, SUBSCRIPTION): SERVER,
     (names.REQUEST, PUBLISHER): CLIENT,
 }
@@ -213,8 +213,8 @@ class Discovery:
         self._changed()
 
     def _look_soon(self) -> None:
-        # One look serves all that came until then.
-        # The flag is read and set on different threads; the worst is one look too many.
+        # One look processes all changes until then.
+        # The flag is read and set on different threads; at worst, there is one look too many.
         if not self._will_look:
             self._will_look = True
             self._participant.inbox.put(self._look_now, None)
@@ -229,7 +229,7 @@ class Discovery:
         """Process the messages that the built-in topics have received."""
         if self._participants is None:
             return
-        # Participants first: an endpoint of an unknown participant has no process to belong to.
+        # Participants first, because an endpoint needs the process of its participant.
         for one in _all(self._participants):
             self._take_participant(one)
         for role, reader in self._readers.items():
@@ -255,7 +255,7 @@ class Discovery:
     def _take_endpoint(self, role: str, one: Any) -> None:
         key, owner = (role, one.key.bytes), one.participant_key.bytes
         if not _is_alive(one):
-            # A sample of an instance that is gone has its key alone.
+            # A sample about a removed instance contains only the key.
             gone = self._found.pop(key, None)
             self._gids.pop(one.sample_info.instance_handle, None)
             if gone is not None:
@@ -275,7 +275,7 @@ class Discovery:
             data = bytes(getattr(policies.get("Userdata"), "data", b""))
             self._informing[owner] = GID_SIZES[0] if names.hash_shown(data) else 0
             return
-        # Topics without ROS's prefixes belong to other programs.
+        # Topics without ROS's prefixes are not ROS's.
         part = names.ros_part(one.topic_name, one.type_name)
         kind = None if part is None else _KINDS.get((part.prefix, role))
         if part is None or kind is None:
@@ -304,7 +304,7 @@ class Discovery:
 
     def _node_of(self, participant: bytes) -> str:
         """Return a name that stands for the node of a participant that announces no nodes."""
-        # One node in the process: every endpoint is its own, also before the list names them.
+        # If the process has one node, all endpoints are that node's, even before its list arrives.
         only = self._nodes.get(participant, ({}, []))[1]
         if len(only) == 1:
             return only[0]
@@ -316,7 +316,7 @@ class Discovery:
         self._informing.pop(participant, None)
         self._speaking.discard(participant)
         self._nodes.pop(participant, None)
-        # Nodes and endpoints before the process: a process leaves the graph as the last.
+        # Nodes and endpoints are removed before their process.
         for name in self._shown_nodes.pop(participant, set()):
             self._exchange(f"node {participant.hex()} {name}", None)
         for key in [key for key, one in self._found.items() if one.participant == participant]:
@@ -331,7 +331,7 @@ class Discovery:
             return
         if old is not None:
             self.graph.remove(key)
-        # The new entry is reported before the old one goes: nobody sees a gap.
+        # The new entry is reported before the old one is removed, so that there is no gap.
         if new is not None and self.graph.add(key, new) is not None:
             self._report(new, True)
         if old is not None:
@@ -352,11 +352,11 @@ class Discovery:
             return
         self.look()
         if participant not in self._names:
-            return  # it has left, or speaks for another
-        # A message of one form can be read by the other, and says nothing then.
+            return  # the process has left, or it writes about another one
+        # A message of one version can be decoded as the other version, and is then empty.
         if self._informing.get(participant) not in (None, 0, form.size):
             return
-        # An empty list in the older form may be the newer form misread: it removes no node.
+        # An empty list in the older form may be a misread newer form, so it removes no node.
         if not all_nodes and form.size != GID_SIZES[0] and participant in self._nodes:
             return
         self._nodes[participant] = nodes, all_nodes
@@ -367,7 +367,7 @@ class Discovery:
             entity = GraphEntity(NODE, self._domain, participant.hex(), name)
             self._exchange(f"node {participant.hex()} {name}", entity)
         self._shown_nodes[participant] = now
-        # Endpoints known before their node are entered again, under its name.
+        # Endpoints that were known before their node are stored again, under the node's name.
         for key in [key for key, one in self._found.items() if one.participant == participant]:
             self._show(key)
 
@@ -400,7 +400,7 @@ class Discovery:
     def _say(self) -> None:
         if self._participants is None:
             return
-        # Made when there is something to show: a process that only looks writes nothing.
+        # Created with the first entry: a process that only observes writes nothing.
         if self._writer is None:
             form = self._information[GID_SIZES[0]]
             self._writer = self._participant.writer(names.DISCOVERY, form.raw(), LATEST_OF_ALL, b"")

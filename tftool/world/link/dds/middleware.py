@@ -79,12 +79,12 @@ class DdsMiddleware(Middleware):
         """Wait until all existing participants are known."""
         discovery, clock = self._discovery, WallClock()
         begin = clock.now()
-        # Our own participant has ports on this machine, too, by which they are counted.
+        # Processes are counted by their ports, and our own participant has ports, too.
         ours = 1
         news = True
         while True:
             discovery.look()
-            # There is no loop yet, and lists of nodes come by the inbox.
+            # Lists of nodes arrive through the inbox, and no event loop runs yet.
             self._participant.inbox.call_now()
             waited = clock.now() - begin
             there = participants_here(self._options.domain) - ours
@@ -92,10 +92,10 @@ class DdsMiddleware(Middleware):
             if waited > INTRODUCED:
                 break
             is_known = known and known >= there and not news
-            # One that has no endpoint at all shows none, however long it is waited for.
+            # A process without endpoints never shows any, so the wait for it is limited.
             if is_known and (discovery.is_complete or waited > ALONE):
                 return
-            # On the loopback there is no other machine that could still answer.
+            # On the loopback, no other machine can respond later.
             alone = 0 if self._network.is_loopback and there == 0 else ALONE
             if not known and there <= 0 and waited > alone:
                 break
@@ -127,12 +127,12 @@ class DdsMiddleware(Middleware):
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
         self.watcher = watcher
-        # The watcher is there first: waiting calls are reported to it.
+        # After the watcher is set, because queued calls are reported to it.
         self._participant.inbox.start(loop)
         self._discovery.start(self._changed)
         if watcher is not None:
             if not self._network.config:
-                # The library's thread calls this: the sentence takes the way of a message.
+                # The library's thread calls this, so the text takes the way of a message.
                 inbox = self._participant.inbox
                 stop = LIBRARY_LOG.listen(lambda sentence: inbox.put(self._complain, sentence))
                 self._participant.at_close(stop)
@@ -145,7 +145,7 @@ class DdsMiddleware(Middleware):
 
     def close(self) -> None:
         """Send queued messages, and leave the graph."""
-        # Before the participant: the library deletes the readers together with it.
+        # Before the participant, with which the library deletes the readers.
         for listening in [one for several in self._readers.values() for one in several]:
             listening.close()
         self._readers.clear()
@@ -183,7 +183,7 @@ class DdsMiddleware(Middleware):
     def _assign(self, listening: "_Listening") -> None:
         """Announce a reader as one of the node that subscribes to its topic."""
         listening.hide()
-        # ROS 2 lists a reader under one node: the first one that claims it.
+        # ROS 2 lists a reader under one node: the first one that names it.
         listening.hide = nothing
         if self._options.read_only or listening.reader is None:
             return
@@ -200,7 +200,7 @@ class DdsMiddleware(Middleware):
         kind = self._kind(ros_type)
         if self._options.read_only:
             raise LinkError("a read-only process publishes nothing")
-        # ROS 2 looks for the hash in the writer's user data, and warns where it differs.
+        # ROS 2 compares the hash in the writer's user data, and warns if it differs.
         beside = f"typehash={type_hash(INTERFACES, ros_type)};".encode()
         writer = self._participant.writer(names.TOPIC + name, kind, quality, beside)
         writer.hide = self._discovery.show_endpoint(node_name(node), PUBLISHER, writer.gid)
@@ -221,7 +221,7 @@ class DdsMiddleware(Middleware):
         except (LinkError, InputError) as error:
             self.say_once(f"type {ros_type}", f"'{name}' cannot be read over DDS: {error}.")
             return nothing
-        # Several of a kind are possible: latched subscriptions have a reader each.
+        # There may be several readers, because each latched subscription has its own.
         several = self._readers.setdefault((name, ros_type), [])
         several.append(listening)
         self._assign(listening)
@@ -237,7 +237,7 @@ class DdsMiddleware(Middleware):
         """Return whether a reader requests reliability: for tf2, or if all writers offer it."""
         if name in ("tf", "tf_static"):
             return True
-        # A reader that asks for more than is offered gets nothing at all.
+        # A reader that requests more than a writer offers receives nothing from it.
         offered = self.graph.entities(PUBLISHER, name=name)
         return all(one.quality.is_reliable for one in offered if one.ros_type == ros_type)
 
@@ -285,7 +285,7 @@ class DdsMiddleware(Middleware):
         except (LinkError, InputError) as error:
             self.say_once(f"type {ros_type}", f"'{name}' cannot be served over DDS: {error}.")
             return nothing
-        # A service is a reader of requests and a writer of replies, both of its node.
+        # A service has a reader of requests and a writer of replies, both of its node.
         reads, writes = server.gids
         hide = [
             self._discovery.show_endpoint(node_name(node), SUBSCRIPTION, reads),
@@ -316,7 +316,7 @@ class DdsMiddleware(Middleware):
         """Log that a publisher of transforms has left."""
         if gone.kind != PUBLISHER or gone.name != "tf":
             return
-        # It may only have become known under its node's name.
+        # The publisher may only have been renamed, when its node became known.
         if all(one.gid != gone.gid for one in self.graph.entities(PUBLISHER, name="tf")):
             self.say_once(
                 f"left {gone.gid.hex()}",
@@ -328,7 +328,7 @@ class DdsMiddleware(Middleware):
         """Log why a publisher and a subscription to tf of this process are incompatible, if so."""
         if not isinstance(found, GraphEntity) or found.kind != PUBLISHER:
             return
-        # tf2's listeners ask for a fixed quality; other readers lower theirs.
+        # tf2's listeners request a fixed quality; other readers lower theirs.
         asked = {"tf": TF, "tf_static": TF_STATIC}.get(found.name)
         policy = "" if asked is None else conflict(found.quality, asked)
         if policy:
@@ -396,7 +396,7 @@ class _Listening:
 
     def refused(self, policy: int) -> None:
         """Create the reader again without reliability, if a publisher does not offer it."""
-        # Less durability would lose earlier messages in silence, and tf2's topics keep their
+        # Less durability would silently lose earlier messages, and tf2's topics keep their
         # quality.
         if self._is_closed or self.name in ("tf", "tf_static") or policy != _RELIABILITY:
             return
@@ -406,7 +406,7 @@ class _Listening:
 
     def _arrived(self, sample: DdsSample) -> None:
         if not self._is_closed:
-            # It may have waited in the inbox while the reader was closed.
+            # The reader may have been closed while the message was in the inbox.
             self._on_message(Arrived(sample.payload, self._middleware.sender(sample)))
 
 

@@ -79,7 +79,7 @@ class LibraryLog:
                 c, "__stderrp" if sys.platform == "darwin" else "stderr"
             )
         except (OSError, TypeError, ValueError):
-            # Windows, and libraries of C in which it is no variable: they stay on stderr.
+            # On Windows, and if C's `stderr` is not a variable, the errors stay on stderr.
             yield
             return
         before = stderr.value
@@ -87,18 +87,18 @@ class LibraryLog:
         try:
             yield
         finally:
-            # The rest of the process keeps its own stderr: only the domain has taken the stream.
+            # Only the domain uses the pipe; the rest of the process continues to use stderr.
             stderr.value = before
 
     def _open(self, c: ctypes.CDLL) -> int:
         """Return the C stream to write to; it stays open, as domains continue to use it."""
         if self._stream is None:
-            # Never closed: the library may write at any time, also while the process ends.
+            # Never closed, because the library may write even while the process ends.
             read, write = os.pipe()
             os.set_blocking(write, False)
             c.fdopen.restype = ctypes.c_void_p
             stream: int = c.fdopen(write, b"w")
-            # Without a buffer of C's, in which a complaint would wait for more of them.
+            # Unbuffered, so that an error is readable at once.
             c.setbuf(ctypes.c_void_p(stream), None)
             self._stream = stream
             threading.Thread(target=self._read, args=(read,), name="dds-log", daemon=True).start()
@@ -108,13 +108,13 @@ class LibraryLog:
         with os.fdopen(read, encoding="utf-8", errors="replace") as lines:
             for line in lines:
                 text = _STAMP.sub("", line.strip())
-                # Addresses and counts differ each time: without them, a complaint is one of a kind.
+                # Errors that differ only in addresses and counts are of the same kind.
                 kind = _NUMBER.sub("#", text)[:40]
                 said = self._repeats.said(kind, f"The DDS library: {shorten(text, _MOST)}")
                 if not said:
                     continue
                 with self._lock:
-                    # Called without the lock: a listener may end itself.
+                    # Listeners are called without the lock, because they may remove themselves.
                     listeners = tuple(self._listeners)
                 for listener in listeners:
                     listener(said)
@@ -169,7 +169,7 @@ class Domains:
                     f"this process already uses another network for DDS domain {number}"
                 )
             if made is None:
-                # A user's own configuration says itself where the library's words go.
+                # A user's own configuration decides where the library's errors go.
                 taking = nullcontext() if network.config else LIBRARY_LOG.taking()
                 try:
                     with taking:
@@ -218,7 +218,7 @@ class Participant:
         self._outbox = Outbox()
         self._closing: list[Callable[[], None]] = []
         self._topics: dict[tuple[str, type[Raw]], Any] = {}
-        # The library reads a domain's configuration when its first participant is made, and only
+        # The library reads a domain's configuration when its first participant is created, and only
         # then.
         _DOMAINS.enter(domain, network)
         try:
@@ -227,7 +227,7 @@ class Participant:
         except DDSException as error:
             _DOMAINS.leave(domain)
             raise LinkError(_refused(domain, network)) from error
-        # Also an interrupt in the middle: the domain's place must not stay taken.
+        # Also on Ctrl-C: the domain must not stay marked as used.
         except BaseException:
             _DOMAINS.leave(domain)
             raise
@@ -241,7 +241,7 @@ class Participant:
             close()
         self._closing.clear()
         if self.entity is not None:
-            # With all that is in it.
+            # This also deletes the readers and writers.
             _end(self.entity)
             self._topics.clear()
             self.entity = None
@@ -266,9 +266,9 @@ class Participant:
         """
         inbox, participant = self.inbox, self
 
-        # Both run on threads of the library: they hand over, and touch nothing else.
+        # Both functions run in threads of the library: they only fill the inbox.
         def on_data_available(reader: Any) -> None:
-            # An exception would go into the library's C code, which prints and loses it.
+            # The library's C code would only print an exception.
             with contextlib.suppress(Exception):
                 participant._take(reader, on_sample)
 
@@ -276,19 +276,19 @@ class Participant:
             if on_refused is not None:
                 inbox.put(on_refused, int(status.last_policy_id))
 
-        # All that waits is kept: it is taken at once, and bounds are those of the inbox.
+        # All samples are stored: they are taken at once, and the inbox has the limits.
         policies = _policies(quality, Policy.History.KeepAll)
-        # Our own messages reach our own nodes without the wire.
+        # Messages between our own nodes do not use the network.
         policies.append(Policy.IgnoreLocal.Participant)
-        # While the library makes a reader it may hold the lock of a writer of this process, whose
-        # thread waits for that lock with Python's own (GIL) in hand. A callback for data needs
-        # the GIL: it is set once the reader is there, or both threads wait for ever.
+        # While the library creates a reader, it may hold the lock of a writer of this process,
+        # whose thread holds Python's own lock (GIL) and waits for the writer's. A callback for data
+        # needs the GIL, so it is set after the creation: otherwise both threads wait forever.
         refusing = Listener(on_requested_incompatible_qos=on_requested_incompatible_qos)
         made = DataReader(
             self.entity, self._topic(topic, kind), qos=_qos(policies), listener=refusing
         )
         made.set_listener(Listener(on_data_available=on_data_available))
-        # No callback was made for samples that came before.
+        # Samples that arrived before caused no callback.
         self._take(made, on_sample)
         return TopicReader(made)
 
@@ -304,7 +304,7 @@ class Participant:
             user_data: User data of the writer: the hash of its type.
         """
         kept = Policy.History.KeepLast(max(1, quality.depth))
-        # Samples not kept for late readers are kept until the present ones have them.
+        # Samples that are not stored for late readers are stored until present readers have them.
         keeps_all = quality.keeps_all or (quality.is_reliable and not quality.is_latched)
         policies = _policies(quality, Policy.History.KeepAll if keeps_all else kept)
         policies.append(Policy.Userdata(user_data))
@@ -350,7 +350,7 @@ class Participant:
         while True:
             taken = reader.take(AT_ONCE)
             for one in taken:
-                # Word of a writer that has left comes in the same way.
+                # A writer's departure is reported as a sample without data.
                 if not isinstance(one, Raw):
                     continue
                 if len(one.payload) > LARGEST:
@@ -422,7 +422,7 @@ class TopicWriter:
         made, self._made = self._made, None
         if made is None:
             return
-        # Hidden first: the announcement must not list a writer that is gone.
+        # Hidden first, because the announcement must not list a deleted writer.
         self.hide()
         try:
             self._outbox.put(lambda: _end(made))
@@ -446,7 +446,7 @@ def _policies(quality: Quality, history: Any) -> list[Any]:
         else Policy.Reliability.BestEffort,
         Policy.Durability.TransientLocal if quality.is_latched else Policy.Durability.Volatile,
         history,
-        # ROS 2 speaks no other.
+        # ROS 2 uses this encoding only.
         Policy.DataRepresentation(use_cdrv0_representation=True, use_xcdrv2_representation=False),
     ]
 

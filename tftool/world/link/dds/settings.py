@@ -57,10 +57,10 @@ class Network:
         if self.config:
             return self.config
         used = self.interfaces or ((LOOPBACK,) if self.is_loopback else _ways_to(self.peers))
-        # Interfaces that are named are searched as ROS 2 does; peers alone are gone to.
+        # On named interfaces, multicast finds processes as in ROS 2; named peers are contacted.
         multicast = "spdp" if self.interfaces else "false"
         peers = self.peers or ((LOOPBACK,) if self.is_loopback else ())
-        # Others of this machine are found without multicast too.
+        # Processes of this machine are found even without multicast.
         peers = (*peers, *(one for one in _own(used) if one not in peers))
         return (
             '<CycloneDDS><Domain Id="any"><General><Interfaces>'
@@ -72,7 +72,7 @@ class Network:
             f"<MaxAutoParticipantIndex>{MOST_PARTICIPANTS}</MaxAutoParticipantIndex><Peers>"
             + "".join(f"<Peer address={quoteattr(one)}/>" for one in peers)
             + "</Peers></Discovery>"
-            # Its complaints are read from `LIBRARY_LOG`; tracing would write far more.
+            # Errors are read from `LIBRARY_LOG`; tracing would write far more.
             "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>"
         )
 
@@ -92,12 +92,12 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
     interfaces: list[str] = []
     peers: list[str] = []
     for place in places:
-        # An address of our own names the interface to use, one of another machine where to go.
+        # An address of this machine selects an interface, an address of another one is a peer.
         (interfaces if _is_own(place) else peers).append(_checked(place))
     confined = _confined(variables)
     static = tuple(one.strip() for one in variables.get("ROS_STATIC_PEERS", "").split(";"))
     static = tuple(one for one in static if one)
-    # It counts only without --dds-on, and where no variable keeps ROS 2 to this machine.
+    # This applies without --dds-on, and unless a variable limits ROS 2 to this machine.
     config = variables.get("CYCLONEDDS_URI", "").strip()
     outward = [one for one in (*interfaces, *peers) if not _is_loopback(one)]
     if confined and outward:
@@ -109,7 +109,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
         told = "CYCLONEDDS_URI is set: DDS goes where that configuration says, not to "
         return Network(config=config, told=(f"{told}the loopback alone.",))
     told = ""
-    # ROS_STATIC_PEERS alone takes nothing to the network: only --dds-on does.
+    # ROS_STATIC_PEERS alone does not open the network: only --dds-on does.
     if interfaces or peers:
         peers += [_checked(one) for one in static if one not in peers and not confined]
     elif any(not _is_loopback(one) for one in static):
@@ -138,7 +138,7 @@ def _confined(variables: Mapping[str, str]) -> str:
             "ROS_AUTOMATIC_DISCOVERY_RANGE=OFF turns discovery off: unset it, or "
             "set it to LOCALHOST"
         )
-    # Where both are set ROS 2 follows the older one.
+    # If both are set, ROS 2 uses the older one.
     if variables.get("ROS_LOCALHOST_ONLY", "").strip() == "1":
         return "ROS_LOCALHOST_ONLY=1"
     return "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST" if reach == "LOCALHOST" else ""
@@ -182,7 +182,7 @@ def _is_own(place: str) -> bool:
     except ValueError:
         return False
     family = socket.AF_INET if address.version == 4 else socket.AF_INET6
-    # Only an address of one's own can be bound.
+    # Only this machine's own addresses can be bound.
     with socket.socket(family, socket.SOCK_DGRAM) as trial:
         try:
             trial.bind((place, 0))
@@ -220,7 +220,7 @@ def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
             except OSError as error:
                 raise LinkError(f"{peer} cannot be reached: {error.strerror}") from error
             address = str(trial.getsockname()[0])
-        # A machine's own addresses and the others' do not go together in one participant.
+        # One participant cannot use both loopback and other addresses.
         if address not in found and not _is_loopback(address):
             found.append(address)
     return tuple(found) or (LOOPBACK,)
@@ -254,9 +254,9 @@ def _listening() -> dict[int, int]:
         ports |= {int(line.split()[1].rpartition(":")[2], 16) for line in lines}
     found: dict[int, int] = {}
     for port in ports:
-        # RTPS's own rule: domains are 250 ports apart from 7400 on, participants two from 10 on.
+        # RTPS: each domain has 250 ports from 7400 on, each participant two of them from 10 on.
         number, rest = divmod(port - 7400, 250)
-        # A participant has two ports, one behind the other. Above lie ports for anything.
+        # A participant has two successive ports. Ports of higher domains may be any program's.
         if number in range(101) and rest >= 10 and rest % 2 == 0 and port + 1 in ports:
             found[number] = found.get(number, 0) + 1
     return found

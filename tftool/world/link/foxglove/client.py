@@ -183,7 +183,7 @@ class FoxgloveClient:
         self._thread.join(TIMEOUT)
 
     def _call(self, function: Callable[..., None], *arguments: Any) -> None:
-        # A loop that has just been closed has nothing to do any more.
+        # The loop may just have been closed.
         with contextlib.suppress(RuntimeError):
             self._loop.call_soon_threadsafe(function, *arguments)
 
@@ -227,7 +227,7 @@ class FoxgloveClient:
             self._tell_change()
             failures = 0 if self._loop.time() - began > STEADY else failures + 1
             pause = self._pauses[min(failures, len(self._pauses)) - 1 if failures else 0]
-            # `asyncio.sleep` could not be woken.
+            # Not `asyncio.sleep`, which nothing could end early.
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._woken.wait(), pause)
 
@@ -255,7 +255,7 @@ class FoxgloveClient:
         except ConnectionClosed as error:
             return _of_closed(error)
         except Exception as error:
-            # Whatever a stranger brings about: a thread that ends here would end without a word.
+            # Any error that a server causes is reported: otherwise the thread would end silently.
             return _of_failure(error)
         finally:
             self._connection = None
@@ -287,7 +287,7 @@ class FoxgloveClient:
         if found is not None:
             number, payload = found
             channel = self._heard.get(number)
-            # Messages sent before a subscription ended have no channel any more.
+            # A message that was sent before its subscription ended has no channel any more.
             if channel is not None:
                 data = FoxgloveData(channel, payload)
                 self._inbox.put(self._receiver.data, data, len(payload))
@@ -323,7 +323,7 @@ class FoxgloveClient:
         self._receiver.changed(None)
 
     def _warn(self, sentence: str) -> None:
-        # Without a size an event is never dropped: a server may say much.
+        # With a size, so that the inbox can drop it: a server may send many texts.
         self._inbox.put(self._receiver.warn, sentence, len(sentence))
 
     # Subscriptions
@@ -397,7 +397,7 @@ class FoxgloveClient:
 
     def _start(self, work: Coroutine[Any, Any, None]) -> None:
         async def done() -> None:
-            # The reader notices, too, and says why.
+            # The reader also notices that the connection was closed, and reports the reason.
             with contextlib.suppress(ConnectionClosed):
                 await work
 
@@ -432,7 +432,7 @@ def _of_failure(error: Exception) -> str:
     if isinstance(error, InvalidMessage):
         return "what answers there is no web server"
     if isinstance(error, OSError):
-        # asyncio puts its own words for the system's, and joins those of several addresses.
+        # asyncio replaces the system's error text, and joins the texts of several addresses.
         found = re.search(r"\[Errno (\d+)\]", str(error))
         return os.strerror(int(found[1])) if found else error.strerror or str(error)
     return str(error)

@@ -113,7 +113,7 @@ class FoxgloveMiddleware(Middleware):
         self._deliver((name, ros_type), arrived)
 
     def _time(self, stamp: Stamp) -> None:
-        # Where /clock is a channel, the server's own time would only say it again.
+        # If /clock is a channel, the server's own time would repeat it.
         if _TIME_GID.hex() in self._entities:
             self._deliver(CLOCK, Arrived(clock_message(stamp), _TIME_GID))
 
@@ -185,7 +185,7 @@ class FoxgloveMiddleware(Middleware):
             for place, node in enumerate(publishers):
                 gid = number.to_bytes(4) + place.to_bytes(4)
                 found[gid.hex()] = self._entity(PUBLISHER, node, name, ros_type, gid)
-            # A message does not say which of several publishers sent it.
+            # With several publishers, a message does not say who sent it.
             if len(publishers) == 1:
                 self._gids[channel] = gid
         if "time" in state.capabilities and CLOCK not in topics.values():

@@ -318,7 +318,7 @@ def define(channel: FoxgloveChannel) -> bool:
         return False
     if INTERFACES.has(full):
         return False
-    # Structures that were read before can no longer be defined otherwise.
+    # Types that are already registered cannot be defined differently.
     for name in _PARTS.findall(channel.definition):
         if INTERFACES.has(full_name(name)):
             INTERFACES.structure(full_name(name))
@@ -360,7 +360,7 @@ def _definitions(channel: FoxgloveChannel) -> Interfaces | None:
     theirs = Interfaces()
     full = full_name(channel.type)
     theirs.define(full, channel.definition)
-    # A codec counts fields first: to compare layouts would take for ever with a hostile one.
+    # A codec limits the number of fields: comparing hostile definitions could take forever.
     Codec(theirs.message(full))
     return theirs
 

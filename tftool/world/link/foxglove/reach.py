@@ -52,7 +52,7 @@ class FoxgloveReach(Reach):
 
     def join(self, options: "Options") -> "Middleware":
         """Connect to the server; see `Reach.join`."""
-        # asyncio's client takes 60 ms to import, and no other command needs it.
+        # Imported here: asyncio's client takes 60 ms, and is only needed for this.
         from tftool.world.link.foxglove.middleware import FoxgloveMiddleware
 
         return FoxgloveMiddleware(options, self)

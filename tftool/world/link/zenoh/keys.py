@@ -49,7 +49,7 @@ def type_hash(ros_type: str) -> str:
 def dds_name(ros_type: str) -> str:
     """Return a type's DDS name: `tf2_msgs::msg::dds_::TFMessage_` for "tf2_msgs/msg/TFMessage"."""
     parts = ros_type.split("/")
-    # What `ros_name` could not read goes back as it came.
+    # A type that `ros_name` could not parse is returned unchanged.
     return f"{parts[0]}::{parts[1]}::dds_::{parts[2]}_" if len(parts) == 3 else ros_type
 
 
@@ -231,7 +231,7 @@ def _named_attachment(raw: bytes) -> Attachment:
             raise MalformedMessage("attachment", f"it lacks its {name[1:].decode()}")
         numbers.append(_NUMBERS.unpack_from(raw, value)[0])
         position = value + 8
-    # The sender's bytes come with their number in front.
+    # The sender's bytes are preceded by their number.
     rest = raw[position:]
     name = _NAMED[2] + b"\x10"
     gid = rest[len(name) :]

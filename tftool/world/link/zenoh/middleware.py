@@ -74,8 +74,8 @@ class ZenohMiddleware(Middleware):
         self._nodes: dict[str, int] = {}
         self._numbers = 0
         self._stops: list[Callable[[], None]] = []
-        # Without sockets a password guards this machine's processes; zenoh asks it of all
-        # that connect, other machines' too, which cannot know it.
+        # Without sockets a password protects this machine's processes; zenoh requires it of all
+        # connections, also from other machines, which cannot know it.
         outward = bool(reach.listen or reach.connect)
         if reach.config is None and (rendezvous.HAS_UNIX_SOCKETS or not outward):
             self._place = Rendezvous(options.domain)
@@ -91,15 +91,15 @@ class ZenohMiddleware(Middleware):
             self._reach_out(others)
             self._take_in_tokens(is_expected=bool(others or reach.connect or reach.config))
         except BaseException:
-            # Whatever it is: no other process can join while this one holds the lock.
+            # On any error, release the lock, which other processes need to join.
             self.close()
             raise
 
     def _reach_out(self, others: dict[str, int]) -> None:
         """Wait until the other processes of this machine, and at `connect`, are connected."""
 
-        # zenoh itself gives up waiting early, and a busy machine is slow to say hello: taking
-        # that for silence would host a second world. A stopped process never says it.
+        # zenoh's own wait is short, and processes of a busy machine respond slowly: if they were
+        # ignored, a second world would be hosted. A stopped process never responds.
         def silent() -> list[int]:
             reached = self.wire.reached
             return [pid for at, pid in others.items() if at not in reached]
@@ -129,9 +129,9 @@ class ZenohMiddleware(Middleware):
         def some_are_known() -> bool:
             return all_are_known() or not self.graph.is_empty
 
-        # Connected is not yet introduced: routers take a moment to pass tokens on.
+        # After the connection, routers take a while to pass tokens on.
         if _await(some_are_known, INTRODUCED if is_expected else 0.0):
-            # Those who only look never show a token: no reason to wait for long.
+            # Processes that only observe never show a token, so the wait is short.
             _await(all_are_known, SHOWN if is_expected else 0.0)
 
     @property
@@ -144,7 +144,7 @@ class ZenohMiddleware(Middleware):
         self.wire.start(loop)
         self.watcher = watcher
         if watcher is not None:
-            # Every domain: a peer that talks in another one is worth a word.
+            # All domains, because the user is told about processes in other domains.
             for pattern in (f"{keys.LIVELINESS}/*/**", f"{keys.OURS}/*/**"):
                 self._stops.append(self.wire.watch_tokens(pattern, self._on_token))
 
@@ -199,7 +199,7 @@ class ZenohMiddleware(Middleware):
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> "ZenohPublisher":
         """Create a publisher of a topic for a node of this process."""
         token = self._token(PUBLISHER, node, name, ros_type, quality)
-        # A latched one keeps its own last messages, so each has an outlet of its own.
+        # A latched publisher stores its own last messages, so each one has its own outlet.
         outlet = self.wire.publisher(keys.data_key(self._options.domain, name, ros_type), quality)
         return ZenohPublisher(outlet, keys.gid_of(token), self.show(token))
 
@@ -241,7 +241,7 @@ class ZenohMiddleware(Middleware):
                 on_request(ZenohRequest(query, beside))
 
         stop = self.wire.server(keys.any_hash_key(self._options.domain, name, ros_type), asked)
-        # Shown last: what sees it may ask at once and is answered.
+        # Shown last, because others may send requests as soon as they see the server.
         hide = self.show(self._token(SERVER, node, name, ros_type, SERVICE))
 
         def leave() -> None:
@@ -256,7 +256,7 @@ class ZenohMiddleware(Middleware):
 
     def key_of_service(self, name: str, ros_type: str) -> str:
         """Return the zenoh key of a service's requests, with the server's type hash if known."""
-        # A server of another release has another hash, and zenoh compares keys letter by letter.
+        # A server of another ROS release has another type hash, and thus another key.
         servers = self.graph.entities(SERVER, name=name)
         known = next((one.type_hash for one in servers if one.ros_type == ros_type), "")
         return keys.data_key(self._options.domain, name, ros_type, known)
@@ -281,7 +281,7 @@ class ZenohMiddleware(Middleware):
         key, there = change
         if there:
             found = keys.parse_token(key)
-            # None is reported as well: it may have been the first word of another domain.
+            # Tokens of other domains are reported as None, so that the watcher can count them.
             new = None if found is None else self.graph.add(key, found)
             self.report(new, there)
         else:
@@ -329,7 +329,7 @@ class ZenohRequest:
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
         """Send the response; called once."""
-        # The number and the client come back, so that the client knows which answer it is.
+        # The reply repeats the request's number and client, so that the client can assign it.
         beside = Attachment(self._beside.sequence, stamp, self._beside.gid)
         self._query.answer(payload, beside.encode())
 
@@ -353,7 +353,7 @@ class ZenohClient:
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
         """Send a request, and wait at most `timeout` seconds for the response."""
         if not self._sequence:
-            # Only who asks is a client: every world knows all services, and would fill the graph.
+            # Shown with the first request: every world knows all services; the graph would be full.
             self._stack.callback(self._middleware.show(self._token))
         self._sequence += 1
         beside = Attachment(self._sequence, stamp, self._gid).encode()
@@ -386,7 +386,7 @@ def _no_answer_at(reach: ZenohReach) -> str:
 def _await(condition: Callable[[], bool], patience: float) -> bool:
     """Poll until a condition is true, at most `patience` seconds; return whether it is."""
     clock, pause = WallClock(), threading.Event()
-    # Measured, not counted: a look takes as long as those take who are asked.
+    # The time is measured, because a check of the condition may take long.
     while not (held := condition()) and clock.elapsed() < seconds(patience):
         pause.wait(_STEP)
     return held

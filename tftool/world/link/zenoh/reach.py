@@ -19,7 +19,7 @@ PROTOCOLS: Final = ("tcp", "udp", "tls", "quic", "ws", "unixsock-stream")
 SECURED: Final = ("tls", "quic")
 """Protocols in which both sides show certificates."""
 
-_PATHS: Final = ("unixsock-stream",)  # what names a file and not a port
+_PATHS: Final = ("unixsock-stream",)  # protocols whose address is a file
 _PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
 
 
@@ -55,7 +55,7 @@ class Certificates:
         except OSError as error:
             raise InputError(f"'{file}' cannot be read: {error.strerror}.") from error
         try:
-            # A password to go with it, or openssl would ask for one in the terminal.
+            # With an empty password, or openssl would ask for one in the terminal.
             context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
             context.load_cert_chain(self.certificate, self.key, password="")
         except ssl.SSLError as error:
@@ -141,7 +141,7 @@ class ZenohReach(Reach):
     @staticmethod
     def has_members(domain: int) -> bool:
         """Return whether there is a local process to join; see `Reach.has_members`."""
-        # sockets and hashes cost 10 ms, and most commands ask nothing of this.
+        # Imported here: sockets and hashes take 10 ms, and most commands do not need this.
         from tftool.world.link.zenoh import rendezvous
 
         return rendezvous.has_members(domain)
@@ -172,7 +172,7 @@ def protocol_of(endpoint: str) -> str:
 def has_port(endpoint: str) -> bool:
     """Return whether an endpoint has a port, or needs none; without, zenoh searches in vain."""
     protocol, _, rest = endpoint.partition("/")
-    # What follows a question mark or a hash are zenoh's own settings of an endpoint.
+    # After a question mark or a hash are zenoh's settings of the endpoint.
     address = re.split(r"[?#]", rest, maxsplit=1)[0]
     return protocol in _PATHS or _PORT.fullmatch(address) is not None
 

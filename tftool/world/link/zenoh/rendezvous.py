@@ -72,7 +72,7 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
                 "another folder: set it to an absolute path, or unset it."
             )
         return Path(named)
-    # In memory, of mode 700, and emptied at logout: the best place where there is one.
+    # The best folder if it exists: in memory, of mode 700, and emptied at logout.
     runtime = environment.get("XDG_RUNTIME_DIR")
     if runtime and Path(runtime).is_absolute():
         return Path(runtime) / "tftool"
@@ -96,7 +96,7 @@ def frames_known(domain: int, home: Path | None = None) -> list[str]:
     place = _fitting((folder() if home is None else home) / str(domain))
     found: set[str] = set()
     with contextlib.suppress(OSError):
-        # Lists of dead members may remain until somebody sweeps: only those of the living count.
+        # Lists of dead members may remain for a while, so only those of living members count.
         members = {_member(Path(endpoint)) for endpoint, _ in _living(place, sweep=False)}
         for path in place.glob(f"*{FRAMES}"):
             if _member(path) in members:
@@ -129,7 +129,7 @@ class Rendezvous:
         self.endpoint = ""
         self.password = ""
         self.others: dict[str, int] = {}
-        # The random part tells apart two sessions of one process, and processes of two containers.
+        # The random part distinguishes sessions of one process, and equal ids in two containers.
         self._name = f"{os.getpid()}-{secrets.token_hex(4)}"
         self._lock: Any = None
 
@@ -148,12 +148,12 @@ class Rendezvous:
                 f"than {_LONGEST_SOCKET_PATH} bytes or hold one of '?#;='; name another folder in "
                 f"{FOLDER_VARIABLE}"
             )
-        # The parent too: who may write there could replace the folder.
+        # The parent, too, because a user who may write there could replace the folder.
         _make_private(self.folder.parent)
         _make_private(self.folder)
         try:
             self._take_lock()
-            # Under the lock: whoever answers now is in the session, whoever comes later sees us.
+            # Under the lock: processes that respond now are members, and later ones will see us.
             self.others = dict(_living(self.folder))
             self.endpoint = self._place()
         except OSError as error:
@@ -169,7 +169,7 @@ class Rendezvous:
     def tell_frames(self, names: Sequence[str]) -> None:
         """Write the list of this process's frames for `frames_known`; errors are ignored."""
         path = self.folder / f"{self._name}{FRAMES}"
-        # Renamed into place, so that a reader never sees half a list.
+        # Renamed when complete, so that a reader never sees half a list.
         fresh = path.with_name(f"{self._name}.new")
         with contextlib.suppress(OSError):
             fresh.write_text(json.dumps(names[:_MOST_FRAMES]), encoding="utf-8")
@@ -190,14 +190,14 @@ class Rendezvous:
         self.leave()
 
     def _take_lock(self) -> None:
-        # Kept open: the system takes the lock back when the process dies, however it does.
+        # Stays open: the system releases the lock when the process ends, for any reason.
         self._lock = open(self.folder / "lock", "a+b")  # noqa: SIM115
         pause = threading.Event()
         for _ in range(LOCK_TRIES):
             if _try_lock(self._lock):
                 return
             pause.wait(_LOCK_PAUSE)
-        # The process that holds it is stopped in mid-step; to wait for ever would be worse than a
+        # The process that holds the lock is stopped; waiting forever would be worse than a
         # second host in the rarest of cases.
 
     def _place(self) -> str:
@@ -205,11 +205,11 @@ class Rendezvous:
             return f"unixsock-stream/{self.folder / self._name}.sock"
         self.password = _password_in(self.folder)
         with socket.socket() as probe:
-            # The port is free again until zenoh binds it; the lock keeps our own processes from
+            # The port is free until zenoh binds it; the lock prevents our own processes from
             # taking it.
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
-        # Port numbers are filed as sockets are: by name, and swept the same way.
+        # Port numbers are stored in files like the sockets, and removed the same way.
         (self.folder / f"{self._name}.port").write_text(str(port))
         return f"tcp/127.0.0.1:{port}"
 
@@ -241,7 +241,7 @@ def _make_private(path: Path) -> None:
     """
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
-        # Not `stat`: a link that another user left would be followed.
+        # Not `stat`, which would follow a symbolic link of another user.
         facts = os.lstat(path)
     except OSError as error:
         raise LinkError(_unusable(path, error)) from error
@@ -273,7 +273,7 @@ def _fitting(place: Path) -> Path:
     """
     if not HAS_UNIX_SOCKETS or _holds_sockets(place):
         return place
-    # The same name for the same place, whichever process computes it.
+    # Every process computes the same name for the same folder.
     name = hashlib.sha256(os.fsencode(place.parent)).hexdigest()[:16]
     return Path("/tmp") / f"tftool-{os.getuid()}-{name}" / place.name
 
@@ -291,7 +291,7 @@ def _password_in(folder: Path) -> str:
     if known:
         return known
     password = secrets.token_hex(32)
-    # Private from its first byte; O_EXCL refuses a file that somebody put there.
+    # Private from its creation; O_EXCL fails if another user has created the file.
     with open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as fresh:
         fresh.write(f"{USER}:{password}\n")
     return password
@@ -325,7 +325,7 @@ def is_stopped(pid: int) -> bool:
         facts = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
     except OSError:
         return True
-    # The state stands behind the command's name, which may hold anything.
+    # The state follows the command's name, which may contain any characters.
     return facts.rpartition(")")[2].split()[:1] not in (["R"], ["S"], ["D"])
 
 
@@ -338,7 +338,7 @@ def _answers(family: int, address: Any) -> bool:
         except (ConnectionRefusedError, FileNotFoundError):
             return False
         except OSError:
-            # A full queue, a time-out: a process is there, too busy to answer.
+            # A full queue or a timeout: the process exists, but is busy.
             return True
     return True
 

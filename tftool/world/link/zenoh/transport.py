@@ -35,7 +35,7 @@ class Query:
 
     def answer(self, payload: bytes, attachment: bytes) -> None:
         """Send the response; called once."""
-        # Who asked may be gone by now.
+        # The client may have left.
         with contextlib.suppress(Exception):
             self._query.reply(self._query.key_expr, payload, attachment=attachment)
         self._query.drop()
@@ -141,7 +141,7 @@ class Wire:
         options = {
             "congestion_control": congestion.BLOCK if reliable else congestion.DROP,
             "reliability": reliability.RELIABLE if reliable else reliability.BEST_EFFORT,
-            # At once: by default zenoh waits up to a millisecond for company.
+            # Send at once: by default, zenoh waits up to a millisecond to batch messages.
             "express": True,
             "allowed_destination": self._zenoh.Locality.REMOTE,
         }
@@ -251,11 +251,11 @@ class Wire:
         def replied(reply: Any) -> None:
             if reply.ok is not None and len(reply.ok.payload) <= LARGEST:
                 found = reply.ok.payload.to_bytes()
-                # Dropped where too much waits: the client gets an error when all replies are in.
+                # Dropped if the inbox is full: then the client gets an error after all replies.
                 self._inbox.put(settle, found, len(found))
             elif reply.err is not None:
                 reason = reply.err.payload.to_bytes()[:500].decode(errors="replace")
-                # So zenoh itself says that the time is over.
+                # This is zenoh's text for a timeout.
                 silence = reason == "Timeout"
                 self._inbox.put(settle, silent if silence else f"it was refused: {reason}")
 
@@ -277,8 +277,8 @@ class Wire:
         try:
             return await answer
         except asyncio.CancelledError:
-            # Else it stays open for its whole time, up to an hour. Not on the loop: it waits
-            # for a reply that is being taken in.
+            # Otherwise the request stays open for its whole time, up to an hour. Not in the loop:
+            # cancelling waits for a reply that is being processed.
             with contextlib.suppress(LinkError):
                 self._outbox.put(query.cancel)
             raise
@@ -298,8 +298,8 @@ class Wire:
             if reply.ok is not None:
                 found.append(str(reply.ok.key_expr))
 
-        # Not zenoh's own queue: it holds 256 replies, and what this session knows already is
-        # put there before any could be taken from it.
+        # Not zenoh's own queue, which holds 256 replies: known tokens are added to it before
+        # any reply can be taken.
         handler = self._zenoh.handlers.Callback(replied, over.set, indirect=False)
         self._session.liveliness().get(key, handler, timeout=timeout)
         over.wait(2 * timeout)
@@ -332,9 +332,9 @@ def _undeclare(declared: Any) -> Callable[[], None]:
     return stop
 
 
-_CONGESTED = 1_000_000  # microseconds a sender waits for a reader that takes nothing
-_NEAR_HELLO, _FAR_HELLO = 1000, 5000  # milliseconds for two processes to get to know each other
-_SCOUTING_DELAY = 100  # milliseconds `open` waits at most for a peer that does not answer
+_CONGESTED = 1_000_000  # microseconds that a sender waits for a reader that receives nothing
+_NEAR_HELLO, _FAR_HELLO = 1000, 5000  # milliseconds for the first messages of a connection
+_SCOUTING_DELAY = 100  # longest wait in milliseconds of `open` for a peer that does not respond
 
 
 def import_zenoh() -> Any:
@@ -367,7 +367,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
     try:
         if reach.config is not None:
             config = zenoh.Config.from_file(str(reach.config))
-            # By default a peer has none, and latched messages are told apart by their time.
+            # By default a peer adds no timestamps, by which latched messages are distinguished.
             config.insert_json5("timestamping/enabled", "true")
         else:
             config = zenoh.Config()
@@ -386,8 +386,8 @@ def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
     """Return our settings for zenoh, whose defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
-        # A router passes on between this machine's processes, which know each other
-        # directly, and the world outside; a peer passes nothing on.
+        # A router forwards between this machine's processes, which are connected
+        # directly, and other machines; a peer forwards nothing.
         "mode": "router" if outward else "peer",
         "listen/endpoints": [*([] if place is None else [place.endpoint]), *reach.listen],
         "connect/endpoints": [*([] if place is None else place.others), *reach.connect],
@@ -395,14 +395,14 @@ def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
         "connect/timeout_ms": -1,
         "connect/exit_on_failure": False,
         "scouting/multicast/enabled": False,
-        # Gossip tells routers who knows whom; the addresses it carries are not to be used.
+        # Gossip tells routers which processes are connected; its addresses are not used.
         "scouting/gossip/enabled": True,
         "scouting/gossip/autoconnect": {"router": [], "peer": [], "client": []},
         "scouting/delay": _SCOUTING_DELAY,
-        # Latched messages are told apart by their time.
+        # Latched messages are distinguished by their timestamps.
         "timestamping/enabled": True,
         "transport/shared_memory/enabled": False,
-        # A stopped process takes a connection and never speaks: closing would wait for it.
+        # A stopped process accepts connections but never responds: closing would wait for it.
         "transport/unicast/open_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
         "transport/unicast/accept_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
         "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTED,
