@@ -1,6 +1,6 @@
 """Placement of labels beside frames, so that no label covers another."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rich.cells import cell_len
@@ -76,7 +76,7 @@ class Placer:
         labels: list[Label],
         hard: set[tuple[int, int]],
         soft: set[tuple[int, int]],
-        solid: Collection[tuple[int, int]] = frozenset(),
+        solid: set[tuple[int, int]] | frozenset[tuple[int, int]] = frozenset(),
     ) -> list[PlacedLabel]:
         """Place every label; omit a label that has no room near its frame.
 
@@ -94,10 +94,10 @@ class Placer:
                 if best is not None and cost >= best[0]:
                     continue
                 cells = [(row, column + offset) for offset in range(width)]
-                if any(cell in hard for cell in cells):
+                if not hard.isdisjoint(cells):
                     continue
-                cost += 0.4 * sum(cell in soft for cell in cells)
-                cost += 4.0 * sum(cell in solid for cell in cells)
+                cost += 0.4 * len(soft.intersection(cells))
+                cost += 4.0 * len(solid.intersection(cells))
                 # Directly beside another label, the two would read as one word.
                 cost += 3.0 * ((row, column - 1) in hard and column - 1 != label.column)
                 if best is None or cost < best[0]:
