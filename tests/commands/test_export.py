@@ -461,7 +461,7 @@ def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number)
     # The signal comes while the second block of rows is written.
     before = sorted(tmp_path.iterdir())
     blocks = []
-    write = trajectory_files.rows
+    write = trajectory_files.rows_as_text
 
     def interrupted(*arguments, **words):
         blocks.append(1)
@@ -469,7 +469,7 @@ def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number)
             os.kill(os.getpid(), number)
         return write(*arguments, **words)
 
-    monkeypatch.setattr("tftool.frames.export.trajectory_files.rows", interrupted)
+    monkeypatch.setattr("tftool.frames.export.trajectory_files.rows_as_text", interrupted)
     result = tftool(
         "export", "odom", "base", run, "-o", tmp_path / "a.tum", "--every", str(1.39 / 2 / BLOCK)
     )

@@ -153,7 +153,7 @@ def test_one_wild_stamp_makes_no_hundred_million_answers(tftool, tmp_path):
     result = tftool("echo", "map", "base", write_mcap(tmp_path / "wild.mcap", sent))
 
     assert result.status == 2
-    assert "397,000,001 moments" in result.err
+    assert "397,000,001 times" in result.err
 
 
 @pytest.mark.parametrize("command", [["echo"], ["explain"], ["plot"], ["export", "-o", "a.tum"]])

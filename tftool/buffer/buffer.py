@@ -899,8 +899,6 @@ def lend(buffer: Buffer, child: str, other: Buffer, until: Stamp) -> bool:
         Whether the samples could be shared. If not, nothing was changed; `Buffer.samples` returns a
         copy instead.
     """
-    from tftool.buffer.history import History
-
     frame = buffer._tree.frames[buffer._tree.numbers[child]]
     link = frame.link
     if not isinstance(link, History) or link.parent < 0 or frame.authority is None:

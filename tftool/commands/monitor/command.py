@@ -38,6 +38,7 @@ from tftool.opener import named
 from tftool.recordings.contract import Stamps
 from tftool.recordings.timeline import Due, Timeline
 from tftool.screens.terminal.panel_text import title_bar
+from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.text_style import Look
 from tftool.world.clock import Phase, pace_of
 from tftool.world.supervisor import beside
@@ -209,7 +210,6 @@ async def watch_session(
 
 async def _shown(world: World, report: TrafficReport, life: Coroutine[Any, Any, None]) -> None:
     """Show the report on a full screen until q is pressed or the coroutine `life` ends."""
-    from tftool.screens.terminal.screen_options import Setting, setting_from
     from tftool.screens.terminal.traffic_app import TrafficWatch
     from tftool.screens.terminal.world_app import show
 

@@ -19,6 +19,7 @@ from tftool.world.link.graph import NODE, Role, hosts
 from tftool.world.link.link_options import REACHES, Options, domain_here
 from tftool.world.link.reach import Reach
 from tftool.world.link.session import Link
+from tftool.world.link.topic_bridges import ClockFollower, is_clock_shown
 from tftool.world.supervisor import beside, live
 from tftool.world.world import World
 
@@ -122,11 +123,9 @@ class Session:
         clock = self.world.clock
         if self.head_start:
             await clock.sleep_until(clock.epoch + self.head_start, Phase.WATCH)
-        if isinstance(clock, FollowedClock) and self.link is not None:
-            from tftool.world.link.topic_bridges import is_clock_shown
-
-            if is_clock_shown(self.link.graph):
-                await clock.told_once(TOLD)
+        link = self.link
+        if isinstance(clock, FollowedClock) and link is not None and is_clock_shown(link.graph):
+            await clock.told_once(TOLD)
         return await work
 
 
@@ -206,8 +205,6 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     if link is None:
         yield
         return
-    from tftool.world.link.topic_bridges import ClockFollower
-
     follower: ClockFollower | None = None
     try:
         link.attach(world, role=Role(role))
