@@ -100,7 +100,7 @@ class Questions:
         self._environment = {**os.environ, "TFTOOL_SESSION_DIR": sessions, "NO_COLOR": "1"}
 
     def info(self, source: str = "", part: str = "", skip: int = 0) -> str:
-        """Say what a file holds: topics, edges with rates and publishers, damage; joints of a URDF.
+        """Return a file's contents: topics, edges with rates and publishers, damage, URDF joints.
 
         Args:
             source: A recording or robot description below the root; empty to list the files there.
@@ -113,7 +113,7 @@ class Questions:
         return fitted(names[skip:])
 
     def tree(self, source: str, at: str = "", part: str = "", skip: int = 0) -> str:
-        """Say which frame hangs from which, with rates, ages and transforms.
+        """Return the tree of frames: each frame's parent, with rates, ages and transforms.
 
         Args:
             source: A recording, robot description or launch file below the root.
@@ -124,7 +124,7 @@ class Questions:
         return self._asked("tree", source, *_option("at", at), part=part, skip=skip)
 
     def echo(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
-        """Say where source_frame is in target_frame: translation, quaternion, roll, pitch, yaw.
+        """Return source_frame's pose in target_frame: translation, quaternion, roll, pitch, yaw.
 
         Args:
             target_frame: The frame in which the answer is given.
@@ -136,7 +136,7 @@ class Questions:
         return self._asked("echo", source, *when, frames=(target_frame, source_frame))
 
     def explain(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
-        """Say why a lookup answers or refuses, link by link, and what would help.
+        """Return why a lookup succeeds or fails, link by link, and what would help.
 
         Args:
             target_frame: The frame in which the answer would be given.
@@ -150,7 +150,7 @@ class Questions:
     def doctor(
         self, source: str, check: str = "", urdf: str = "", part: str = "", skip: int = 0
     ) -> str:
-        """Say what is wrong with the frames of a recording: cause, evidence, consequence, fix.
+        """Return what is wrong with the frames of a recording: cause, evidence, consequence, fix.
 
         Args:
             source: A recording below the root.
@@ -173,7 +173,7 @@ class Questions:
         end: str = "",
         only: str = "",
     ) -> str:
-        """Give position, rotation, distance and speed of source_frame in target_frame over time.
+        """Return position, rotation, distance and speed of source_frame in target_frame over time.
 
         Each curve has its minimum, maximum and last value, and some of its points.
 

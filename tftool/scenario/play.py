@@ -55,7 +55,7 @@ class Play:
         *,
         stand_ins: Mapping[str, StandIn] = NO_STAND_INS,
     ) -> None:
-        """Build the world; no node runs before `live`.
+        """Create the world of a run; no node runs before `live`.
 
         Args:
             scenario: Scenario to play.
@@ -131,7 +131,7 @@ def build(
     clock: Clock,
     arguments: Mapping[str, str] = NO_ARGUMENTS,
 ) -> Play:
-    """Build the run of a scenario.
+    """Create the run of a scenario, with its world and nodes.
 
     Args:
         scenario: Scenario to play.

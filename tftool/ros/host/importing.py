@@ -350,7 +350,7 @@ def _environment() -> Iterator[None]:
 
 @contextmanager
 def own_arguments() -> Iterator[None]:
-    """Give every program its own `sys.argv` inside this block."""
+    """Let every program have a separate `sys.argv` inside this block."""
     argv = sys.argv
     if not isinstance(argv, _Arguments):
         sys.argv = _Arguments(argv)  # type: ignore[assignment]

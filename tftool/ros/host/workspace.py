@@ -214,7 +214,7 @@ _current: list[Workspace] = []
 
 
 def use(searched: Workspace) -> None:
-    """Make a workspace the one in which packages are searched from now on."""
+    """Search packages in a workspace from now on."""
     _current[:] = [searched]
 
 

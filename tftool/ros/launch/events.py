@@ -298,7 +298,7 @@ class EventQueue:
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Hold events back inside this block, and handle them after it.
+        """Queue events inside this block, and handle them at its end.
 
         Raises:
             UsageError: If the events cause further events without end.

@@ -71,7 +71,7 @@ class LaunchedService(LaunchService):
             raise AssertionError("the launch has failed: its lines above say why")
 
     def _is_idle(self) -> bool:
-        """Whether the launch has ended; examples of launch_pytest read this."""
+        """Whether the launch has ended; the examples of launch_pytest read this attribute."""
         return self.event_loop is None
 
 

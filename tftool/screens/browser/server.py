@@ -231,7 +231,7 @@ class PageServer:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Tell every page that the server ends, and close."""
+        """Notify every page that the server ends, and close the server."""
         if self._writing is not None:
             self._writing.set()
         if self._server is not None:

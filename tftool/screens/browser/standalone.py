@@ -74,7 +74,7 @@ class StandalonePage:
 def standalone_page(
     data: StandaloneData, *, most: int = MOST_BYTES, progress: Progress | None = None
 ) -> StandalonePage:
-    """Build the page's file.
+    """Return a page of frames as one HTML file that needs no server.
 
     Args:
         data: Data for the page.

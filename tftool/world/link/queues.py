@@ -36,7 +36,7 @@ class Inbox:
         self._closed = False
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Make the calls in an event loop from now on; the queued ones first."""
+        """Make the calls in an event loop from now on, the queued ones first."""
         with self._lock:
             self._loop = loop
             self._scheduled = bool(self._waiting)
@@ -88,7 +88,7 @@ class Inbox:
             loop.call_soon_threadsafe(self._drain)
 
     def _drain(self) -> None:
-        """Make all queued calls, some at a time, so that a flood does not block the event loop.
+        """Make the queued calls, a limited number at a time, so that the event loop is not blocked.
 
         An exception of a callback is reported to the loop; the calls after it are made all the
         same.

@@ -57,7 +57,7 @@ class WireRequest(Protocol):
         """Send the response; called once."""
 
     def refuse(self, reason: str) -> None:
-        """Tell the client that there will be no response, and why."""
+        """Send the client an error with the reason, instead of a response."""
 
 
 class WireClient(Protocol):
@@ -119,7 +119,7 @@ class Middleware:
         self.watcher: Watcher | None = None
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
+        """Call callbacks in the event loop `loop`, and report changes of the graph to `watcher`."""
         raise NotImplementedError
 
     def tell_frames(self, names: Sequence[str]) -> None:
@@ -199,6 +199,6 @@ class Middleware:
             self.watcher.refuse(name, refusal)
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Have the watcher log a warning about other processes, once for each `what`."""
+        """Log a warning about other processes through the watcher, once for each `what`."""
         if self.watcher is not None:
             self.watcher.say_once(what, sentence)

@@ -125,7 +125,7 @@ class DdsMiddleware(Middleware):
         return self._participant.inbox.lost + self._participant.oversized
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
+        """Call callbacks in the event loop `loop`, and report changes of the graph to `watcher`."""
         self.watcher = watcher
         # After the watcher is set, because queued calls are reported to it.
         self._participant.inbox.start(loop)

@@ -92,7 +92,7 @@ class _Direct(connect):
     """Connection to exactly the given address: redirects are not followed."""
 
     def process_redirect(self, exc: Exception) -> Exception:
-        """Refuse a redirect, by returning the exception."""
+        """Reject a redirect by returning the exception."""
         return exc
 
 

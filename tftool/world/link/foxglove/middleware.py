@@ -63,7 +63,7 @@ class FoxgloveMiddleware(Middleware):
         return self._inbox.lost
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
+        """Call callbacks in the event loop `loop`, and report changes of the graph to `watcher`."""
         self.watcher = watcher
         self._inbox.start(loop)
         for one in self.graph.entities():

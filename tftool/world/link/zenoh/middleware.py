@@ -140,7 +140,7 @@ class ZenohMiddleware(Middleware):
         return self.wire.lost
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Make callbacks on `loop` from now on, and report changes of the graph to `watcher`."""
+        """Call callbacks in the event loop `loop`, and report changes of the graph to `watcher`."""
         self.wire.start(loop)
         self.watcher = watcher
         if watcher is not None:
@@ -334,7 +334,7 @@ class ZenohRequest:
         self._query.answer(payload, beside.encode())
 
     def refuse(self, reason: str) -> None:
-        """Tell the client that there will be no response, and why."""
+        """Send the client an error with the reason, instead of a response."""
         self._query.refuse(reason)
 
 

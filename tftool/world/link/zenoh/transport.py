@@ -41,7 +41,7 @@ class Query:
         self._query.drop()
 
     def refuse(self, reason: str) -> None:
-        """Tell the client that there will be no response, and why."""
+        """Send the client an error with the reason, instead of a response."""
         with contextlib.suppress(Exception):
             self._query.reply_err(reason.encode())
         self._query.drop()
@@ -106,7 +106,7 @@ class Wire:
         return self._inbox.lost
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Make the callbacks in an event loop from now on."""
+        """Call callbacks in an event loop from now on."""
         self._inbox.start(loop)
 
     def close(self) -> None:
