@@ -108,9 +108,9 @@ if TYPE_CHECKING:
     from tftool.doctor.findings import Finding
     from tftool.doctor.judge import diagnose
     from tftool.drawing.figure import plot
+    from tftool.frames.calibration.body_motion import CalibrationRefused
     from tftool.frames.calibration.calibrate import Calibration, calibrate
     from tftool.frames.calibration.clock_offset import ClockOffset, clock_offset
-    from tftool.frames.calibration.motion import CalibrationRefused
     from tftool.frames.differences import Differences, diff
     from tftool.frames.export.export import Exported, export
     from tftool.frames.frames import Frames
@@ -221,7 +221,7 @@ _HOMES = {
     "tftool.world.world": ("World",),
     "tftool.frames.calibration.calibrate": ("Calibration", "calibrate"),
     "tftool.frames.calibration.clock_offset": ("ClockOffset", "clock_offset"),
-    "tftool.frames.calibration.motion": ("CalibrationRefused",),
+    "tftool.frames.calibration.body_motion": ("CalibrationRefused",),
     "tftool.frames.frames": ("Frames",),
     "tftool.frames.differences": ("Differences", "diff"),
     "tftool.doctor.judge": ("diagnose",),

@@ -16,7 +16,7 @@ import numpy as np
 
 import tftool
 from tests.frames.motions import errors, path, world
-from tftool.frames.calibration.motion import BodyMotion
+from tftool.frames.calibration.body_motion import BodyMotion
 from tftool.geometry import rigid_arrays
 from tftool.geometry.conversions import quaternion_from_matrix
 

@@ -10,7 +10,7 @@ import numpy as np
 from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.batch.transform_array import TransformArray
-from tftool.frames.calibration.motion import Floats, difference, poses_of
+from tftool.frames.calibration.body_motion import Floats, difference, poses_of
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
 from tftool.geometry.rigid_arrays import unit
 from tftool.recordings.contract import Edge

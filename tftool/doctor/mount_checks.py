@@ -9,7 +9,7 @@ from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.measured_mounts import MeasuredMount
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.wording import dated
-from tftool.frames.calibration.motion import ANGLES, AXES, Floats, difference
+from tftool.frames.calibration.body_motion import ANGLES, AXES, Floats, difference
 
 check = checks_of(Area.VALUES)
 

@@ -28,9 +28,7 @@ from tftool.commands.shared.printer import line_width, write_file, write_json
 from tftool.commands.shared.progress_bars import Bar
 from tftool.drawing import calibration_view
 from tftool.drawing import calibration_view as view
-from tftool.frames.calibration.calibrate import Calibration, calibrate
-from tftool.frames.calibration.clock_offset import clock_offset, path_of
-from tftool.frames.calibration.motion import (
+from tftool.frames.calibration.body_motion import (
     ANGLES,
     AXES,
     BodyMotion,
@@ -39,6 +37,8 @@ from tftool.frames.calibration.motion import (
     difference,
     poses_of,
 )
+from tftool.frames.calibration.calibrate import Calibration, calibrate
+from tftool.frames.calibration.clock_offset import clock_offset, path_of
 from tftool.frames.frames import Frames
 from tftool.frames.pair_samples import links_between, sample
 from tftool.geometry import rigid_arrays as batch

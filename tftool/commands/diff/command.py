@@ -16,8 +16,8 @@ from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import difference_view as view
 from tftool.drawing import figure
 from tftool.drawing.calibration_view import clock_object
+from tftool.frames.calibration.body_motion import CalibrationRefused
 from tftool.frames.calibration.clock_offset import clock_offset
-from tftool.frames.calibration.motion import CalibrationRefused
 from tftool.frames.differences import Allowance, Side, compare, side_of
 from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.pair_samples import only_chain, sample

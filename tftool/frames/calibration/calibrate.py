@@ -9,18 +9,18 @@ import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
 from tftool.buffer.batch.transform_array import TransformArray
-from tftool.frames.calibration.clock_offset import (
-    LEAST_OVERLAP,
-    ClockOffset,
-    offset_of,
-    path_of,
-)
-from tftool.frames.calibration.motion import (
+from tftool.frames.calibration.body_motion import (
     ANGLES,
     AXES,
     BodyMotion,
     CalibrationRefused,
     Floats,
+)
+from tftool.frames.calibration.clock_offset import (
+    LEAST_OVERLAP,
+    ClockOffset,
+    offset_of,
+    path_of,
 )
 from tftool.frames.calibration.mount_fit import (
     DRIFT,

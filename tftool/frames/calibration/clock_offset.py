@@ -13,7 +13,7 @@ import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
 from tftool.buffer.batch.transform_array import TransformArray
-from tftool.frames.calibration.motion import BodyMotion, CalibrationRefused, Floats
+from tftool.frames.calibration.body_motion import BodyMotion, CalibrationRefused, Floats
 from tftool.frames.frames import Frames
 from tftool.frames.pair_samples import only_chain, sample
 from tftool.geometry import rigid_arrays as batch

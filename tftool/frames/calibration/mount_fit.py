@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from tftool.frames.calibration.motion import BodyMotion, Floats
+from tftool.frames.calibration.body_motion import BodyMotion, Floats
 from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.conversions import quaternion_from_matrix
 
