@@ -155,10 +155,14 @@ def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, fl
     x, y, z, w = quaternions.unit(_quad(quaternion))
     if w < 0.0:
         x, y, z, w = -x, -y, -z, -w
-    sine = math.sqrt(x * x + y * y + z * z)
-    if sine == 0.0:
+    largest = max(abs(x), abs(y), abs(z))
+    if largest == 0.0:
         return Vector3(1.0, 0.0, 0.0), 0.0
-    return Vector3(x / sine, y / sine, z / sine), 2.0 * math.atan2(sine, w)
+    # Divided first: the squares of a tiny turn would vanish or lose most of their digits.
+    x, y, z = x / largest, y / largest, z / largest
+    length = math.hypot(x, y, z)
+    angle = 2.0 * math.atan2(length * largest, w)
+    return Vector3(x / length, y / length, z / length), angle
 
 
 def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternion:
