@@ -129,6 +129,27 @@ def test_a_bag_that_was_not_closed_is_read_whole(tmp_path):
         assert recording.damage == ("The recording was not closed.",)
 
 
+def test_a_chunk_that_rosbag_had_open_is_read_to_the_end_of_the_file(tmp_path):
+    path = write_rosbag1(tmp_path / "a.bag", SENT)
+    raw = bytearray(path.read_bytes())
+    place = raw.index(b"index_pos=") + len(b"index_pos=")
+    raw[place : place + 8] = bytes(8)
+    start = raw.index(b"op=\x05") - 8
+    data = start + 8 + struct.unpack_from("<I", raw, start)[0]
+    raw = raw[: data + struct.unpack_from("<I", raw, data - 4)[0]]
+    path.write_bytes(raw)
+    with open_recording(path) as recording:
+        whole = len(recording.transforms)
+    # rosbag writes a chunk's two sizes, and the indexes after it, when it closes the chunk.
+    size = raw.index(b"size=", start) + len(b"size=")
+    raw[size : size + 4] = raw[data - 4 : data] = bytes(4)
+    path.write_bytes(raw)
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) == whole > 0
+        assert recording.damage == ("The recording was not closed.",)
+
+
 @pytest.fixture
 def locked(monkeypatch):
     """Names of files that the system refuses to open; root may open every other."""

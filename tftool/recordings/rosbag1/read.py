@@ -205,12 +205,16 @@ class Rosbag1(ChunkedReader):
         """Parse a chunk's header, and set the chunk's fields."""
         if header.get(b"op") != CHUNK:
             raise InputError(f"no chunk is at byte {chunk.position}")
-        chunk.cut = data + length > self.size
+        (chunk.size,) = U32.unpack(header[b"size"])
+        chunk.method = header[b"compression"].decode("ascii", "replace")
+        is_open = not length and not chunk.size and not self._infos
+        if is_open and chunk.method == "none":
+            # rosbag writes the sizes when it closes a chunk: this one goes on to the file's end.
+            length = chunk.size = self.size - data
+        chunk.cut = is_open or data + length > self.size
         chunk.place, chunk.packed = data, min(length, self.size - data)
         chunk.behind = data + chunk.packed
         chunk.length = chunk.behind - chunk.position
-        chunk.method = header[b"compression"].decode("ascii", "replace")
-        (chunk.size,) = U32.unpack(header[b"size"])
 
     def _read_indexes(self, chunk: Chunk) -> None:
         """Read the index after a chunk, and use it if the bag's own index agrees."""
