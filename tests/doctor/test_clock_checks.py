@@ -394,6 +394,18 @@ def test_a_localiser_on_the_recorders_clock_is_off_the_others_and_no_more(hours)
     assert asked.remedies[0].kind == "clock"
 
 
+def test_a_localiser_beside_a_recorded_one_is_told_as_two_sources():
+    made = shifted(168.0)
+    made.moving("map", "odom", hz=20, pose=stands)
+    rows = made.records["map", "odom", False]
+    live = [(stamp + seconds(168 * 3600), pose, number) for stamp, pose, number in rows]
+    made.records["map", "odom", False] = [*live, *rows[::2]]
+    finding = found(made, "clock-offset")
+    assert "odom in map has two sources, 80 of its samples" in finding.evidence[0]
+    assert finding.fixes[-1].command == "tftool edit RECORDING -o CLEAN --drop map:odom"
+    assert ids(made) == ["clock-offset"]
+
+
 def test_a_delay_that_varies_is_a_queue_and_no_clock():
     made = robot(odometry=False, scans=False)
     for tick in range(160):

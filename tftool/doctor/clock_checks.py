@@ -1,13 +1,14 @@
 """Checks of stamps: two clocks, time that goes back, stamps that stand still."""
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
+from tftool.doctor.missing_joins import quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, unsorted_share
@@ -26,6 +27,8 @@ _SYNCHRONISE = (
 _PLAY_AGAIN = Fix(
     "a recording was probably played beside nodes that run on the present time: {play_again}"
 )
+_BOTH = 0.05
+"""Share of an edge's samples from which on they come from a second source."""
 _PLAYED = seconds(3600)
 """From what offset on old data is likelier than two clocks."""
 _COMPARE = (
@@ -335,7 +338,7 @@ def _late(model: Model, stream: "Track | Heard", name: str, severity: Severity) 
     "{samples:g} messages), none ahead and each later than its own period, form groups "
     "more than {apart:g} s apart",
     headline="{topic} {found}",
-    detail="{groups}",
+    detail="{groups}{sources}",
     consequence="{so}",
     causes=(
         "robot base and single-board computer",
@@ -381,6 +384,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         told = ""
         if model.shift is not None and len(heards) < len(streams):
             told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
+        twice, sources = _on_both_clocks(model, streams)
         yield Hit(
             edges=tuple(one.edge for one in streams if isinstance(one, Track)),
             topics=tuple(dict.fromkeys(heard.topic for heard in heards)),
@@ -391,6 +395,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "topic": several(names),
                 "ahead": ahead,
                 "groups": groups,
+                "sources": sources,
                 "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} off {other}"
                 + told,
                 "so": "no lookup across the two clocks can succeed"
@@ -398,11 +403,31 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 else "each lookup at these stamps asks for what is not there"
                 + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
             },
-            fixes=cures_of_offset(ahead),
+            fixes=(*cures_of_offset(ahead), *twice),
             alone=True,
         )
     if not alike:
         yield from _groups_apart(model, limits)
+
+
+def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tuple[Fix, ...], str]:
+    """Return remedies and evidence for edges that are sent on the others' clock, too."""
+    fixes, told = [], ""
+    for track in streams:
+        near = np.abs(4 * track.latency) < abs(0 if model.shift is None else model.shift.by)
+        if isinstance(track, Track) and np.mean(near) > _BOTH:
+            told += (
+                f"; {track.name} has two sources, {np.count_nonzero(near):,} of its samples are "
+                "on the clock of the others"
+            )
+            drop = quoted(f"{track.parent}:{track.child}")
+            fixes.append(
+                Fix(
+                    f"stop one of the two; from a recording that is played, take {track.name} out:",
+                    f"tftool edit RECORDING -o CLEAN --drop {drop}",
+                )
+            )
+    return tuple(fixes), told
 
 
 def cures_of_offset(ahead: Duration) -> tuple[Fix, ...]:
@@ -440,6 +465,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
                 "topic": groups[-1][0][1],
                 "ahead": groups[-1][0][0] - groups[0][0][0],
                 "groups": lines,
+                "sources": "",
                 "found": f"arrives {span(groups[-1][0][0] - groups[0][0][0])} later than the "
                 "others, steadily: a delay in its driver, or another clock",
                 "so": "a delay is waited for; a clock that is off stays off",

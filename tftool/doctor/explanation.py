@@ -223,16 +223,6 @@ def refusing_link(known: TraceResult) -> Reason:
         return _two_clocks(link, track, trace)
     if (apart := _on_another_clock(trace.model, known.way)) is not None:
         return apart
-    other = [one for one in known.way if one in trace.model.unshifted]
-    if other and any(not one.static and one not in other for one in known.way):
-        (told, *_) = (one.name for one in other)
-        off = span(abs(other[0].median_latency))
-        return Reason(
-            Cause.CLOCK_OFFSET,
-            (f"{told} is {off} off the clock of the other links",),
-            (Remedy("clock", "synchronise the clocks; of an old recording, play its clock too"),),
-            ("a timeout, a larger cache: the two clocks stay apart",),
-        )
     if len(track.by_stamp) == 1:
         at = int(track.sorted_stamps[0])
         return Reason(
