@@ -53,7 +53,7 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
 
     Raises:
         UsageError: If there is no such command.
-        TftoolError: As the command raises it.
+        TftoolError: If the command raises one.
     """
     name, *rest = words
     if name not in COMMANDS:

@@ -251,7 +251,7 @@ def _workspace_here() -> "Workspace":
 
 
 def _packages(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the packages below this folder; after a package, its executables."""
+    """Yield the packages below this folder; once a package is typed, yield its executables."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -260,7 +260,7 @@ def _packages(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _launches(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the packages below this folder; after a package, its launch files."""
+    """Yield the packages below this folder; once a package is typed, yield its launch files."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -270,7 +270,7 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the commands of ROS 2's command line; after a command, its verbs."""
+    """Yield the commands of `ros2`; once a command is typed, yield the command's verbs."""
     from tftool.ros.host.ros2_words import verbs
 
     if len(before) < 2:

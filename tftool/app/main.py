@@ -54,7 +54,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
     Args:
         argv: Words after `tftool`; None for this process's arguments.
-        providers: Sources of clocks and links; None for the real ones.
+        providers: Functions that create clocks and links; None for real clocks and links.
 
     Returns:
         An `ExitStatus`, or the exit status of the program that `tftool run` ran.
@@ -169,7 +169,7 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
 
 
 def _own_options(words: list[str]) -> list[str] | None:
-    """Process the options of `tftool` itself; return a command's words, or None without one.
+    """Process the options of `tftool` itself; return the words of a command, if one is named.
 
     Raises:
         UsageError: If there is no such option.

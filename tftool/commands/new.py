@@ -180,7 +180,10 @@ def _files_of_node(package: str, node: str) -> dict[str, str]:
 
 
 def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str, str]:
-    """Return the text of every package's files and the files `more`; setup.py installs `nodes`."""
+    """Return the text of a package's files: those that every package has, and the files `more`.
+
+    setup.py installs the nodes `nodes`.
+    """
     source = shipped("examples", TEMPLATE) / TEMPLATE
     every = ("package.xml", "setup.cfg", "setup.py", f"resource/{TEMPLATE}")
     files = {}

@@ -164,7 +164,7 @@ class World:
         return topic
 
     def name_topic(self, name: str, kind: type[Any]) -> None:
-        """List a topic that only other processes use, until this process uses it too."""
+        """Add a topic of other processes, which is marked as theirs until this process uses it."""
         self._topic(name, kind).is_far = True
 
     def _topic(self, name: str, kind: type[Any]) -> Topic[Any]:
@@ -297,8 +297,8 @@ class World:
 
         Args:
             name: Name of the service.
-            handler: Function that responds to a request, at once or as a coroutine; None as a
-                response stands for one of default values.
+            handler: Function that responds to a request, at once or as a coroutine; None means a
+                response of default values.
             kind: ROS class of the service; None for one that stays inside this process.
             node: Name of the server's node.
             is_remote: Whether the server is in another process.
@@ -306,7 +306,7 @@ class World:
                 the first one responds, and the next one after the first has left.
 
         Raises:
-            TftoolError: If a node of this process serves that name already, and may not share it.
+            TftoolError: If a node of this process serves that name already and `shares` is false.
         """
         return self._services.add(name, Offer(handler, kind, node, is_remote), shares=shares)
 
@@ -368,7 +368,7 @@ class World:
         The arguments are those of `serve`.
 
         Raises:
-            TftoolError: If a node of this process serves that action already, and may not share it.
+            TftoolError: If a node of this process serves that action already and `shares` is false.
         """
         return self._actions.add(name, Offer(accept, kind, node, is_remote), shares=shares)
 
@@ -381,7 +381,8 @@ class World:
     ) -> Callable[[], None]:
         """Call `callback` with each goal of an action, before the server receives it.
 
-        Returns a function that ends this. Exceptions of the callback are reported as `watch` does.
+        Returns a function that ends this. Exceptions of the callback are reported under the name
+        `owner`.
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
@@ -619,7 +620,7 @@ class World:
         self._supervisor.fail(node, error)
 
     def report(self, owner: str, failure: Exception) -> None:
-        """Handle the exception of a listener: a node's is its failure, others are logged.
+        """Handle the exception of a listener: it is a node's failure, or is logged otherwise.
 
         Args:
             owner: Name of the listener's owner.
@@ -662,7 +663,7 @@ class World:
 
 
 def _nothing() -> None:
-    """Do nothing, as the function that removes an endpoint that does not exist."""
+    """Do nothing, in place of a function that removes an endpoint."""
 
 
 def _require(asked: Any, part: str, kind: Any, what: str) -> None:

@@ -62,7 +62,7 @@ Curve = tuple[str, Floats, Floats]
 
 
 def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
-    """Return the HTML page: result, trajectories before and after the fit, residuals, axes."""
+    """Return the HTML page about the motions `a` and `b`: result, trajectories, residuals, axes."""
     parts = [f"<pre>{escape(calibration_view.lines(found))}</pre>"]
     first, second = BodyMotion.of(a), BodyMotion.of(b)
     if found.inverted[1]:
@@ -80,7 +80,10 @@ def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
 
 
 def _aligned(found: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
-    """Return drawings of the aligned trajectories A · X and Y · B, whose difference is minimal."""
+    """Return drawings of the motions A and B, and of A · X and Y · B, which are aligned.
+
+    X is the mount; Y is the pose of the fixed frame of B in the fixed frame of A.
+    """
     assert found.mount is not None
     assert found.fixed_mount is not None
     assert found.clock_offset is not None

@@ -32,8 +32,8 @@ class PublishedMount:
         mount: Pose of the mounted frame in `parent`; None if unknown.
         name: Name of the mounted frame.
         parent: Moving frame of the first motion, on which the sensor is mounted.
-        robot: Robot of the description; None without one.
-        buffer: Frames in which the links between the two frames are looked up.
+        robot: Robot of the description; None without a description.
+        buffer: Buffer that has the links between `parent` and the mounted frame.
     """
 
     mount: Transform | None
@@ -46,7 +46,7 @@ class PublishedMount:
     def of(
         cls, robot: Robot | None, frames: Frames, paths: list[TransformArray], mounted: str | None
     ) -> "PublishedMount":
-        """Find the mount in a description, or without one in tf.
+        """Find the mount in the robot's description, or in tf if `robot` is None.
 
         Raises:
             LookupException: If `mounted` is not connected with the first moving frame.
@@ -128,7 +128,7 @@ def write_mount(
 def joint_to_change(output: Path, published: PublishedMount, name: str | None) -> RobotJoint | None:
     """Return the joint of a name, or by default the first fixed joint from the parent to the mount.
 
-    Return None if there is none, and the output is not a description.
+    Return None if there is no such joint and the output is not a description.
 
     Raises:
         UsageError: If the description has no such joint, or the joint is not between the frames.

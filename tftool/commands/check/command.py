@@ -56,7 +56,7 @@ def _unfolded(word: str) -> list[str]:
 def _judge(
     word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
-    """Judge a scenario and print the outcome; return the report, and whether it was readable."""
+    """Judge a scenario, print the outcome; return the report, and whether the file was readable."""
     try:
         scenario = scenario_named(word)
     except InputError as error:
@@ -146,7 +146,7 @@ class _Kept:
         self._names: set[str] = set()
 
     def place(self, name: str) -> Path:
-        """Return the path for a scenario's recording: its name, with a number if already used."""
+        """Return the path for a scenario's recording, with a number if its name is already used."""
         plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
         number = 1
         while free in self._names:

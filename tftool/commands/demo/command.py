@@ -56,7 +56,7 @@ def _show(
         connection: Connection of the command.
         options: Options of the command.
         chosen: Scenario to show.
-        wanted: Name of the scenario; None to show the running session, if there is one.
+        wanted: Name of the scenario; None to show the running session, if one is running.
     """
     found = join_or_host(connection, wanted, needs_turtles=True)
     if found.session is None:
@@ -77,7 +77,7 @@ def _show(
 
 
 def _end(options: DemoOptions, world: World) -> Stamp | None:
-    """Return the time at which the demo ends, counted from now: the screen takes time to start."""
+    """Return the end of the demo, counted from now; called when the screen has started."""
     return None if options.lasting is None else world.clock.now() + options.lasting
 
 
@@ -88,7 +88,7 @@ def _setting(options: DemoOptions, title: str) -> Setting:
 def _show_hosted(
     connection: Connection, options: DemoOptions, chosen: Scenario, found: JoinDecision
 ) -> str | None:
-    """Show a scenario in a new world that others can join; return the user's next choice."""
+    """Show a scenario in a new world that others can join; return the scenario to show next."""
     around: Watch = nullcontext
     if options.recording is not None:
         around = partial(recorded, path=options.recording)

@@ -57,7 +57,7 @@ def _refuse_contradictions(options: DiffOptions) -> None:
     """Raise an error for contradicting options, and for an output that cannot be written.
 
     Raises:
-        UsageError: If two were given.
+        UsageError: If options contradict each other, or the output cannot be written.
     """
     output, measures = options.output, options.ape or options.rpe
     is_chosen = (options.fit, options.match, options.per) != ("none", "nearest", "1")
@@ -167,7 +167,9 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
 
 
 def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
-    """Return the frames to compare in A and in B, from --pair; None for the only chain.
+    """Return the frames to compare in the first and the second source, from --pair.
+
+    Without --pair both are None, which means the only chain of each source.
 
     Raises:
         UsageError: If --pair is given more than twice, or a value is not TARGET:SOURCE.

@@ -47,7 +47,7 @@ def _read_baseline(path: Path) -> Baseline:
     """Read a baseline: the output of an earlier `tftool doctor --json`.
 
     Raises:
-        InputError: If the file cannot be read, or is not such a report.
+        InputError: If the file cannot be read, or is not the output of the doctor.
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -67,9 +67,9 @@ def _read_baseline(path: Path) -> Baseline:
 
 
 def _marked(baseline: Baseline, source: str, diagnosis: Diagnosis | str) -> Diagnosis | str:
-    """Mark the findings that the baseline has for this source.
+    """Mark the findings of a source that the baseline contains.
 
-    If the baseline does not have the source, findings of any of its sources count.
+    If the baseline does not contain the source, the findings of all sources in it count.
     """
     if isinstance(diagnosis, str):
         return diagnosis
@@ -196,7 +196,7 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
     """Raise an error for contradicting options.
 
     Raises:
-        UsageError: If two were given.
+        UsageError: If two options contradict each other.
     """
     asked = {
         "--junit": options.junit,
@@ -291,7 +291,7 @@ def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination
 
 
 def _print(judged: Judged, options: DoctorOptions) -> None:
-    """Print every diagnosis; in text form, followed by a comparison if there are several."""
+    """Print every diagnosis; as text, also a comparison if there are several sources."""
     diagnoses = [found for _, found in judged if not isinstance(found, str)]
     if options.for_programs:
         objects = [view.as_object(one) for one in diagnoses]

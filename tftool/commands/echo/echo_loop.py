@@ -89,7 +89,7 @@ class LivePrinter:
 
 
 class Echo:
-    """Lookups of one transform in one world until enough were printed."""
+    """Repeated lookups of one transform in a world, until enough transforms are printed."""
 
     def __init__(
         self,
@@ -123,7 +123,7 @@ class Echo:
         self.waiter = PairWait(world, pair, patience=patience)
 
     async def run(self) -> None:
-        """Print transforms until there are enough.
+        """Print transforms until the requested number is printed.
 
         Raises:
             TransformException: If the first transform is not available in time, or never will be.

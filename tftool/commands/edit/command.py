@@ -49,7 +49,7 @@ def _tell(report: EditReport, output: Path, *, dry_run: bool, for_programs: bool
 def _moments(
     names: list[str], start: At | None, end: At | None, *, by_record_time: bool
 ) -> tuple[int | None, int | None]:
-    """Return the values of --from and --to as stamps; None where not given."""
+    """Return the values of --from and --to as stamps; None for an option that was not given."""
     if start is None and end is None:
         if by_record_time:
             raise UsageError("--record-time goes with --from or --to.")

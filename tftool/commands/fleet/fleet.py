@@ -110,7 +110,7 @@ class FleetTask:
     judged: ClassVar[Sequence[str]]
 
     def rows(self, source: str, place: str) -> list[Row]:
-        """Return the rows of one recording; also for an unreadable one, without raising.
+        """Return the rows of one recording; an unreadable recording gives one row, not an error.
 
         Args:
             source: Name of the recording in the rows.
@@ -332,7 +332,7 @@ def _worked(
     """Yield each recording with its rows as soon as they are known.
 
     Raises:
-        BrokenExecutor: If a process was killed, after the results of the others.
+        BrokenExecutor: If a process was killed; raised after the results of other processes.
     """
     queue = iter(sources)
     pending: dict[Future[list[Row]], str] = {}

@@ -36,8 +36,8 @@ SUFFIXES = (".jsonl", ".csv", ".parquet")
 class RowFile:
     """File of rows; the rows of one recording are written together.
 
-    Parquet files cannot grow, so rows are collected as JSON lines in a file beside it, `NAME.part`.
-    This file is converted when the output is closed, and continued after a crash.
+    Parquet files cannot grow, so their rows are collected as JSON lines in a second file,
+    `NAME.part`. That file is converted when the output is closed, and continued after a crash.
 
     Attributes:
         path: Path of the file.
@@ -59,7 +59,7 @@ class RowFile:
         Args:
             path: Path of the file, whose suffix selects the format: .jsonl, .csv or .parquet.
             columns: Names and types of the columns.
-            judged: Names of the columns to load of existing rows; see `earlier`.
+            judged: Names of the columns of existing rows that `earlier` returns.
             resume: Whether to keep existing rows and append to them.
 
         Raises:
@@ -98,14 +98,14 @@ class RowFile:
         return bool(self.earlier(source))
 
     def earlier(self, source: str) -> list[Row]:
-        """Return a recording's rows of when the file was opened, in the `judged` columns."""
+        """Return the rows that a recording had when the file was opened: the `judged` columns."""
         written = _cell(source) if self._suffix == ".csv" else source
         return self._done.get(str(written)) or (
             self._done.get(_utf8(source), []) if self._is_parquet else []
         )
 
     def _held(self) -> Iterator[Row]:
-        """Yield the existing rows, in the `judged` columns or more; cut off a partial last line."""
+        """Yield at least the `judged` columns of existing rows; cut off an incomplete last line."""
         if self._is_parquet and self.path.exists() and self.path.stat().st_size:
             arrow = _arrow()
             try:

@@ -114,7 +114,7 @@ def workers_of(count: int, scheduler: str) -> Workers:
     """Return the executors that the options --jobs and --scheduler select.
 
     Raises:
-        UsageError: If both are given.
+        UsageError: If both options are given.
     """
     if not scheduler:
         return (

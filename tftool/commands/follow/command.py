@@ -23,13 +23,13 @@ SETTLE = seconds(0.5)
 
 
 def _tell(record: LogRecord) -> None:
-    """Print the follower's log and other nodes' errors; the session prints those of the link."""
+    """Print the follower's log and other nodes' errors; the session prints the link's errors."""
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)
 
 
 async def _last(session: Session, follower: str, run_for: Duration | None) -> None:
-    """Run the world for a duration; in a joined session, broadcast the follower if no node does."""
+    """Run the world for a duration; in a joined session, first add a missing broadcaster."""
     if not session.is_hosted:
         # Another process may broadcast the follower already: there must be one broadcaster.
         await session.lasting(SETTLE)

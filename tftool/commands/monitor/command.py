@@ -74,7 +74,7 @@ class TrafficReport:
         self.chain: view.Chain | None = None
 
     def begin(self, buffer: Buffer, now: Stamp) -> None:
-        """Find the chain, and insert static transforms, as a late subscriber receives them."""
+        """Find the chain, and count the static transforms that a late subscriber would receive."""
         if self.frames is not None:
             chain = tuple(buffer.chain(*self.frames)) or self.frames[:1]
             self.chain = view.Chain(*self.frames, chain, NetDelay())
@@ -281,7 +281,7 @@ class Arrivals:
 
         Args:
             timeline: Messages of the recording.
-            buffer: Buffer into which their transforms are inserted.
+            buffer: Buffer into which the messages' transforms are inserted.
         """
         self.buffer = buffer
         self._timeline = timeline

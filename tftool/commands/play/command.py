@@ -187,7 +187,7 @@ MOST_MARKS = 200
 
 
 def _refuse_to_mix(link: Link) -> None:
-    """Raise an error if a robot publishes transforms, with which the recording's would mix.
+    """Raise an error if another node publishes transforms: the recording's would mix with them.
 
     Raises:
         UsageError: If another node publishes transforms.
@@ -207,7 +207,7 @@ def _span(
     """Return the start and the end of the playback.
 
     Raises:
-        UsageError: If the recording has nothing between them.
+        UsageError: If the recording has nothing between start and end.
     """
     # The last message is received after its stamp, so it is later than the last stamp.
     low, high = min(timeline.start, recording.start), max(timeline.end, recording.end)

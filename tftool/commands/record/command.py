@@ -63,7 +63,7 @@ class RecordingRun:
             recorder: Recorder, which receives the messages.
             rolling: Writer of the recording.
             clock: Clock that times the writing.
-            finding: Id of the doctor's finding that ends the recording; None for none.
+            finding: Id of the doctor's finding that ends the recording; None if no finding does.
         """
         self.recorder = recorder
         self.rolling = rolling
@@ -76,10 +76,10 @@ class RecordingRun:
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     async def run(self, duration: Duration | None) -> None:
-        """Record for `duration` nanoseconds or until the finding; without either until stopped.
+        """Record until `duration` nanoseconds have passed, the finding occurs, or a stop.
 
         Raises:
-            InputError: If the file cannot be written any more; what was written is readable.
+            InputError: If the file cannot be written any more; the part written so far is readable.
         """
         clock = self._clock
         end = None if duration is None else clock.now() + duration

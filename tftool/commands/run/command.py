@@ -70,7 +70,8 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
     """Raise an error for --simulated or --for after FILE, unless the program's text has that word.
 
     Raises:
-        UsageError: If such a word is there: the run would never end, on real time, without a hint.
+        UsageError: If such an option is after FILE: the program would get it, and tftool would
+            ignore it.
     """
     file = Path(target)
     given = [word for word in ("--simulated", "--for") if word in _own_words(words)]
@@ -85,7 +86,7 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
 
 
 def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
-    """Open the session of a node; with `alone`, host an empty world for it."""
+    """Open the session of a node; with `alone`, host an empty world for the node."""
     if alone:
         return open_empty_session(connection, simulated=simulated)
     if place is not None:
@@ -106,7 +107,7 @@ def _run_other(
     """Run tftool's own command in place of a known ROS program; return None for other programs.
 
     Raises:
-        UsageError: If the program is known and `refused`: options for nodes were given.
+        UsageError: If the program is known, but options for nodes were given (`refused`).
     """
     if (target, *words[:1]) == KEYBOARD:
         if refused:

@@ -84,7 +84,7 @@ class Providers:
         return FollowedClock()
 
     def link(self, options: "Options") -> "Link | None":
-        """Open a link to other processes; return None if worlds are not shared.
+        """Open a link to other processes; return None if this process shares no world with them.
 
         Raises:
             LinkError: If the link cannot be opened.
@@ -165,7 +165,9 @@ class Connection:
         return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
-        """Open a link, which is closed with this connection; None if worlds are not shared.
+        """Open a link to other processes, which is closed together with this connection.
+
+        Return None if this process shares no world with them.
 
         Raises:
             LinkError: If the link cannot be opened.
@@ -203,7 +205,9 @@ class Connection:
         self._opened.append(opened)
 
     def refuse_to_share(self, word: str | None) -> None:
-        """Raise an error for options of sharing with a file or a scenario on simulated time.
+        """Raise an error for options such as --join if FROM is a file or is played here.
+
+        A file, and a scenario on simulated time, cannot be shared with other processes.
 
         Raises:
             UsageError: If such an option was given.
@@ -222,7 +226,7 @@ class Connection:
             )
 
     def refuse_to_join(self, word: str | None) -> None:
-        """Raise an error for --join, or a robot's address, with a world's name, which is hosted.
+        """Raise an error for --join or a robot's address if FROM names a world to host.
 
         Raises:
             UsageError: If --join or an address was given.
@@ -282,7 +286,7 @@ def read(
 
     Raises:
         UsageError: If options contradict each other.
-        InputError: If a file is missing, or not of the stated kind.
+        InputError: If a file that an option names is missing, or of the wrong kind.
     """
     if join and host:
         raise UsageError("--join and --host contradict each other: choose one.")
@@ -367,10 +371,11 @@ def open_from(
         place: FROM; None for the running session.
         lasting: Value of --for: nanoseconds to listen or to play.
         until: Time up to which a scenario is played, without --for; see `open_frames`.
-        margin: Seconds to play on after that.
+        margin: Seconds to play on after `until`.
         cache_time: Cache time of a scenario's or session's buffer.
         tells: Whether to print notes about oddities of the frames.
-        shares: Whether the options of sharing are meant for another one of several sources.
+        shares: Whether to accept options such as --join although FROM is a file, because they
+            are meant for another source of the same command.
         watch: Function called with the world of a scenario or session before it runs.
         look: Function that returns lines about a session's frames, shown below the progress bar.
 

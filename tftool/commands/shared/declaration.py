@@ -125,7 +125,7 @@ RECORDING_OPTIONS = options_in(_OfRecordings)
 
 
 class _OfUndescribed:
-    """Option of commands whose FROM may be a recording without its robot's description."""
+    """Option --urdf of commands: the robot description for a recording that contains none."""
 
     urdf: Path | None = option(
         "Description of the robot in a recording that has none inside.",
@@ -168,14 +168,16 @@ class CommandKind:
     """Properties of a command that decide which options it has.
 
     Attributes:
-        shares: Whether it joins or hosts a session. If so, its `run` has a `Connection` as its
-            first parameter.
-        looks_only: Whether it writes to no topic of a robot, so that FROM may be a robot's address.
-        hosts_turtles: Whether it hosts the turtle world if it searches for a robot and finds none;
-            other commands wait for a robot.
+        shares: Whether the command joins or hosts a session. If so, the first parameter of the
+            command's `run` is a `Connection`.
+        looks_only: Whether the command writes to no topic of a robot, so that FROM may be a
+            robot's address.
+        hosts_turtles: Whether the command hosts the turtle world if it searches for a robot and
+            finds none; other commands wait for a robot.
         recordings: Whether FROM may be a recording.
         descriptions: Whether FROM may be a robot description.
-        urdf: Whether FROM may be a recording without its robot's description.
+        urdf: Whether the command has the option --urdf, which gives the robot description for a
+            recording that contains none.
         poses: Whether FROM may be a pose file although the command shares no session.
         settings: Settings of click's parser that differ from the defaults.
     """
@@ -204,7 +206,7 @@ class Invocation(NamedTuple):
     """Data passed from `main` to a command, as the `obj` of click's context.
 
     Attributes:
-        providers: Functions that create clocks and links; None for the real ones.
+        providers: Functions that create clocks and links; None for real clocks and links.
         run: Function that runs another command line of tftool, and returns its exit status.
     """
 
@@ -235,7 +237,7 @@ class Command:
 
 
 def typer_function(command: type[Command]) -> Callable[..., Any]:
-    """Return a function of which typer makes the command: from all options to the exit status."""
+    """Return a function for typer that takes all options and returns the exit status."""
     home = command.__module__
     name = home.rpartition(".")[2]
     added = command.kind.options()
@@ -268,7 +270,7 @@ def typer_function(command: type[Command]) -> Callable[..., Any]:
 
 
 def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> str | None:
-    """Remove a session's address from the command's words, and return it; None without one.
+    """Remove a session's address from the command's words; return the address, or None.
 
     Raises:
         UsageError: If the command does not read sessions, or the address is not given as FROM.

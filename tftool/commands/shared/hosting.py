@@ -302,7 +302,7 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
 def _hosted(
     scenario: "Scenario", clock: Clock, head_start: Duration, link: "Link | None"
 ) -> Session:
-    """Return a session that hosts a scenario for observing."""
+    """Return a session that hosts a scenario for a command that observes it."""
     from tftool.scenario.play import build
 
     play = build(scenario, clock)

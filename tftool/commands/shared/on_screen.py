@@ -28,7 +28,7 @@ SETTLED = seconds(1)
 
 
 def screen_lacks() -> str:
-    """Return half a sentence on why a full-screen display is impossible; empty if possible."""
+    """Return the fault that prevents a full-screen display, for a sentence; empty without one."""
     if os.environ.get("TERM") == "dumb":
         return "TERM=dumb is one without a screen"
     # textual draws on stderr, so stderr must be a terminal, too.

@@ -110,7 +110,7 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
 
 
 def _nanoseconds(text: str) -> "tuple[int, Decimal]":
-    """Convert text in seconds to nanoseconds; return the number rounded and unrounded.
+    """Convert a text with seconds to nanoseconds; return these rounded and unrounded.
 
     Raises:
         ValueError: If the text is not a number.
@@ -224,7 +224,8 @@ def option(
     Args:
         words: Text of the help.
         names: Names of the option; without any, made from the field's name.
-        default: Value if the option is not given; `...` if it must be, and within `Annotated`.
+        default: Value if the option is not given; `...` for an option that must be given, and for
+            one inside `Annotated`.
         metavar: Name of the value in the help.
         panel: Heading above the option in the help; None for the usual heading.
         more: Further arguments of `typer.Option`.

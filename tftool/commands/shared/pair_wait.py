@@ -147,7 +147,7 @@ class PairWait:
             )
 
     def _because(self) -> str:
-        """Return cause and remedy as text if `explain` finds more than the reason; else empty."""
+        """Return the cause of the wait and a remedy as text; "" if `explain` finds no cause."""
         # Imported here because it is slow, and needed only for an explanation.
         from tftool.doctor.explanation import explain
 
@@ -171,7 +171,7 @@ class PairWait:
 
 
 async def _existing(buffer: Buffer, frame: str) -> None:
-    """Wait until a frame exists, because tf2 answers for a frame in itself even before."""
+    """Wait until a frame exists: tf2 can look a frame up in itself even if it does not exist."""
     news = asyncio.Event()
     stop = buffer.listen(lambda *_: news.set())
     try:

@@ -77,7 +77,9 @@ def _unknown(frame: str) -> str:
 
 
 def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
-    """Raise an error for a file in place of a frame's name, as when one of three words is missing.
+    """Raise an error if a file was typed in place of a frame's name.
+
+    This happens if one of the three words is missing.
 
     Raises:
         UsageError: If `target` or `source` is a file.
@@ -167,7 +169,7 @@ def moments_of(options: SpanOptions, frames: Frames) -> "Moments":
 
 
 def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | None, Stamp | None]:
-    """Return the values of --from and --to as stamps; None where not given.
+    """Return the values of --from and --to as stamps; None for an option that was not given.
 
     Raises:
         UsageError: If --from is after --to, or there is no data between them.

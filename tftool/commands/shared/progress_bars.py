@@ -127,7 +127,7 @@ _SHARE = 4
 class ListeningBar:
     """Progress bar for listening to a session, with lines of text below; erased at the end.
 
-    Another thread than the one that waits for the end calls it.
+    The bar is called in another thread than the one that waits for the end of listening.
     """
 
     def __init__(self, lasting: float, look: "Look | None") -> None:

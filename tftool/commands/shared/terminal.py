@@ -47,7 +47,7 @@ def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object])
 
 
 def _asked(number: int, frame: FrameType | None) -> None:
-    """Stop the process on SIGTSTP between two callbacks of the event loop, never in a write."""
+    """Stop the process on SIGTSTP between two callbacks of the event loop, never during a write."""
     try:
         loop = asyncio.get_running_loop()
     except RuntimeError:
@@ -152,7 +152,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
 
 def termios_error() -> type[BaseException]:
-    """Return the error type of terminal settings; without termios, a type never raised there."""
+    """Return the exception type for failed terminal settings; without termios, one never raised."""
     try:
         import termios
     except ImportError:

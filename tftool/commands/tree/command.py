@@ -32,7 +32,7 @@ Moving = frozenset[str] | None
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> Iterator[str]:
-    """Yield the tree in pieces: cut to a terminal's width, or complete if `wide` or without one."""
+    """Yield the tree in pieces, cut to a terminal's width unless `wide` or not on a terminal."""
     console = Console()
     if not console.is_terminal:
         for text, _ in frame_tree.pieces(snapshot, moving=moving, marks=marks):

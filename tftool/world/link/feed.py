@@ -135,7 +135,9 @@ class TopicFeed:
 
 
 def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None]:
-    """Return a topic's type for sending, and a function to convert to CDR (None if it is CDR).
+    """Return the ROS 2 type of a recorded topic, and a function that converts messages to CDR.
+
+    The function is None if the recorded messages are in CDR already.
 
     Raises:
         InputError: If the topic cannot be sent; the text is the reason.

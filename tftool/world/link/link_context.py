@@ -131,7 +131,7 @@ class LinkContext:
         self.say_once(f"refused {name}", f"On '{name}': {refusal}. Others like it are counted.")
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning, once for each `what`."""
+        """Log a warning, once for each value of `what`."""
         if what not in self._said and len(self._said) < 1000:
             self._said.add(what)
             self.world.log.warn(NAME, sentence)

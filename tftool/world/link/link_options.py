@@ -39,7 +39,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
 
     Raises:
         UsageError: If options contradict each other.
-        InputError: If a file is missing, or not of the stated kind.
+        InputError: If a file that an option names is missing, or of the wrong kind.
         TypeError: If no middleware has such an option.
     """
     asked: set[type[Reach]] = set()

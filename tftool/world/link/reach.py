@@ -72,13 +72,13 @@ class Reach:
 
         Raises:
             UsageError: If options contradict each other.
-            InputError: If a file is missing, or not of the stated kind.
+            InputError: If a file that an option names is missing, or of the wrong kind.
         """
         raise NotImplementedError
 
     @property
     def is_asked(self) -> bool:
-        """Whether the options require a link, as a robot in another process always does."""
+        """Whether the options require a link to other processes."""
         return True
 
     def awaits_others(self, *, hosts: bool) -> bool:
@@ -96,7 +96,7 @@ class Reach:
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the frames that local processes list, sorted, without opening a link."""
+        """Return the names of the frames that this machine's processes have, without a link."""
         return []
 
     def place(self, domain: int) -> str:

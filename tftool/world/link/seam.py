@@ -80,17 +80,20 @@ class Watcher(Protocol):
     """Callbacks of a middleware to its link."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle an added or removed entity; None if only another domain was noticed."""
+        """Handle the addition of an entity (`there` is true) or its removal.
+
+        `found` is None if nothing but another ROS domain was noticed.
+        """
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
         """Handle a malformed message of a topic or service."""
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning about other processes, once for each `what`."""
+        """Log a warning about other processes, once for each value of `what`."""
 
 
 def nothing() -> None:
-    """Do nothing: the function to end an announcement that was not made."""
+    """Do nothing, in place of a function that ends an announcement."""
 
 
 class Middleware:
@@ -123,7 +126,7 @@ class Middleware:
         raise NotImplementedError
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List this process's frames for other local commands; by default do nothing."""
+        """Make the names of this process's frames known to other local commands, if possible."""
 
     def settle(self) -> None:
         """Let other local processes join from now on, if they had to wait."""
@@ -189,7 +192,10 @@ class Middleware:
     # For middlewares: reports to the watcher, if there is one yet
 
     def report(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Report an added or removed entity to the watcher; None if only a domain was noticed."""
+        """Report to the watcher that an entity was added (`there` is true) or removed.
+
+        `found` is None if nothing but another ROS domain was noticed.
+        """
         if self.watcher is not None:
             self.watcher.graph_changed(found, there)
 
@@ -199,6 +205,6 @@ class Middleware:
             self.watcher.refuse(name, refusal)
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning about other processes through the watcher, once for each `what`."""
+        """Log a warning about other processes by the watcher, once for each value of `what`."""
         if self.watcher is not None:
             self.watcher.say_once(what, sentence)

@@ -196,9 +196,9 @@ class Link(LinkContext):
             self._removals[entity] = self.world.endpoints.add(self.far_endpoint(entity))
 
     def _name_topics(self) -> None:
-        """List others' topics as topics of the world.
+        """Add other processes' topics to the topics of the world.
 
-        Topics that no process has any more are removed.
+        Topics that no process uses any more are removed.
         """
         for entity in self.graph.entities(PUBLISHER):
             known = entity.ros_type not in _NAMED or entity.name in self.world.topics()
@@ -302,7 +302,10 @@ class Link(LinkContext):
     # Keeping up with the others
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle an added or removed entity; None if only another domain was noticed."""
+        """Handle the addition of an entity (`there` is true) or its removal.
+
+        `found` is None if nothing but another ROS domain was noticed.
+        """
         if found is None:
             self._mention_foreign_domains()
         elif isinstance(found, Process):
@@ -342,7 +345,7 @@ class Link(LinkContext):
         self.world.log.warn(NAME, f"{process}{hosted} has left; its last transforms stay.")
 
     def _count_departure(self, session: str) -> None:
-        """Count a process as left when its last entity is removed, in any order.
+        """Count a process as left when its announcement and its publishers of tf are gone.
 
         A node may leave a process that stays, and programs other than tftool announce no process.
         """

@@ -96,7 +96,7 @@ class ZenohMiddleware(Middleware):
             raise
 
     def _reach_out(self, others: dict[str, int]) -> None:
-        """Wait until the other processes of this machine, and at `connect`, are connected."""
+        """Wait until this machine's processes and those at the option `connect` are connected."""
 
         # zenoh's own wait is short, and processes of a busy machine respond slowly: if they were
         # ignored, a second world would be hosted. A stopped process never responds.
@@ -149,7 +149,7 @@ class ZenohMiddleware(Middleware):
                 self._stops.append(self.wire.watch_tokens(pattern, self._on_token))
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List this process's frames where other local commands find them."""
+        """Write the names of this process's frames to a file that other local commands read."""
         if self._place is not None:
             self._place.tell_frames(names)
 

@@ -148,7 +148,7 @@ class ZenohReach(Reach):
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the frames that local processes list; see `Reach.frames_known`."""
+        """Return the frames of this machine's processes; see `Reach.frames_known`."""
         from tftool.world.link.zenoh import rendezvous
 
         return rendezvous.frames_known(domain)
@@ -170,7 +170,7 @@ def protocol_of(endpoint: str) -> str:
 
 
 def has_port(endpoint: str) -> bool:
-    """Return whether an endpoint has a port, or needs none; without, zenoh searches in vain."""
+    """Return whether an endpoint has a port, or needs none; zenoh finds nothing without a port."""
     protocol, _, rest = endpoint.partition("/")
     # After a question mark or a hash are zenoh's settings of the endpoint.
     address = re.split(r"[?#]", rest, maxsplit=1)[0]
@@ -178,7 +178,7 @@ def has_port(endpoint: str) -> bool:
 
 
 def _tls(cert: Path | None, key: Path | None, ca: Path | None) -> Certificates | None:
-    """Return the three files of mutual TLS; None if none is given."""
+    """Return the three files of mutual TLS; None if no file is given."""
     if cert is None or key is None or ca is None:
         if cert or key or ca:
             raise UsageError(

@@ -89,9 +89,9 @@ def has_members(domain: int, home: Path | None = None) -> bool:
 
 
 def frames_known(domain: int, home: Path | None = None) -> list[str]:
-    """Return the frames that running members of the local session list, sorted.
+    """Return the names of the frames that running members of the local session have, sorted.
 
-    This reads the lists that members write, and opens no session.
+    The names are read from files that the members write; no session is opened.
     """
     place = _fitting((folder() if home is None else home) / str(domain))
     found: set[str] = set()
@@ -234,7 +234,7 @@ def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
 
 
 def _make_private(path: Path) -> None:
-    """Create a folder that only its owner may enter, or check that an existing one is so.
+    """Create a folder that only its owner may enter, or check an existing folder for that.
 
     Raises:
         LinkError: If the folder cannot be created, or others may enter it.
