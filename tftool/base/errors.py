@@ -200,7 +200,8 @@ class TransformException(TftoolError):
     The text is exactly tf2's; `remedy` says what to do.
 
     Attributes:
-        frame: The frame that causes the error: unknown, misspelt, or without data; None if none.
+        frame: The frame that causes the error: unknown, misspelt, or without data; None without
+            such a frame.
         target: The target frame of the lookup; None if unknown.
         source: The source frame of the lookup; None if unknown.
     """
@@ -307,7 +308,7 @@ class TimeoutException(TransformException):
     """Error for a wait that exceeded its timeout; the last failed lookup is the cause.
 
     Attributes:
-        refusal: The error of the last failed lookup; None if there was none.
+        refusal: The error of the last failed lookup; None if no lookup failed.
     """
 
     def __init__(

@@ -38,7 +38,7 @@ class Check:
     Attributes:
         id: Name of the check, which never changes.
         area: Subject of the check.
-        severity: Severity of the findings; a hit may have another.
+        severity: Severity of the findings; a hit may have another severity.
         summary: Description of the fault in one line: the docstring of the function.
         run: Function that yields the hits.
         rule: Condition for a finding, with the thresholds as {names}.
@@ -52,10 +52,11 @@ class Check:
         limits: Thresholds by name; seconds, metres, radians, fractions, counts.
         needs: Keys of `NEEDS` without which the check cannot run.
         why: Reason for the rule and its thresholds; empty if obvious.
-        because_of: Findings that may explain a finding of this check: what both must share, and
-            the ids of the causes. "edge", "child", "frame": at least one of these; "stream": an
-            edge or a topic; "path": an edge on the path to the sensor, or the topic; "gap": the
-            same, if everything late is in gaps; "anything": nothing. The first that fits is used.
+        because_of: Pairs of a word and the ids of checks whose findings may explain a finding of
+            this check. The word names the subject that both findings must have in common: "edge",
+            "child" or "frame"; "stream", an edge or a topic; "path", an edge on the path to the
+            sensor, or the topic; "gap", as "path" if all late data is in gaps; "anything", none.
+            The first pair that fits is used.
     """
 
     id: str

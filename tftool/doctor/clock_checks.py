@@ -411,7 +411,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tuple[Fix, ...], str]:
-    """Return remedies and evidence for edges that are sent on the others' clock, too."""
+    """Return remedies and evidence for edges that also have samples on the other streams' clock."""
     fixes, told = [], ""
     for track in streams:
         near = np.abs(4 * track.latency) < abs(0 if model.shift is None else model.shift.by)
@@ -431,7 +431,7 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tup
 
 
 def cures_of_offset(ahead: Duration) -> tuple[Fix, ...]:
-    """Return the remedies for two clocks, or for old data, by how far they differ."""
+    """Return the remedies for two clocks, or for old data if the offset is long."""
     return _SYNCHRONISE if abs(ahead) < _PLAYED else (_PLAY_AGAIN,)
 
 
@@ -739,7 +739,7 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
-    """Return stamps in order of arrival, and for each the newest before it on its clock."""
+    """Return stamps in order of arrival, and the newest stamp of the same clock up to each."""
     stamps = np.concatenate([track.stamps for track in tracks])
     if len(tracks) > 1:
         logs = np.concatenate([track.logs for track in tracks])

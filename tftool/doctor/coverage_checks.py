@@ -26,7 +26,7 @@ def _least_gap(track: Track, limits: Limits) -> float:
 
 
 def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the gaps in an edge's samples, as pairs of stamps, too long for its period."""
+    """Return the gaps that are too long for an edge's period, as pairs of stamps."""
     # A stamp that is wrong by years does not make a gap.
     stamps = track.sorted_stamps
     if track.wild.any():
@@ -607,7 +607,7 @@ def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
 
 
 def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> Hit | None:
-    """Return the hit about topics that wait alike, with the longest wait; None if all are short."""
+    """Return the hit about topics that wait alike; None if all waits are short."""
     heard, waits = max(group, key=lambda one: int(one[1].served.max(initial=0)))
     served = waits.served
     never = 1.0 - len(served) / len(waits.waits)

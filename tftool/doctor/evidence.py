@@ -55,7 +55,7 @@ class Evidence:
         timed: Whether log times are known; a buffer has none.
         recorded: Whether the evidence is a recording, which can be played.
         joints: Joint names in all joint states; None if none were recorded.
-        robot: Robot of the given or recorded description; None if there is none, or unreadable.
+        robot: Robot of the given or recorded description; None without a readable description.
         mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None without any.
         mounts: Mounts measured from motion; None if not requested.

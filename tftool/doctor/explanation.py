@@ -470,14 +470,15 @@ class Explanation:
         stamp: Time of the lookup; 0 for the latest.
         asked: Log time at which the lookup is made.
         because: Reason for this log time: "when /scan of that stamp arrived"; empty if the user
-            gave it.
+            gave the time.
         after: Time from the stamp to the lookup, on the clock of the stamps, nanoseconds.
         available: Whether the lookup succeeds.
         exception: Name of tf2's exception; empty if the lookup succeeds.
         text: Text of tf2's error.
         epoch: The first stamp of moving links.
         links: Links of the path from source to target, in this order.
-        refusing: Edge without data at the time; None if there is none, or no path.
+        refusing: Edge without data at the time of the lookup; None without such an edge, or without
+            a path.
         answerable_from: Log time from which the lookup succeeds; None for never.
         answerable_until: Log time at which the needed samples are pruned; None for never.
         cause: Cause of the result.
@@ -573,7 +574,7 @@ def traced(model: Model, question: Question) -> Explanation:
 
 
 def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
-    """Return the index of the failing link; of several, one for which waiting does not help."""
+    """Return the index of the failing link; of several links, one for which waiting is useless."""
     refusing = [
         number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS
     ]
@@ -669,7 +670,8 @@ def explain(
         source_frame: Frame to look up.
         time: Time of the lookup, nanoseconds; 0 for the latest.
         asked_at: Log time at which the lookup is made. None for the arrival of the message with
-            that stamp in the source frame; without one, `time` itself, or for a buffer its end.
+            that stamp in the source frame; without such a message, `time` itself, or the end of a
+            buffer.
         cache_time: Cache time of the listener, nanoseconds.
         timeout: Time that the listener waits, nanoseconds.
 

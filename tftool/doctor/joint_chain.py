@@ -100,7 +100,7 @@ def chained(
 
 
 def _way(robot: Robot, target: str, source: str) -> list[RobotJoint]:
-    """Return the joints from source to target; there is always a path, as there is one root."""
+    """Return the joints from source to target; a path always exists, because there is one root."""
     joints = {joint.child: joint for joint in robot.joints.values()}
     legs = up_to_join(source, target, lambda link: climbed(link, joints.get))
     ups, downs = legs or ([], [])

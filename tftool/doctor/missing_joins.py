@@ -139,7 +139,7 @@ def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
 
 
 def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Track]) -> Fix | None:
-    """Propose the mounts' root as a child of the moving frame, if that has two parents."""
+    """Propose that a moving edge ends at the root of a child's mounts, not at the child."""
     if {track.parent for track in moving} & {track.parent for track in statics}:
         return None
     # The newest parent of the frame may be either; the root of the mount is above that.
@@ -231,7 +231,7 @@ def base_of(tree: Tree) -> str:
 def static_publisher(
     parent: str, child: str, pose: Transform | None = None, *, ros1: bool = False
 ) -> str:
-    """Return the command that publishes a static transform; letters replace an unknown pose."""
+    """Return the command that publishes a static transform, with letters for an unknown pose."""
     if ros1:
         known = () if pose is None else (*pose.translation, *pose.rotation)
         numbers = " ".join(f"{one:.9g}" for one in known) or "X Y Z YAW PITCH ROLL"

@@ -177,7 +177,7 @@ class Model:
 
     @cached_property
     def lacks_state_publisher(self) -> bool:
-        """Whether joint states came, and no transform but those of odometry and localisers."""
+        """Whether there are joint states, but only odometry and localisers send transforms."""
         came = any(h.type == JOINT_STATES and len(h) for h in self.evidence.headers.values())
         return came and all(
             track.is_localisation or last_part(track.parent).startswith("odom")

@@ -183,7 +183,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _severity(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
-    """Return a warning for what hardly matters to a robot that drives; None for an error."""
+    """Return a warning for a conflict that hardly matters to a driving robot; None for an error."""
     worst, turned = hit.facts["worst"], hit.facts["most_turned"]
     assert isinstance(worst, float)
     assert isinstance(turned, float)
@@ -423,7 +423,8 @@ def _conflict(
     Args:
         track: The edge that both publish.
         names: Names of the publishers.
-        owned: Rows of the first one's samples, and of the second one's to compare, shape (n,).
+        owned: Rows of the first publisher's samples, and rows of the second publisher's samples to
+            compare with them, shape (n,).
         confidence: Confidence that there are two publishers.
     """
     rates, late = [], []

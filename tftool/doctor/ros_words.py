@@ -66,7 +66,7 @@ def ros_words(evidence: Evidence) -> Mapping[str, str]:
 
 
 def in_words(text: str, words: Mapping[str, str] = _BOTH) -> str:
-    """Return a check's text with placeholders replaced by words; by default those of both ROS."""
+    """Return a check's text with placeholders replaced by words; by default for ROS 1 and 2."""
     for name, word in words.items():
         text = text.replace(f"{{{name}}}", word)
     return text

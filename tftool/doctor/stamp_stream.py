@@ -86,7 +86,7 @@ class Stream:
     def wild(self) -> Mask:
         """Return a mask of single stamps far from the arrivals around them, shape (n,).
 
-        If there are many such stamps, the mask is empty: they are no accident, but another clock.
+        If there are many such stamps, the mask is empty, because the stamps are of another clock.
         """
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:

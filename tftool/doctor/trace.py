@@ -43,8 +43,10 @@ class TracedLink:
         is_static: Whether the link is static.
         publisher: Sender of the link; None if unknown.
         count: Number of samples in the buffer.
-        oldest: Stamp of the oldest sample in the buffer, or arrival if static; None without one.
-        newest: Stamp of the newest sample in the buffer, or arrival if static; None without one.
+        oldest: Stamp of the oldest sample in the buffer, or arrival time if static; None without a
+            sample.
+        newest: Stamp of the newest sample in the buffer, or arrival time if static; None without a
+            sample.
         period: Median period, nanoseconds; 0 if unknown.
         latency: Median time from stamp to arrival, nanoseconds.
         verdict: Outcome of the lookup at this link.
@@ -83,7 +85,7 @@ class Question:
         source: Source frame.
         stamp: Time of the lookup; 0 for the latest.
         asked: Log time at which the lookup is made; None for the arrival of the message with that
-            stamp in the source frame, or without one the stamp itself.
+            stamp in the source frame, or without such a message for the stamp itself.
         settings: Settings of the listener.
         timeout: Time that the listener waits, nanoseconds.
         topic: Topic of the message that is looked up; empty if there is none.
@@ -181,7 +183,7 @@ class LookupTrace:
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """Return the newest of the stamps without the last one; of one stamp, this stamp."""
+        """Return the newest of all stamps but the last one; a single stamp is returned."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:
@@ -268,7 +270,7 @@ class LookupTrace:
         return buffer
 
     def settle(self, way: Sequence[Track]) -> None:
-        """Set the time of a lookup of the latest: the newest time with data for all edges."""
+        """Replace a time of 0 (the latest) by the newest time at which all edges have data."""
         if self.stamp == LATEST:
             newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
             self.moment = min(newest, default=LATEST)

@@ -42,7 +42,7 @@ _SIGNS: Final = {
 
 
 class Cell(NamedTuple):
-    """Content of one cell; without a ground colour, that of the cell below shows."""
+    """Content of one cell; without a background colour, the colour below the cell shows."""
 
     text: str
     ink: Color | None = None
@@ -56,7 +56,7 @@ def packed(color: Color | None) -> int:
 
 
 def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
-    """Mix packed colours with one colour, as `theme.blend` does; one share for all, or one each."""
+    """Mix packed colours with one colour, as `theme.blend`; `share` is one number or one each."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
     mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
@@ -187,7 +187,7 @@ DASH: Final = 3
 
 
 def woven(layers: Sequence[Dots]) -> Dots:
-    """Lay curves into one picture; in cells of several, they take turns from left to right.
+    """Lay curves into one picture; where several meet, each gets some of the cells.
 
     One colour alone would hide the others where they run side by side. A cell shows only the dots
     of the curve whose turn it is.

@@ -97,13 +97,13 @@ def plot(
 
     Args:
         frames: Opened frames, a recording, a buffer or a robot, whose pair is looked up at the
-            stamps of the fastest link between the two frames; or poses, or several of them.
+            stamps of the fastest link between the two frames; or one or several series of poses.
         target: Frame in which the poses of a pair are expressed.
         source: Frame whose poses are drawn.
         ax: Axes for one panel; None for a new figure with all panels.
         what: "position", "rotation", "distance", "speed", "turn rate", or a single curve such
             as "x" or "yaw". If empty, a new figure has all of them, `ax` the position.
-        xy: Whether to draw the path from above instead.
+        xy: Whether to draw the path from above instead of curves over time.
         start: Time in nanoseconds that is 0 on the axis; None for the first pose.
         dark: Whether a new figure has a dark background.
 

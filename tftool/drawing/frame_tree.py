@@ -348,7 +348,7 @@ def compact(
         marks: Ids of the doctor's findings about each frame.
         order: Order of the rows; guides are drawn only in the tree's own order.
         wanted: Part of the names of frames to show; a tree shows their ancestors too.
-        most: Most rows to draw; None for all.
+        most: Maximum number of rows; None for all rows.
         history: Earlier rates and delays, for curves.
     """
     forest = grow(snapshot)
@@ -399,7 +399,7 @@ def moment(stamp: Stamp) -> str:
 
 
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
-    """Return what is drawn in few words: the time, or how many joints move."""
+    """Describe the drawing in few words: the time, or the number of movable joints."""
     if moving is not None:
         return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
     if snapshot.at:

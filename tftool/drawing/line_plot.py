@@ -92,7 +92,7 @@ def over_time(
     Args:
         found: Trajectories of the pairs.
         start: Time in nanoseconds that is 0 on the axis.
-        quantities: Quantities to draw, of `series.QUANTITIES`.
+        quantities: Quantities to draw, of `pair_series.QUANTITIES`.
         look: Size and style of the plot.
         span: First and last second of the axis; None for those of the data.
     """
@@ -244,7 +244,7 @@ def _drawn(
 def _ticks(limits: tuple[float, float], rows: int) -> list[float]:
     """Return as many ticks as can be whole lines apart, the outer two in the first and last line.
 
-    A value is drawn in the line of its share of the height, so each tick is exactly in its line.
+    Each value is drawn in the line at its height, so each tick is exactly in a line.
     """
     choices = (2,) if rows < 5 else (3,) if rows < 10 else (6, 5, 4, 3)
     found = (round_ticks(*limits, most) for most in choices)

@@ -107,7 +107,7 @@ def line(
 
 
 def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette) -> Text:
-    """Return the timeline: findings in their colours, and the head above them."""
+    """Return the timeline: findings in their colours, and above them the position."""
     share = playback.done / playback.total if playback.total > 0 else 1.0
     full = round(room * min(max(share, 0.0), 1.0))
     solid, empty = ("#", ".") if ascii_only else ("━", "─")
@@ -137,11 +137,11 @@ def finding_line(
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
 ) -> Text:
-    """Return number, time and text of the finding nearest to the head; empty without findings.
+    """Return number, time and text of the finding nearest to the position; empty without any.
 
     Args:
         playback: State of the player.
-        width: Columns.
+        width: Longest line in cells.
         ascii_only: Whether to draw in ASCII.
         palette: Colours of the findings.
     """
@@ -173,12 +173,12 @@ def passed(marks: Sequence[PlaybackMark], before: Duration, now: Duration) -> li
 
 
 def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return the begin of the next mark after a position; None if there is none."""
+    """Return the begin of the next mark after a position; None if there is no such mark."""
     return min((one.since for one in marks if one.since > now), default=None)
 
 
 def before(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return where the mark before this time begins; None before the first."""
+    """Return the begin of the last mark before a position; None if there is no such mark."""
     return max((one.since for one in marks if one.since < now), default=None)
 
 

@@ -303,7 +303,7 @@ def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str
 
     Args:
         rows: Facts of each recording, or the reason why it could not be read.
-        width: As in `as_text`.
+        width: Longest line in cells; None for no limit.
     """
     heads = ("recording", "kind", "length", "messages", "transforms", "frames", "trees")
     lines: list[tuple[str, ...]] = []

@@ -95,7 +95,8 @@ class Viewpoint(NamedTuple):
 class OrbitCamera:
     """Camera that orbits a scene, and shows the whole scene until the user zooms or pans.
 
-    The view then grows at once with the scene, and shrinks only when most of it is empty.
+    Until then, the view grows at once with the scene, and shrinks only when most of the view is
+    empty.
 
     Attributes:
         name: Name of the view; "orbit" after the camera was turned.

@@ -71,8 +71,9 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        names: Frames with their labels, the number of frames that share it, and their dots, right
-            and down from the corner; the most important first.
+        names: For each label, the most important first: the frame at its place, the text, the
+            number of frames at that place, and the column and row in dots from the upper left
+            corner.
         grid: Metres between two lines of the grid.
     """
 
@@ -221,7 +222,7 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Return a mask of the points where a part ends in front of another, or of itself."""
+    """Return a mask of the points where a part of a solid ends in front of any part."""
     edge = np.zeros(whose.shape, bool)
     with np.errstate(invalid="ignore"):
         for here, there in (
@@ -239,9 +240,10 @@ def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
 def _named(
     picture: SpacePicture, places: Sequence[Sequence[float]]
 ) -> list[tuple[SpaceFrame, str, int, Sequence[float]]]:
-    """Return (frame, label, number of frames, position); frames at one place share a label.
+    """Return (frame, label, number of frames, position) for each place that has frames.
 
-    The chosen frame is first, then the pair, tips, roots, and all others.
+    The chosen frame is first, then the pair, the frames without children, the roots, and all
+    others.
     """
     labels: dict[tuple[int, int], list[int]] = {}
     parents = {one.parent for one in picture.frames}

@@ -65,7 +65,8 @@ class TrafficHistory:
         Args:
             now: Current time of the clock in nanoseconds.
             traffic: Statistics of the received messages.
-            over: Number of calls over which a rate is counted; over one, it would jump by messages.
+            over: Number of calls over which a rate is counted; over a single call, a rate would
+                jump with each message.
         """
         for name, link in traffic.links.items():
             if link.is_static:
@@ -90,8 +91,8 @@ class TrafficHistory:
 
         Args:
             frames: The frame of each row.
-            room: Cells that the table leaves; for one column alone that of the rates comes.
-            ascii_only: Draw with ASCII characters alone.
+            room: Free cells beside the table; if there is room for one column, it shows the rates.
+            ascii_only: Whether to draw with ASCII characters only.
         """
         count = 2 if room >= 2 * (LEAST_CELLS + GAP) else 1
         cells = min(CELLS, room // count - GAP)

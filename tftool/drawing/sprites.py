@@ -57,8 +57,8 @@ def body(
     """Draw the body of a turtle, about a metre wide.
 
     Args:
-        x: Column of its centre, from the left edge, in cells.
-        y: Row of its centre, from the top edge, in cells.
+        x: Column of the turtle's centre, from the left edge, in cells.
+        y: Row of the turtle's centre, from the top edge, in cells.
         theta: Heading in radians, counter-clockwise.
         color: Colour of the skin; the shell is darker.
         per_metre: Rows per metre; columns per metre are twice as many.

@@ -25,7 +25,7 @@ class TableColumn:
         cells: Text and style of the cell in each row.
         stands_right: Whether to align the cells to the right, as numbers are.
         caps: Maximum widths, from wide to narrow: a column shrinks before it is dropped.
-        goes: Rank in which columns are dropped from a narrow table; 0 for one that stays.
+        goes: Rank in which columns are dropped from a narrow table; 0 for a column that stays.
     """
 
     heading: str

@@ -24,7 +24,7 @@ class Drawing:
     Attributes:
         content: Text, or bytes for PDF and PNG.
         left_out: Number of frames that are not in the picture.
-        note: Sentence about what was left out or shortened; empty if nothing was.
+        note: Sentence about what was left out or shortened; empty if the picture is complete.
     """
 
     content: str | bytes

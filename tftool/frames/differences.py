@@ -38,7 +38,7 @@ class Behaviour(StrEnum):
 
 
 class Change(StrEnum):
-    """Kind of change of a link from set A to set B."""
+    """Kind of change of a link from the first set of frames to the second."""
 
     added = "added"
     gone = "gone"
@@ -73,7 +73,7 @@ class Side:
     """One of the two sets of frames in a comparison.
 
     Attributes:
-        name: Name in messages.
+        name: Name of the set in messages.
         buffer: The frames.
         start: First stamp, nanoseconds.
         joints: Frames whose pose depends on a joint of a description.
@@ -87,7 +87,7 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class LinkState:
-    """State of one link in one of the sets.
+    """State of one link in one of the two compared sets of frames.
 
     Attributes:
         parent: Parent in the last sample.
@@ -106,16 +106,17 @@ class LinkState:
 
 @dataclass(frozen=True, slots=True)
 class Displacement:
-    """Difference between a link's poses in A and in B.
+    """Difference between a link's poses in the two compared sets of frames, A and B.
 
     Attributes:
         millimetres: Distance; for moving links the root mean square.
         degrees: Angle of rotation; for moving links the root mean square.
         worst_millimetres: Largest distance.
         worst_degrees: Largest angle.
-        worst_at: Stamp in A of the largest difference, relative to the tolerance; None if static.
+        worst_at: Stamp in A at which the difference is largest in units of the tolerance; None if
+            the link is static.
         moments: Number of times at which the poses were compared.
-        moved_mm: Displacement x y z in A's parent, if both links are static; else None.
+        moved_mm: Displacement x y z in the parent of A's link, if both links are static; else None.
         turned_deg: Rotation as roll pitch yaw, if both links are static; else None.
     """
 
@@ -131,15 +132,15 @@ class Displacement:
 
 @dataclass(frozen=True, slots=True)
 class LinkDifference:
-    """Differences of one link between A and B.
+    """Differences of one link between two sets of frames, A and B.
 
     Attributes:
         child: Child frame of the link.
-        changes: The changes; only `Change.same` if both agree within the tolerance.
-        before: The link in A; None if missing.
-        after: The link in B; None if missing.
+        changes: The changes; only `Change.same` if both sets agree within the tolerance.
+        before: State of the link in A; None if A has no such link.
+        after: State of the link in B; None if B has no such link.
         displacement: Difference of the poses; None if unknown.
-        note: Reason why the difference is unknown, if not obvious.
+        note: Reason why the displacement is unknown, if the reason is not obvious.
     """
 
     child: str
@@ -156,14 +157,14 @@ class LinkDifference:
 
     @property
     def parent(self) -> str:
-        """Return the link's parent in A; if the link is new, in B."""
+        """Return the link's parent in the first set; if the link is new, in the second set."""
         state = self.before or self.after
         return "" if state is None else state.parent
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Differences:
-    """Result of a comparison: all links of A and B.
+    """Result of a comparison of two sets of frames, A and B: all their links.
 
     Attributes:
         first: Name of A.
@@ -203,12 +204,13 @@ def compare(
     """Compare two sets of frames, link by link.
 
     Static links are compared directly. Links that move in both sets are compared at common stamps,
-    or else at the stamps of A, with B interpolated. Two clocks are never mixed: if one set counts
-    from 1970 and the other from the start of a simulation, each counts from its own start.
+    or if there are none, at the stamps of the first set, with the second set interpolated. Two
+    clocks are never mixed: if one set counts from 1970 and the other from the start of a
+    simulation, each counts from its own start.
 
     Args:
-        first: Set A.
-        second: Set B.
+        first: The first set of frames, called A in the result.
+        second: The second set of frames, called B in the result.
         tolerance: Tolerated difference; None for the default.
         align_starts: Whether times always count from each set's start.
 
@@ -308,7 +310,11 @@ def _state(side: Side, held: SampleColumns) -> LinkState:
 def _static_offset(
     second: Buffer, child: str, before: LinkState, after: LinkState
 ) -> Displacement | None:
-    """Return the displacement of a static link's child from A to B, in A's parent frame."""
+    """Return the displacement of a static link's child from the first to the second set of frames.
+
+    The displacement is expressed in the parent of the link `before`, which is in the first set. It
+    is None if the second set, `second`, does not connect this parent with the child.
+    """
     old, new = before.pose, after.pose
     assert old is not None
     if before.parent != after.parent:
@@ -342,10 +348,11 @@ def _moving_offset(
     parent: str,
     tolerance: Allowance,
 ) -> tuple[Displacement | None, str]:
-    """Return the displacement of a moving link's child from A to B, in A's parent frame.
+    """Return the displacement of a moving link's child from the first to the second set.
 
     Returns:
-        The displacement, and if it is None the reason.
+        The displacement in the frame `parent`, and an empty text; or None, and the reason why the
+        displacement is unknown.
     """
     stamps = _common(held[0][child], held[1][child], shift)
     if not len(stamps):
@@ -380,7 +387,7 @@ def _moving_offset(
 
 
 def _common(old: SampleColumns, new: SampleColumns, shift: Duration) -> Stamps:
-    """Return A's stamps at which both A and B have data."""
+    """Return the times on the clock of `old` at which both columns of samples have data."""
     if old.is_static or new.is_static:
         return np.unique(new.stamps - shift if old.is_static else old.stamps)
     shared: Stamps = np.intersect1d(old.stamps, new.stamps - shift)
@@ -437,7 +444,7 @@ def side_of(frames: Comparable, name: str) -> Side:
 
     Args:
         frames: Source of the frames.
-        name: Name for a side without a name: "A" or "B".
+        name: Name of the set if the source has no name: "A" or "B".
 
     Raises:
         InputError: If a path cannot be read.

@@ -21,8 +21,8 @@ FramesKind: TypeAlias = Literal[
 class Frames:
     """Frames of a recording, a robot description, a file of statics, a scenario or a session.
 
-    `tftool.open` returns it. Nothing is pruned: lookups work at every recorded time. At the end of
-    a `with` block the files are closed; data already read stays.
+    `tftool.open` returns an object of this class. Nothing is pruned: lookups work at every recorded
+    time. At the end of a `with` block the files are closed; data already read stays.
 
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
@@ -112,7 +112,7 @@ class Frames:
 
     @property
     def robot(self) -> "Robot | None":
-        """Robot of the description or recording; None without one."""
+        """Robot of the description or recording; None without a robot."""
         return self._robot if self._recording is None else self._recording.robot
 
     @property

@@ -28,7 +28,7 @@ class RefusedRun:
     Attributes:
         first: First time without a pose, nanoseconds.
         last: Last time without a pose, nanoseconds.
-        count: Number of these times.
+        count: Number of times in the run.
         reason: tf2's error message for the first time.
     """
 
@@ -82,7 +82,7 @@ class Moments:
         end: Last time, nanoseconds; None for the last stamp.
         period: Time between lookups, nanoseconds; None for the stamps of the link with the
             shortest period.
-        stamps: Times to use instead, nanoseconds, shape (n,).
+        stamps: Times to use instead of `start`, `end` and `period`, nanoseconds, shape (n,).
         words: Description of `stamps` for messages.
     """
 
@@ -165,7 +165,7 @@ def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
 
 
 def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
-    """Return the link with the shortest sample period, and its stamps; None if all are static."""
+    """Return the link with the shortest sample period, and its stamps; None if no link moves."""
     found: tuple[float, int, str, Stamps] | None = None
     for frame in links:
         held = buffer.samples(frame)
@@ -179,7 +179,7 @@ def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
 
 
 def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
-    """Return the first and the last stamp of moving links; 0 and 0 if all are static."""
+    """Return the first and the last stamp of moving links; 0 and 0 if all links are static."""
     ends = []
     for frame in links:
         held = buffer.samples(frame)
@@ -211,7 +211,7 @@ def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = No
 
 
 def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
-    """Return evenly spaced times from `start` to `end`; 0, which means the latest, becomes 1.
+    """Return evenly spaced times from `start` to `end`; `start` is at least 1, as 0 means "latest".
 
     Raises:
         UsageError: If there are more than `MOST_MOMENTS`.

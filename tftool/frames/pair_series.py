@@ -114,7 +114,7 @@ def chosen(words: Sequence[str]) -> tuple[str, ...]:
     """Return the quantities that words name: a quantity, or a panel for all of its quantities.
 
     Raises:
-        UsageError: If a word is neither.
+        UsageError: If a word is neither a quantity nor a panel.
     """
     found: list[str] = []
     for word in words:
@@ -168,7 +168,7 @@ def shades(found: Sequence[Trajectory], start: Stamp) -> list[RefusedSpan]:
 
 
 def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
-    """Return a sentence with the reason for each of the first spans, and one about the others."""
+    """Return sentences with the reasons for the first spans, and one about further spans."""
     told = []
     for one in spans[:MOST_TOLD]:
         when = f"from {axis_number(one.first)} s to {axis_number(one.last)} s"

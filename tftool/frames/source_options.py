@@ -33,7 +33,7 @@ class At:
 def checked_moment(
     at: At, title: str, epoch: Stamp, duration: Duration | None, received: Duration = 0
 ) -> Stamp:
-    """Return the stamp of a time, after checking that it is between start and end.
+    """Return the stamp of a time, after checking that the time is between start and end.
 
     Args:
         at: The time.
@@ -66,7 +66,7 @@ def checked_moment(
 
 @dataclass(frozen=True, slots=True)
 class DescriptionOptions:
-    """Options for reading a robot description: FROM itself, or --urdf for a recording.
+    """Options for reading a robot description: the source itself, or --urdf for a recording.
 
     Attributes:
         joints: Positions by joint, radians or metres.

@@ -64,7 +64,8 @@ class ErrorColumn:
     Attributes:
         name: Kind of error: "ape" (absolute) or "rpe" (relative).
         unit: Unit of the errors: "m" or "deg".
-        stamps: Times of the errors on the clock of A, nanoseconds, shape (n,).
+        stamps: Times of the errors on the clock of the reference trajectory, nanoseconds, shape
+            (n,).
         values: Errors in the unit, shape (n,).
     """
 
@@ -128,7 +129,8 @@ def trajectory_errors(
         estimate: Frames of B.
         pairs: Target and source in A and in B; None for the only chain.
         kinds: Kinds of error: "ape", "rpe", or both.
-        fit: Alignment of B with A before: none, by the first pose, rigid, or rigid with a scale.
+        fit: Alignment of B with A before the comparison: none, by the first pose, rigid, or rigid
+            with a scale.
         match: Whether to use the nearest pose of A, or to interpolate A at the stamps of B.
         step: Length of the parts for the relative error; None for one frame.
 
@@ -170,7 +172,7 @@ def trajectory_errors(
 
 
 def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, TransformArray]:
-    """Return matching poses: each of the shorter trajectory with the other's nearest in time."""
+    """Return matching poses: each pose of the shorter one with the other's nearest in time."""
     if len(a) > len(b):
         second, first = _nearest(b, a)
         return first, second
@@ -184,10 +186,10 @@ def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, Tran
 
 
 def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArray, float]:
-    """Align trajectory B with trajectory A, pose by pose.
+    """Align trajectory `b` with trajectory `a`, whose poses match row by row.
 
     Returns:
-        The aligned B, and the factor by which B was scaled.
+        The aligned trajectory `b`, and the factor by which it was scaled.
 
     Raises:
         InputError: If all positions are on one line, so that the rotation is undetermined.

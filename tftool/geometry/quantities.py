@@ -39,7 +39,7 @@ def pose(a_from_b: Transform, pose: Transform) -> Transform:
 
 
 def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
-    """Rotate a 6×6 covariance: each of its four 3×3 blocks B becomes R·B·Rᵀ.
+    """Rotate a 6×6 covariance: each of its 3×3 blocks B becomes R·B·Rᵀ for the rotation R.
 
     Raises:
         ValueError: If there are not 36 numbers.

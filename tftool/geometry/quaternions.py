@@ -61,9 +61,10 @@ def rotate(quaternion: Quad, vector: Triple) -> Triple:
 
 
 def unit(quaternion: Quad) -> Quad:
-    """Scale a quaternion to unit length; all NaN if its length is zero.
+    """Scale a quaternion to unit length; all NaN if that is impossible.
 
-    None if it is zero, not finite, or so small that its square underflows.
+    Scaling is impossible if the quaternion is zero, not finite, or so small that its square
+    underflows.
     """
     x, y, z, w = quaternion
     square = x * x + y * y + z * z + w * w

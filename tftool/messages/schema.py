@@ -249,7 +249,7 @@ class Schema:
 
 
 def _of_action(folder: str, base: str, part: str) -> str | None:
-    """Return the definition of a type that ROS 2 derives from an action; None for the action."""
+    """Return the definition of a type that ROS 2 derives from an action; None for others."""
     action = base.rpartition("_")[0]
     if part == "FeedbackMessage":
         return f"{_GOAL_ID}{folder}{base}_Feedback feedback"

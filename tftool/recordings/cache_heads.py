@@ -31,7 +31,7 @@ _MOST_HEAD: Final = 64 << 20
 def default_folder() -> Path | None:
     """Return the folder of the cache: in `XDG_CACHE_HOME`, else the system's usual place.
 
-    None if HOME is not set and the system does not know the user's home.
+    The result is None if HOME is not set and the system does not know the user's home.
     """
     given = os.environ.get("XDG_CACHE_HOME", "")
     if os.path.isabs(given):
@@ -123,7 +123,7 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
 
 
 def frames_kept(found: Found) -> list[str] | None:
-    """Return the frame names of a recording from the cache, sorted; None if it is not cached."""
+    """Return the frame names of a recording from the cache, sorted; None if they are not cached."""
     folder = default_folder()
     if folder is None:
         return None

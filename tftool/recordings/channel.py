@@ -107,7 +107,7 @@ class Channel:
     metadata: tuple[tuple[str, str], ...] = ()
 
     def extra(self, key: str) -> str:
-        """Return the channel's metadata for a key; "" if there is none."""
+        """Return the channel's metadata for a key; "" without such metadata."""
         return dict(self.metadata).get(key, "")
 
     @property
@@ -186,10 +186,10 @@ class ContainerWriter(Protocol):
 
 
 class RecordedWriter(ContainerWriter, Protocol):
-    """Writer of a file that is of use before it is complete.
+    """Writer of a file that readers can use before the file is complete.
 
     Attributes:
-        counts: Messages by stream.
+        counts: Number of messages by stream.
     """
 
     counts: dict[int, int]

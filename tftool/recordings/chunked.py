@@ -201,7 +201,7 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Add a sentence about the file's damage to `damage`, unless it is there."""
+        """Add a sentence about the file's damage to `damage`, which has each sentence once."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 
@@ -306,7 +306,7 @@ class ChunkedReader(File):
             return unpack_beginning(chunk.method, data, chunk.size)
 
     def examined(self, chunk: Chunk) -> bytes | None:
-        """Decompress a chunk and check its CRC; return None if it is cut off or damaged."""
+        """Decompress a chunk and check its CRC; return None if the chunk is cut off or damaged."""
         if chunk.cut or chunk in self._damaged:
             return None
         try:
@@ -455,7 +455,7 @@ class ChunkedReader(File):
                 yield chunk, batch if batch is not None and len(batch) else None
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the data of a chunk to decompress ahead of reading; None if there is none."""
+        """Return the data to decompress ahead of reading; None for a cut or uncompressed chunk."""
         if chunk.cut or not chunk.is_packed:
             return None
         return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size

@@ -147,9 +147,10 @@ class Growing:
     Attributes:
         parent: Parent frame, as in `Edge`.
         child: Child frame, as in `Edge`.
-        static: As in `Edge`.
-        records: Samples in the layout of `History`, which uses them without a copy; with free rows.
-        messages: Number of the message of each sample; with free rows.
+        static: Whether the transforms are static, as in `Edge`.
+        records: Samples in the layout of `History`, which uses the array without a copy. The last
+            rows are free.
+        messages: Number of each sample's message. The last rows are free.
         state: Six numbers, shared with the native scan: number of rows; number of the last
             message; whether the messages came in order; number of rows at the beginning that
             are known to be valid for `History`; number of transforms whose leading slash was
@@ -285,7 +286,7 @@ class Table:
         return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:
-        """Add a row for one more transform of an edge, in the message with that number."""
+        """Add a row for one more transform of an edge, in the message with the number `message`."""
         self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
 
     def leave_out(self, count: int) -> None:
@@ -301,7 +302,7 @@ class Table:
         stamp: Stamp,
         seven: tuple[float, ...],
     ) -> None:
-        """Append one transform; `message` is its message's number and its position there."""
+        """Append one transform; `message` is its message's number, and its index in the message."""
         edge = self.edge(parent, child, static, 1)
         if edge is None:
             return

@@ -170,7 +170,7 @@ class MessageTable:
 
 
 def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
-    """Return a view in which the bytes from each offset on, `size` in number, are one item."""
+    """Return a view with one item for each offset: the `size` bytes from this offset on."""
     return np.ndarray((len(data) - size + 1,), f"V{size}", buffer=data.data, strides=(1,))
 
 
@@ -187,7 +187,7 @@ class Block(Protocol):
 
     @property
     def counts(self) -> Mapping[int, int] | None:
-        """Return the number of messages per channel; None if the block must be parsed for it."""
+        """Return the number of messages per channel; None if counting requires parsing."""
 
     @property
     def whole(self) -> bool:

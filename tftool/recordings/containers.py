@@ -81,7 +81,7 @@ class ContainerFormat:
 
         Args:
             path: Path of the file.
-            style: `style` of the input's reader if it has the same format; else empty.
+            style: `style` of the input's reader if the input has the same format; else empty.
             profile: Profile of the messages if the style has none: "ros1" or "ros2".
 
         Raises:
@@ -139,10 +139,10 @@ SUFFIXES: Final = (*(one.suffix for one in CONTAINERS), PACKED_SUFFIX)
 
 
 def container_of(path: Path) -> str:
-    """Return the name of the container for a file's name; "" for a folder.
+    """Return the name of the container for the suffix of a file; "" for a folder.
 
     Raises:
-        UsageError: If this container cannot be written.
+        UsageError: If no container has this suffix.
     """
     if not path.suffix:
         return ""
@@ -157,12 +157,12 @@ def container_of(path: Path) -> str:
 
 
 def container_named(name: str) -> ContainerFormat:
-    """Return the container format with a name in code."""
+    """Return the container format with a name: "mcap", "db3" or "bag"."""
     return next(one for one in CONTAINERS if one.name == name)
 
 
 def container_stored(storage: str) -> ContainerFormat:
-    """Return the container format with a name as rosbag2's storage.
+    """Return the container format that rosbag2 calls by a name: "mcap" or "sqlite3".
 
     Raises:
         UsageError: If rosbag2 has no such storage.

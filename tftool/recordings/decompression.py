@@ -99,7 +99,7 @@ class _Room:
 
 
 class _Coming:
-    """A part that is being decompressed, or waits for it.
+    """A part that is being decompressed, or waits to be decompressed.
 
     Attributes:
         room: Memory for the result.
@@ -192,7 +192,7 @@ class Ahead:
         return None
 
     def _start(self) -> None:
-        """Start the decompression of as many parts as there are threads, and some more."""
+        """Start the decompression of a few more parts than there are threads."""
         while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
             key = next(self._keys, None)
             if key is None:

@@ -49,7 +49,8 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
         namespace: Namespace of the robot's description: `/arm` for `/arm/robot_description`.
 
     Returns:
-        `joint_states` of that namespace; if there is none, those of all namespaces.
+        The topic `joint_states` of that namespace; without it, the `joint_states` topics of all
+        namespaces.
     """
     named = [
         topic.name

@@ -43,7 +43,7 @@ _DOUBLE = struct.Struct("<d")
 
 
 def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decoder | None":
-    """Return a function that decodes transforms from messages of a type; None if there is none.
+    """Return a function that decodes transforms from messages of a type; None for other types.
 
     Args:
         kind: Type of the messages, in short form.

@@ -87,7 +87,7 @@ class Cutter:
         self._cut_first(joined, np.concatenate([numbers for _, numbers in waiting]))
 
     def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages; if there may be too many edges, use the first ones."""
+        """Decode messages; if the edges may be too many, keep those that appear first."""
         # Even with transforms of minimum size, there cannot be too many new edges.
         if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
             self._cut(batch, numbers)
@@ -209,7 +209,7 @@ class TemplateCutter(Cutter):
 
 
 class ScanCutter(Cutter):
-    """Decoder in C, for the frequent cases; it returns unusual messages."""
+    """Decoder in C, for the frequent cases; it leaves unusual messages to Python."""
 
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)

@@ -287,7 +287,7 @@ class Recording:
 
     @cached_property
     def robot(self) -> Robot | None:
-        """Robot from the given description, else from the recorded description; None without one.
+        """Robot from the given, or else the recorded description; None without a description.
 
         Mistakes in a recorded description are added to `oddities`.
 
@@ -390,7 +390,7 @@ class Recording:
 
         Raises:
             InputError: If there is no such topic, or its type or encoding is unknown.
-            UsageError: As in `raw_messages`.
+            UsageError: If the recording is closed.
         """
         found = self._topic(topic)
         layout = {"cdr": CDR, "ros1": ROS1}.get(found.encoding)
@@ -427,7 +427,7 @@ class Recording:
 
 
 def _by_clock(stamps: Stamps) -> list[Stamps]:
-    """Split stamps above 0 into those of wall clock and simulation; usually only one has any."""
+    """Split stamps above 0 into those of wall clock and simulation; usually one clock has none."""
     if len(stamps) and stamps.min() >= SIMULATED_BELOW:
         return [stamps]
     stamps = stamps[stamps > 0]

@@ -132,7 +132,7 @@ class RecordingWriter:
         """Complete the recording, and give it its final name.
 
         Raises:
-            InputError: If this fails; the written data is removed.
+            InputError: If the recording cannot be completed; the written data is then removed.
         """
         try:
             self.container.finish()
@@ -164,7 +164,7 @@ def write_recording(
             recording.static_transforms([laser_in_base])
             recording.transforms([base_in_odom])
 
-    It is written under a temporary name and renamed when it is complete.
+    The recording is written under a temporary name, and renamed when complete.
 
     Args:
         path: Path that ends in ".mcap", ".db3" or ".bag"; without a suffix, a rosbag2 folder.

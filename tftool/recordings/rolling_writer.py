@@ -65,7 +65,8 @@ class RollingRecording:
 
     Attributes:
         path: Final name of the file or folder.
-        messages: Number of received messages; after a ring buffer is closed, of written ones.
+        messages: Number of received messages; once a recording with a ring buffer is closed, the
+            number of written messages.
         transforms: Number of transforms in these messages.
         size: Number of bytes written, or held in the ring buffer.
         files: Names of the completed files, in order.
@@ -305,7 +306,7 @@ class RollingRecording:
         """Complete the last file, and give it its final name.
 
         Raises:
-            InputError: If this fails; data written before stays readable.
+            InputError: If the file cannot be completed; data written before stays readable.
         """
         if self._closed:
             return

@@ -96,7 +96,7 @@ class Target:
         """Write everything to the disk, then give the file its final name.
 
         Raises:
-            InputError: If this fails; the incomplete file is removed.
+            InputError: If the file cannot be completed; it is then removed.
         """
         try:
             files = [one for one in self.part.iterdir() if one.is_file()] if self._folder else []
@@ -138,12 +138,12 @@ class Target:
 def commit_together(targets: Sequence[Target]) -> None:
     """Give related files their final names together, or none of them.
 
-    Readers find the other files through the last file. So it is renamed last, and its old version
-    gets a hidden name first: even if the process is killed, it is never beside files of another
-    version.
+    Readers find the other files through the last file. So the last file is renamed last, and its
+    old version gets a hidden name before: even if the process is killed, the last file is never
+    beside files of another version.
 
     Raises:
-        InputError: If this fails; all names are as before.
+        InputError: If a file cannot be renamed; all names are then as before.
     """
     held: list[tuple[Path, Path]] = []
     done: list[Path] = []

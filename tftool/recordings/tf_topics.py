@@ -49,7 +49,7 @@ class RobotNames:
 def transforms_on(
     source: Recorded, topics: Sequence[str], progress: Progress | None = None
 ) -> tuple[Transforms, RobotNames]:
-    """Read the transforms on some topics, and on the static topic of each.
+    """Read the transforms on some topics, and on the static topic of each one's namespace.
 
     Topics of one namespace belong to one robot. A frame name that several robots use gets the
     namespace as prefix, unless it is a root that they share (`SHARED_ROOTS`).
@@ -137,7 +137,7 @@ def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
 def joined(said: Transforms, implied: Transforms) -> Transforms:
     """Merge published transforms with transforms from odometry and poses.
 
-    The latter are used only for frames that have no published transforms.
+    Odometry and poses are used only for frames that have no published transforms.
 
     Args:
         said: Published transforms.

@@ -163,7 +163,7 @@ class RobotJoint:
 
     @property
     def moves(self) -> bool:
-        """Whether the joint has a single position: it is revolute, continuous or prismatic."""
+        """Whether the joint has one position value: it is revolute, continuous or prismatic."""
         return self.type in ("revolute", "continuous", "prismatic")
 
     @property

@@ -278,9 +278,9 @@ class Robot:
         """Return a buffer with the frames of all links.
 
         Args:
-            given: Positions by joint (see `positions`), or None: then all links are static. Or
-                joint states: then the moved links have samples at the states' stamps, and the
-                links of other movable joints have none.
+            given: Positions by joint (see `positions`) or None, for static links only. With joint
+                states, the moved links have samples at the states' stamps, and the links of other
+                movable joints have no samples.
 
         Raises:
             UsageError: See `positions`.
@@ -361,8 +361,9 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
 
     Raises:
         InputError: If the file cannot be read.
-        DescriptionError: If it has mistakes; all of them, with line and column.
-        UsageError: If it contains xacro and the extra `xacro` is not installed.
+        DescriptionError: If the description has mistakes; the error has all of them, with line and
+            column.
+        UsageError: If the file contains xacro and the extra `xacro` is not installed.
     """
     return Robot(load_description(path, arguments))
 

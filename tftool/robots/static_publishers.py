@@ -35,8 +35,8 @@ class StaticFrames:
         name: The file, as it was given.
         links: Published links, in the order of the file.
         notes: Sentences about parts that cannot be read.
-        start: 0, as static transforms are valid at all times.
-        end: 0.
+        start: Always 0, because static transforms are valid at all times.
+        end: Always 0, like `start`.
     """
 
     name: str
@@ -78,7 +78,7 @@ Remark = tuple[int, str]
 
 
 def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Remark], list[Remark]]:
-    """Return a file's static transforms, its mistakes, and the parts only known by running it.
+    """Return a file's static transforms, its mistakes, and the parts that only a run can show.
 
     Raises:
         InputError: If the file cannot be read.

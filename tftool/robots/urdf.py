@@ -61,8 +61,9 @@ def load_description(
 
     Raises:
         InputError: If the file cannot be read, or contains xacro and is not named .xacro.
-        DescriptionError: If it has mistakes; all of them, with line and column.
-        UsageError: If it contains xacro and the extra `xacro` is not installed, or if
+        DescriptionError: If the description has mistakes; the error has all of them, with line and
+            column.
+        UsageError: If the file contains xacro and the extra `xacro` is not installed, or if
             arguments are given to a file without xacro.
     """
     text = _text_of(Path(path))
@@ -142,8 +143,10 @@ def parse_description(text: str, name: str = "robot_description") -> RobotDescri
         name: Name of the description in messages, usually its path.
 
     Raises:
-        DescriptionError: If it has mistakes; all of them, with line and column.
-        UnexpandedXacro: If it has elements of xacro, which the publisher of the text must expand.
+        DescriptionError: If the description has mistakes; the error has all of them, with line and
+            column.
+        UnexpandedXacro: If the text has elements of xacro, which the publisher of the text must
+            expand.
     """
     if "<xacro:" in text and is_xacro(text):
         raise UnexpandedXacro(

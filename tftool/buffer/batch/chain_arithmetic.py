@@ -136,7 +136,7 @@ class MovingEdge:
     __slots__ = ("_buckets", "column", "intervals")
 
     def __init__(self, column: Column, count: int) -> None:
-        """Precompute the tables of a link that are worth it for `count` times."""
+        """Precompute those tables of a link that save time in lookups at `count` times."""
         self.column = column
         k = len(column.stamps)
         self.intervals = (

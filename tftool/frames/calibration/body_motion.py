@@ -137,7 +137,7 @@ class BodyMotion:
     def velocities(self, times: Floats) -> tuple[Floats, Floats]:
         """Return velocities in the fixed frame, and angular velocities about the moving axes.
 
-        They are differences over at least a tenth of a second, to reduce the noise of poses.
+        Velocities are differences of poses over at least a tenth of a second, to reduce the noise.
 
         Returns:
             Metres per second and radians per second, each of shape (m, 3).

@@ -70,6 +70,9 @@ Trio = tuple[float | None, float | None, float | None]
 class Interval:
     """Half-widths of a pose's 95 % interval; None in directions that the motion does not determine.
 
+    The mount is the pose of the frame moving_b in moving_a. The fixed mount is the pose of fixed_b
+    in fixed_a. See `calibrate` for these frames.
+
     Attributes:
         translation: Half-widths in metres: for the mount along the axes of moving_a, for the fixed
             mount along the axes of fixed_a.
@@ -85,25 +88,32 @@ class Interval:
 class Calibration:
     """Result of a calibration: the mount of one moving frame on another.
 
+    A and B are the two recorded motions: of the frame moving_a in fixed_a, and of the frame
+    moving_b in fixed_b.
+
     Attributes:
-        verdict: "solved", "partial" (`unseen` names the rest), or "refused".
+        verdict: "solved", "partial" (`unseen` names the undetermined parts), or "refused".
         why: Reason for the verdict, a sentence.
-        moving: Moving frames of A and of B.
-        fixed: Fixed frames of A and of B.
-        mount: Pose of moving_b in moving_a; None if refused.
-        fixed_mount: Pose of fixed_b in fixed_a.
+        moving: Names of the frames moving_a and moving_b.
+        fixed: Names of the frames fixed_a and fixed_b.
+        mount: Pose of moving_b in moving_a; None if the calibration was refused.
+        fixed_mount: Pose of fixed_b in fixed_a; None if the calibration was refused.
         interval95: 95 % interval of the mount.
         fixed_interval95: 95 % interval of the fixed mount.
-        clock_offset: Offset in t_a = t_b + offset, seconds, at the middle of the common time.
+        clock_offset: Offset of A's clock from B's, t_a = t_b + offset, seconds, at the middle of
+            the common time.
         offset_interval95: Half-width of the offset's 95 % interval, seconds.
         drift_ppm: Drift of the clock, microseconds per second; None for a short recording.
         clock: Correlation from which the offset was measured.
-        halves_differ: Distance between the mounts of both halves: metres, degrees.
+        halves_differ: Difference between the mounts from the first and the second half of the
+            recording: metres, degrees.
         unseen: Parts of the mount that the motion does not determine: x y z roll pitch yaw.
-        unseen_direction: Undetermined direction, a unit vector in moving_a, if it is not an axis.
-        inverted: Whether each motion was inverted.
+        unseen_direction: Undetermined direction, a unit vector in moving_a, if it is oblique to the
+            x, y and z axes; else None.
+        inverted: Whether A was inverted, and whether B was inverted.
         next_motion: The motion to record next; None if none is needed.
-        scale: Factor of A's translations, and its half-width; None if not requested.
+        scale: Factor of A's translations, and the half-width of its 95 % interval; None if no scale
+            was requested.
         notes: Sentences about the inputs.
     """
 
@@ -147,21 +157,25 @@ def calibrate(
         found = tftool.calibrate(tftool.open("vicon.csv"), tftool.open("camera.csv"))
         found.mount, found.interval95.translation
 
-    The function solves A(t + d) · X = Y · B(t) for the mount X, the pose Y of B's fixed frame in
-    A's, and the clock offset d. See docs/do/calibrate.md for the motion to record.
+    The function solves A(t + d) · X = Y · B(t). A and B are the two motions, X is the mount, Y is
+    the pose of fixed_b in fixed_a, and d is the clock offset. See docs/do/calibrate.md for the
+    motion to record.
 
     Args:
-        a: Poses of moving_a in fixed_a over time, odom ← base_link; or frames that are one chain.
-        b: Poses of moving_b in fixed_b, world ← camera, or frames; on any clock.
+        a: Motion A: the poses of a frame moving_a in a frame fixed_a over time, for example of
+            base_link in odom; or frames that form a single chain.
+        b: Motion B: the poses of moving_b in fixed_b, for example of camera in world; or frames
+            that form a single chain. Its clock may differ from that of A.
         planar: Whether to estimate only x, y and yaw of the mount.
         scale: Whether to estimate a scale of A's translations, for wheel odometry.
         published: The published mount, used for parts that the motion does not determine.
-        inverted: Motions to invert; None to decide for B by the motion.
+        inverted: Whether to invert A, and whether to invert B; None to choose the direction of B
+            that fits.
         seed: Seed of the random numbers for the intervals.
-        progress: Function called with the number of finished steps, and of all steps.
+        progress: Function called with the number of finished steps and the total number of steps.
 
     Returns:
-        The mount; false if it cannot be determined.
+        The calibration; false if the mount cannot be determined.
 
     Raises:
         InputError: If the frames of an input are not a single chain.
@@ -195,7 +209,7 @@ class _Shown:
 
     Attributes:
         free: Directions, among the nine parameters of a fit, that the motion determines.
-        axis: The only axis of rotation in moving_a; None if there are several.
+        axis: The axis of rotation in the frame moving_a, if there is only one axis; else None.
         unseen: Names of the parts that the motion does not determine.
     """
 
@@ -245,7 +259,7 @@ class _Solver:
         )
 
     def _start(self, problem: Problem) -> tuple[Fit, MotionPairs, _Shown, float]:
-        """Return an approximate solution from pairs of poses, and its error."""
+        """Return a first fit, the pairs of poses used, the determined directions, and the error."""
         pairs = pairs_of(problem, 0.0)
         if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
             raise CalibrationRefused(
@@ -284,7 +298,7 @@ class _Solver:
         return np.array(self.published.rotation)
 
     def _along(self, shift: Floats, axis: Floats) -> Floats:
-        """Return a translation whose component along the rotation axis is the published one."""
+        """Replace a translation's component along the rotation axis by the published mount's."""
         kept = 0.0 if self.published is None else np.array(self.published.translation) @ axis
         return np.asarray(shift - (shift @ axis) * axis + kept * axis)
 
@@ -313,7 +327,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return what the motion determines; a second axis with only noise does not count."""
+        """Return the directions that the motion determines, without a second axis of mere noise."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))
@@ -412,7 +426,7 @@ def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> 
 
 
 def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
-    """Resample B to A's clock, with at most as many poses as the fit needs.
+    """Convert the motion `b` to the clock of `a`, with at most as many poses as the fit needs.
 
     Raises:
         CalibrationRefused: If the two motions overlap too little.
@@ -431,7 +445,7 @@ def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
 
 
 def _segments(problem: Problem, length: float) -> "np.ndarray":
-    """Return the number of the time segment of each of B's poses, without gaps in the numbers."""
+    """Return the time segment of each pose of the second motion, numbered from 0 without gaps."""
     if not math.isfinite(length):
         return np.zeros(len(problem.times), dtype=np.intp)
     numbers = ((problem.times - problem.times[0]) // length).astype(np.intp)
@@ -440,7 +454,10 @@ def _segments(problem: Problem, length: float) -> "np.ndarray":
 
 
 def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
-    """Return what a motion about one axis determines: nothing along it; if planar, no tilt."""
+    """Return the directions of the mount that a motion about one axis determines.
+
+    A translation along the axis is undetermined; if the motion is planar, so are roll and pitch.
+    """
     free = np.zeros((5, 9))
     free[:3, :3] = np.eye(3)
     free[3:, 3:6] = np.linalg.svd(axis[None])[2][1:]
@@ -467,7 +484,7 @@ def _reason(shown: _Shown) -> tuple[str, str | None]:
 
 
 def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
-    """Return the undetermined direction if it is not an axis of moving_a."""
+    """Return the undetermined direction if it is oblique to the axes of its frame; else None."""
     if shown.axis is None or np.abs(shown.axis).max() > math.cos(math.radians(3.0)):
         return None
     x, y, z = shown.axis.tolist()
@@ -475,7 +492,7 @@ def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
 
 
 def _interval(sizes: Floats, shown: _Shown) -> Interval:
-    """Return an interval from the half-widths along the determined directions."""
+    """Return the mount's interval from the half-widths along the determined directions."""
     free = np.array(shown.free)[:, :6]
     widths = np.sqrt(((free * sizes[:, None]) ** 2).sum(axis=0))
     known = [name not in shown.unseen for name in (*ANGLES, *AXES)]
@@ -485,9 +502,10 @@ def _interval(sizes: Floats, shown: _Shown) -> Interval:
 
 
 def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) -> Interval:
-    """Return the interval of Y, where undetermined parts of the mount are undetermined too.
+    """Return the interval of the fixed mount: the pose of one fixed frame in the other.
 
-    The only axis of rotation has a fixed direction in fixed_a and in fixed_b.
+    Undetermined parts of the mount are undetermined in the fixed mount too. If there is only one
+    axis of rotation, it has a constant direction in both fixed frames.
     """
     turns, moves = np.degrees(sizes[:3]), sizes[3:]
     if shown.axis is None:
@@ -501,7 +519,7 @@ def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) ->
 
 
 def _trio(values: Floats, hidden: Floats) -> Trio:
-    """Return half-widths by axis; None for an axis that the hidden directions largely cover."""
+    """Return half-widths along x, y and z; None for an axis with a large undetermined part."""
     x, y, z = (
         None if part > HIDDEN else float(value) for value, part in zip(values, hidden, strict=True)
     )

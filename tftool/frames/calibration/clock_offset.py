@@ -41,13 +41,13 @@ _DRAWS: Final = 200
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockOffset:
-    """Offset of the clock of A from that of B: t_a = t_b + seconds.
+    """Offset of the clock of motion A from the clock of motion B: t_a = t_b + seconds.
 
     Attributes:
         seconds: The offset.
         interval95: Half-width of its 95 % interval, seconds.
-        correlation: Height of the highest peak, 1 for equal curves.
-        second: Height of the second peak.
+        correlation: Height of the highest peak of `curve`; 1 if both motions turn equally.
+        second: Height of the second highest peak of `curve`.
         lags: Offsets for which the correlation was computed, seconds, shape (n,).
         curve: Correlation at each offset, NaN where the overlap is too small, shape (n,).
     """
@@ -75,10 +75,11 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
         tftool.clock_offset(tftool.open("vicon.csv"), tftool.open("camera.csv")).seconds
 
     Args:
-        a: Poses over time, or frames that are one chain.
-        b: The other motion, on any clock.
+        a: The first motion: poses over time, or frames that form a single chain.
+        b: The second motion, on any clock.
 
-    Both are poses of points on one rigid body, in any fixed frames. The offset may be of any size.
+    The two moving frames are on one rigid body; each motion may be in any fixed frame. The offset
+    may be of any size.
 
     Raises:
         CalibrationRefused: If the rotations do not agree, the offset is ambiguous, or one motion
@@ -159,10 +160,10 @@ class _Correlation:
         return float(rest.max()) if len(rest) else -1.0
 
     def refined(self) -> tuple[float, float]:
-        """Return the interpolated peak and its 95 % half-width, in steps.
+        """Return the position of the peak and the half-width of its 95 % interval, in steps.
 
-        The peak is that of a parabola through five values; its half-width is from a bootstrap over
-        blocks of time.
+        The position is the top of a parabola through five values. The half-width comes from a
+        bootstrap over blocks of time.
         """
         lag = int(self.lags[self.peak])
         near = np.arange(-4, 5)
@@ -196,7 +197,7 @@ def _tops(sums: Floats) -> Floats:
 def _overlap(
     f: Floats, has_f: Floats, g: Floats, has_g: Floats, lag: int
 ) -> tuple[Floats, Floats, Floats]:
-    """Return two curves' overlapping parts at a lag, 0 in gaps, and a 0-1 mask without gaps."""
+    """Return two curves' overlapping parts at a lag, 0 in gaps, and a mask that is 0 in gaps."""
     low, high = max(0, lag), min(len(f), len(g) + lag)
     both = has_f[low:high] * has_g[low - lag : high - lag]
     return f[low:high] * both, g[low - lag : high - lag] * both, both

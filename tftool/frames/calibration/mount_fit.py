@@ -1,8 +1,10 @@
 """Least-squares fit of a mount: A(t + d) · X = Y · B(t), with robust weights.
 
-X is the mount, Y the pose of B's fixed frame in A's, d the clock offset. If a chain drifts, as
-odometry does, time is divided into segments with separate Ys, which are eliminated (Schur
-complement). Each round solves one small linear system.
+A and B are two motions: poses over time of two frames on one rigid body, each in its own fixed
+frame. X is the mount: the pose of B's moving frame in A's moving frame. Y is the pose of B's fixed
+frame in A's fixed frame, and d is the clock offset. If a chain drifts, as odometry does, time is
+divided into segments with separate Ys, which are eliminated (Schur complement). Each round solves
+one small linear system.
 """
 
 from collections.abc import Sequence
@@ -26,16 +28,16 @@ MOUNT, SHIFT, DRIFT, SCALE, JOIN = slice(0, 6), 6, 7, 8, slice(9, 15)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
-    """State of the fit: the estimated parameters, and its residuals.
+    """State of the fit of A(t + d) · X = Y · B(t): the estimated parameters, and the residuals.
 
     Attributes:
-        turn: Rotation of X, quaternion.
-        shift: Translation of X, metres.
-        offset: d minus the approximate clock offset, at time `middle`, seconds.
-        drift: Change of d per second.
-        scale: Factor of A's translations.
-        joins: Rotations of Y by segment, shape (k, 4).
-        places: Translations of Y by segment, shape (k, 3).
+        turn: Rotation of the mount X, quaternion.
+        shift: Translation of the mount X, metres.
+        offset: Clock offset d minus its first estimate, at the time `Problem.middle`, seconds.
+        drift: Change of the clock offset d per second.
+        scale: Factor of the translations of motion A.
+        joins: Rotation of the pose Y between the fixed frames, by time segment, shape (k, 4).
+        places: Translation of the pose Y, by time segment, shape (k, 3).
         noise: Standard deviation of one residual along one axis: radians, metres.
         cost: Mean loss by the weights; 1 if residuals are Gaussian.
         blocks: Normal equations of each time block: matrices and right sides.
@@ -54,11 +56,12 @@ class Fit:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Problem:
-    """Inputs of the fit: two motions on one time axis.
+    """Inputs of the fit: two motions, A and B, on one time axis.
 
     Attributes:
-        a: Motion of A, which is interpolated.
-        times: Times of B's poses on A's time axis, without the clock offset, seconds, shape (n,).
+        a: Motion A, which is interpolated.
+        times: Times of B's poses on A's time axis, by the first estimate of the clock offset,
+            seconds, shape (n,).
         positions: Positions of B, shape (n, 3).
         rotations: Rotations of B, shape (n, 4).
         middle: Time at which the clock offset is estimated, seconds.
@@ -71,7 +74,7 @@ class Problem:
     middle: float
 
     def between(self, begin: float, end: float) -> "Problem":
-        """Return the same problem with B's poses between two times only."""
+        """Return the same problem with only the poses of motion B between two times."""
         kept = (self.times >= begin) & (self.times < end)
         return replace(
             self,
@@ -100,7 +103,7 @@ def cross(vectors: Floats) -> Floats:
 
 
 def mean_pose(turns: Floats, places: Floats, weights: Floats) -> tuple[Floats, Floats]:
-    """Return the weighted mean of poses; quaternions by the largest eigenvector (Markley 2007)."""
+    """Return the weighted means of rotations (by the method of Markley, 2007) and of positions."""
     _, vectors = np.linalg.eigh((turns * weights[:, None]).T @ turns)
     return vectors[:, -1], (places * weights[:, None]).sum(axis=0) / weights.sum()
 
@@ -116,9 +119,10 @@ def refine(
 
     Args:
         problem: The two motions.
-        start: Initial state; its Ys are computed anew if the number of segments differs.
-        free: Directions, in the 9 parameters without Y, along which the fit may move.
-        segments: Number of each B pose's segment, from 0 without gaps, shape (n,).
+        start: Initial state; the poses Y between the fixed frames are computed anew if their number
+            differs from that of the segments.
+        free: Directions in which the fit may change its 9 parameters other than Y.
+        segments: Time segment of each pose of motion B, numbered from 0 without gaps, shape (n,).
         rounds: Number of rounds.
     """
     count = int(segments[-1]) + 1
@@ -136,7 +140,7 @@ def refine(
 
 
 class _Residuals:
-    """Residuals of a state with derivatives and weights: six rows per pose."""
+    """Residuals of a fit, with derivatives and weights: six rows per pose of the second motion."""
 
     def __init__(
         self, problem: Problem, fit: Fit, segments: npt.NDArray[np.intp], count: int
@@ -175,16 +179,17 @@ class _Residuals:
     def _separate(self, of_a: Floats, of_x: Floats) -> None:
         """Subtract the part of the translation residuals that the rotation residuals explain.
 
-        An error of A's rotation appears twice: in the rotation, and through the lever arm to B in
-        the translation. Half of a rotation residual is expected to be A's. Without this common
-        part the rows are independent, as least squares assumes.
+        An error in the rotation of the first motion appears twice: in the rotation residual, and
+        through the lever arm between the two frames in the translation residual. Half of a rotation
+        residual is expected to come from the first motion. Without this common part the rows are
+        independent, as least squares assumes.
         """
         lever = of_a @ (-0.5 * cross(self.fit.shift[None])[0] @ of_x)
         self.errors[:, 3:] -= np.einsum("nij,nj->ni", lever, self.errors[:, :3])
         self.jacobian[:, 3:] -= lever @ self.jacobian[:, :3]
 
     def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
-        """Return the fit, with each Y set to its segment's mean if their number differs."""
+        """Return the fit; compute the pose Y of each segment anew if their number changed."""
         if len(fit.joins) == self.count:
             return fit
         back = batch.conjugate(problem.rotations)
@@ -231,7 +236,7 @@ class _Residuals:
         return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
 
     def by_segment(self, basis: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Return the equations without each segment's Y, and the data to compute Y afterwards."""
+        """Return the equations without each segment's pose Y, and the data to compute Y later."""
         starts = np.flatnonzero(np.diff(self.segments, prepend=-1))
         square, right = self.sums(starts)
         inner = square[:, JOIN, JOIN] + 1e-9 * np.eye(6)
@@ -251,7 +256,8 @@ class _Residuals:
     def blocks(self, basis: Floats) -> tuple[Floats, Floats]:
         """Return the normal equations of time blocks, for a bootstrap.
 
-        With a single Y, its parameters are included; otherwise each segment is a block.
+        If there is only one segment, the parameters of the pose between the fixed frames are
+        included; otherwise each segment is a block.
         """
         if self.count > 1:
             reduced, gradient, _, _ = self.by_segment(basis)
@@ -291,7 +297,8 @@ def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
     Each resampling of blocks moves the fit by one linear step.
 
     Returns:
-        Standard deviations along the free directions, then of Y if there is a single Y, shape (p,).
+        Standard deviations along the free directions, then of the pose between the fixed frames if
+        there is only one segment, shape (p,).
     """
     square, right = fit.blocks
     count = len(square)
@@ -318,13 +325,13 @@ _SMALLEST, _LARGEST = np.radians(12.0), np.radians(150.0)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MotionPairs:
-    """Motions of A and B between pairs of times.
+    """Motions of the two moving frames, A and B, between pairs of times.
 
     Attributes:
-        turns_a: Rotation vectors of A, radians about the axes of moving_a, shape (n, 3).
-        turns_b: Rotation vectors of B, about the axes of moving_b.
-        moves_a: Translations of A in moving_a, metres, shape (n, 3).
-        moves_b: Translations of B in moving_b.
+        turns_a: Rotation vectors of A, radians about the axes of A, shape (n, 3).
+        turns_b: Rotation vectors of B, radians about the axes of B, shape (n, 3).
+        moves_a: Translations of A along the axes of A, metres, shape (n, 3).
+        moves_b: Translations of B along the axes of B, metres, shape (n, 3).
         rotations_a: Rotations of A, quaternions, shape (n, 4).
         largest: Largest angle that A turns by in ten seconds, radians.
     """
@@ -366,7 +373,7 @@ def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPa
 
 
 def kabsch(pairs: MotionPairs) -> tuple[Floats, Floats]:
-    """Return the quaternion that rotates B's rotation vectors to A's, and each pair's weight."""
+    """Return the quaternion that rotates `turns_b` to `turns_a`, and the weight of each pair."""
     weights = np.ones(len(pairs.turns_a))
     for _ in range(10):
         matrix = _aligned(pairs.turns_a * weights[:, None], pairs.turns_b)
@@ -387,7 +394,7 @@ def _weights(off: Floats) -> Floats:
 
 
 def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tuple[Floats, Floats]:
-    """Solve linear equations, three rows per pair, robustly; return the solution and each error."""
+    """Solve linear equations, three rows per pair, robustly; return solution and errors."""
     for _ in range(10):
         square = np.einsum("n,nij,nik->jk", weights, design, design)
         square += ridge * max(np.trace(square), 1e-9) * np.eye(len(square))
@@ -400,6 +407,9 @@ def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tup
 def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, float]:
     """Solve (R_A - I) t_X = R_X t_B - t_A robustly for the translation t_X of the mount.
 
+    R and t are rotation and translation: of the first motion (A), the second motion (B), and the
+    mount (X).
+
     Returns:
         The translation, and the median error, metres.
     """
@@ -411,18 +421,18 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
 
 
 def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Floats, Floats, float]:
-    """Solve for the mount's turn about the only axis of rotation, and its translation across it.
+    """Solve for the mount's rotation about the only axis, and its translation across the axis.
 
     The rotation vectors do not determine the turn about the axis; the translations do, linearly in
     its cosine and sine.
 
     Args:
         pairs: Motions that turn about one axis.
-        axis: The axis in moving_a, a unit vector.
-        start: Quaternion of a rotation from B's axis to A's.
+        axis: The axis in the moving frame of the first motion, a unit vector.
+        start: Quaternion of a rotation that maps the axis in the second moving frame to `axis`.
 
     Returns:
-        Rotation of the mount X, translation (0 along the axis), and median error.
+        Rotation and translation of the mount (0 along the axis), and the median error, metres.
     """
     moved = batch.rotate(np.broadcast_to(start, pairs.rotations_a.shape), pairs.moves_b)
     along = (moved @ axis)[:, None] * axis

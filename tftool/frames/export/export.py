@@ -120,12 +120,13 @@ def export(
         start: Time before which nothing is written, nanoseconds.
         end: Time after which nothing is written, nanoseconds.
         period: Time between lookups, nanoseconds; None for the stamps of the fastest link.
-        stamps: Times of the lookups instead, nanoseconds, shape (n,).
-        decimals: Decimals of numbers; see `Style`.
+        stamps: Times of the lookups instead of `start`, `end` and `period`, nanoseconds, shape
+            (n,).
+        decimals: Number of decimals; see `Style`.
         rpy: Whether to add roll, pitch and yaw to CSV and Parquet.
         foxglove: Whether to write MCAP as foxglove.FrameTransforms.
         with_moving: Whether to write moving links to a URDF, as floating joints.
-        root: Frame below which links are written; None for all.
+        root: Frame below which links are written; None for all links.
         time: Time of the poses of moving links, nanoseconds.
         force: Whether the file may replace an existing file.
         progress: Function called with the progress in bytes.

@@ -39,8 +39,8 @@ def fixed_links(
     Args:
         buffer: Source of the frames.
         with_moving: Whether to add moving links, with their poses at one time.
-        time: Time of these poses, nanoseconds; 0 for the latest of each link.
-        root: Frame below which links are returned; None for all.
+        time: Time of the moving links' poses, nanoseconds; 0 for the latest of each link.
+        root: Frame below which links are returned; None for all links.
 
     Raises:
         TransformException: If a moving link has no pose at that time, or the root does not exist.
@@ -69,7 +69,7 @@ def fixed_links(
 
 
 def roots(links: Sequence[FixedLink]) -> list[str]:
-    """Return the root frames (parents that are no child), in order of appearance."""
+    """Return the root frames (parents that are not a child), in order of appearance."""
     children = {one.child for one in links}
     return list(dict.fromkeys(one.parent for one in links if one.parent not in children))
 

@@ -79,7 +79,7 @@ def rows_as_text(
 
 
 def fits(numbers: Floats) -> bool:
-    """Whether `rows` can format these numbers; else use `exact_rows`."""
+    """Whether `rows_as_text` can format these numbers; `exact_rows` can format all others."""
     # Comparisons with NaN are false, so NaN does not fit.
     return bool((np.abs(numbers) < _LARGEST).all())
 
@@ -92,7 +92,7 @@ def exact_rows(
     seconds: bool = False,
     separator: str = ",",
 ) -> bytes:
-    """Return the text of rows with any number of decimals; slower than `rows`. See `FULL`."""
+    """Return the text of rows with any number of decimals, more slowly than `rows_as_text`."""
     lines = []
     for place, row in enumerate(numbers.tolist()):
         words = [_shortest(one) if decimals >= FULL else f"{one:.{decimals}f}" for one in row]

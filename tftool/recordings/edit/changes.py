@@ -50,13 +50,13 @@ class Edits:
         statics_first: Whether to write the static transforms at the beginning, in one message
             for each channel.
         statics_from: Static transforms that replace those of the same children.
-        start: First time to keep, nanoseconds; None for the beginning.
-        end: Last time to keep; None for the end.
+        start: First time to keep, nanoseconds; None for the beginning of the recording.
+        end: Last time to keep, nanoseconds; None for the end of the recording.
         by_record_time: Whether `start` and `end` are log times; else stamps.
         shift: Nanoseconds to add to the stamps of moving links.
         restamp: Whether to replace stamps by log times.
         everywhere: Whether to change names and stamps in all messages with a header.
-        split_every: Duration of each file; 0 for one file.
+        split_every: Duration of each output file, nanoseconds; 0 for one file.
     """
 
     drop: tuple[LinkName, ...] = ()
@@ -183,12 +183,13 @@ class Changer:
     def __init__(
         self, edits: Edits, window: Window | None = None, reparenting: Reparenting | None = None
     ) -> None:
-        """Create an editor that makes some changes.
+        """Create an editor that makes the changes in `edits`.
 
         Args:
             edits: Changes to make.
             window: Time span to keep; None for all.
-            reparenting: Function for the poses of old parents in new parents.
+            reparenting: Function that returns the pose of a link's old parent in its new parent;
+                None if no link gets another parent.
         """
         self._edits = edits
         self.window = window

@@ -48,7 +48,8 @@ class StaticHeads:
     """Static transforms for the start of every output file, so that each file is complete.
 
     Attributes:
-        wanted: Whether to write them; not if the edit only changes messages of one recording.
+        wanted: Whether to write static transforms at the start; false if the edit only changes
+            messages.
     """
 
     def __init__(
@@ -61,13 +62,14 @@ class StaticHeads:
         by_tape: bool,
         ros2: bool,
     ) -> None:
-        """Create the collection; `collect` fills it.
+        """Create an empty collection of static transforms, which `collect` fills.
 
         Args:
             edits: The changes.
             tapes: The input files.
-            changer: Editor that also changes the static transforms.
-            start: Log time of the result's first message.
+            changer: Editor of messages, which applies the edit's changes to the static transforms
+                too.
+            start: Log time of the first message in the output.
             by_tape: Whether each input file becomes a separate output file.
             ros2: Whether the result is a ROS 2 recording.
         """

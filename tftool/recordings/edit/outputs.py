@@ -179,7 +179,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether an input's chunks may be copied, as channel numbers mean the same here."""
+        """Whether an input's chunks may be copied, as its channel numbers are valid here."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -189,7 +189,7 @@ class EditedFile:
         return found and self._chunks is not None
 
     def _agrees(self, tape: ContainerReader) -> bool:
-        """Whether all channel numbers of a further input are unused here, or mean the same."""
+        """Whether all channel numbers of a further input are unused or mean the same here."""
         if self._chunks is None or self._extra or not isinstance(tape, ChunkedReader):
             return False
         channels = tape.channels.items()

@@ -113,7 +113,7 @@ def open_input(name: str) -> EditedInput:
 
     Raises:
         InputError: If there is no such recording, or it cannot be read.
-        UsageError: If the name belongs to something else.
+        UsageError: If the name is that of another kind of source.
     """
     found = find(name)
     if not found.kind.is_recording:
@@ -227,7 +227,7 @@ def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] 
 
 
 def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
-    """Return the time span to keep; None for everything."""
+    """Return the time span to keep; None to keep all of it."""
     if not edits.cuts:
         return None
     low = edits.start if edits.start is not None else 0

@@ -192,7 +192,7 @@ class _Job:
     # The runs
 
     def tried(self) -> EditReport:
-        """Return what the edit would change, without writing."""
+        """Return a report of the changes that the edit would make, without writing."""
         self._heads.collect()
         done = 0
         for tape in self._tapes:
@@ -285,7 +285,7 @@ class _Job:
                         examined.cancel()
 
     def _stays_unseen(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block, if undamaged, can be copied unchanged: its index alone shows this."""
+        """Whether the index alone shows that a block, if undamaged, can be copied unchanged."""
         return (
             block.whole
             and bool(block.counts)
@@ -356,7 +356,7 @@ class _Job:
                 output.closed_block(block)
 
     def _by_part(self, source: int, table: MessageTable) -> Iterator[tuple[int, MessageTable]]:
-        """Yield the number of each output file, with its messages among these."""
+        """Yield the number of each output file, with the messages of `table` that belong in it."""
         if not self._edits.split_every:
             if len(table):
                 yield self._part_of(source, 0), table

@@ -74,7 +74,7 @@ _UNCHUNKED: Final = 1 << 16  # bytes written at a time in a file without chunks
 
 
 class McapWriter(ChunkedWriter):
-    """Writer of an MCAP file; `first_free` is also used for schema numbers."""
+    """Writer of an MCAP file; new schemas, like channels, get numbers from `first_free` on."""
 
     @classmethod
     def in_style(cls, path: Path, style: Mapping[str, Any], *, profile: str) -> "McapWriter":
@@ -181,7 +181,7 @@ class McapWriter(ChunkedWriter):
         return number
 
     def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
-        """Whether the schema numbers are free in this file, or stand for the same schemas."""
+        """Whether the schema numbers are free in this file, or belong to the same schemas."""
         here = {number: key for key, number in self._schemas.items()}
         return all(
             here[number] == schema if number in here else number not in self._schema_records

@@ -204,7 +204,7 @@ class PoseFile:
         return word
 
     def renamed(self, what: str, links: list[PoseLink]) -> list[PoseLink]:
-        """Rename the frames of a file's single link as --frames says, though the file has names.
+        """Rename the frames of a file's single link as --frames says, even if the file has names.
 
         Args:
             what: Plural noun for the contents of the file: "pairs", "links".

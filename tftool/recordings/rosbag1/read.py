@@ -327,7 +327,7 @@ class Rosbag1(ChunkedReader):
         return found
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the data of a chunk to decompress ahead of reading; None if there is none."""
+        """Return the data to decompress ahead of reading; None for a cut or uncompressed chunk."""
         try:
             self._locate(chunk)
         except FAULTS:

@@ -533,12 +533,12 @@ def _some(cursor: sqlite3.Cursor) -> list[Any]:
 
 
 def rows_query(streams: Mapping[int, int], data: str = "data", most: int = -1) -> str:
-    """Return the question for the messages of some topics behind a row, for `batch_of_rows`.
+    """Return the SQL query for the messages of some topics after a row; see `batch_of_rows`.
 
     Args:
         streams: Number of the stream of each topic, by the topic's number in the file.
         data: Expression for the bytes of a message.
-        most: Most rows of the answer; all of them if negative.
+        most: Maximum number of rows; negative for all rows.
     """
     # With a single topic, its id is not queried, which saves time for every row.
     which = "" if len(streams) == 1 else "topic_id, "
@@ -550,7 +550,7 @@ def rows_query(streams: Mapping[int, int], data: str = "data", most: int = -1) -
 
 
 def batch_of_rows(rows: list[Any], streams: Mapping[int, int]) -> Batch:
-    """Return the messages of rows that answer `rows_query`."""
+    """Return the messages in rows that the query of `rows_query` returned."""
     *owners, times, blobs = zip(*rows, strict=True)
     if set(map(type, blobs)) != {bytes}:
         blobs = tuple(bytes(blob) if isinstance(blob, bytes) else b"" for blob in blobs)
