@@ -200,7 +200,7 @@ def refuse_options_of_files(
     """Raise an error for options of recordings and descriptions if FROM is neither.
 
     Raises:
-        UsageError: If one was given.
+        UsageError: If such an option was given.
     """
     what = "The session that runs" if word is None else f"'{visible(word)}'"
     robot.refuse(f"{what} is no robot description and no recording")
@@ -212,7 +212,7 @@ def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, 
     """Raise an error for options of other middlewares and domains beside a session's address.
 
     Raises:
-        UsageError: If one was given.
+        UsageError: If such an option was given.
     """
     if domain is not None or any(given.values()):
         raise UsageError(

@@ -110,7 +110,7 @@ def start_program(
 
 
 def tell_unfound(workspace: Workspace, file: Path | None) -> str:
-    """Return a line on why ROS 2 would not find a node or launch file, or ""; name one reason."""
+    """Return a line with one reason why ROS 2 would not find a node or launch file; else ""."""
     for name, package in workspace.packages.items() if file is not None else ():
         if file is not None and file.is_relative_to(package.path):
             faults = faults_about(package, file, workspace.packages)

@@ -75,7 +75,7 @@ class Form:
 
 @dataclass(frozen=True, slots=True)
 class RangeCheck(AnswerCheck):
-    """Check that a number is within bounds, which only `between` includes."""
+    """Check that a number is below, above, between or near given numbers."""
 
     unit: Unit
     below: float | None = None
@@ -117,7 +117,10 @@ class RangeCheck(AnswerCheck):
 
 
 def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float = NEAR) -> Form:
-    """Return the form that reads below, above, between, or is with a tolerance, or a default."""
+    """Return the form that reads the keys below, above, between, is and tolerance.
+
+    `default` is the check if none of these keys is given.
+    """
     one = values.quantity(unit)
     fields = {
         "below": Key(one, None),
@@ -347,7 +350,7 @@ _ANGLES = ("theta", "angular")
 
 @dataclass(frozen=True, slots=True)
 class PoseCheck(AnswerCheck):
-    """Check of parts of a pose, such as x or yaw, by name; others are not checked."""
+    """Check of parts of a pose, such as x or yaw, by name; the other parts are not checked."""
 
     wanted: Mapping[str, float]
     tolerance: Tolerance
@@ -454,7 +457,7 @@ def _rotation(
 
 
 class TurtlePoseCheck(PoseCheck):
-    """Check of parts of a turtle's published pose; others are not checked."""
+    """Check of parts of a turtle's published pose; the other parts are not checked."""
 
     __slots__ = ()
 

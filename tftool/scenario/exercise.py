@@ -29,7 +29,7 @@ class Entrant:
 
     Attributes:
         words: Words after `tftool run`: a file, or a package and its executable, then arguments.
-        node: Name of the scenario's node that the program replaces; empty if it is added.
+        node: Name of the scenario's node that the program replaces; empty if the program is added.
     """
 
     words: tuple[str, ...]
@@ -55,7 +55,7 @@ class Exercise:
     def judge(self, scenario: Scenario, *, watch: Watch = nullcontext) -> Verdict:
         """Play a scenario with the programs on simulated time to its end, and judge it.
 
-        A program that fails is part of the verdict; the others go on, as processes do.
+        The failure of a program becomes part of the verdict; the other programs go on.
 
         Args:
             scenario: Scenario to play.

@@ -297,8 +297,8 @@ def tagged(
         reading: Pass over the document.
         what: Noun for messages, with its article.
         kinds: Class for each key that names one.
-        common: Keys that all classes allow beside it.
-        beside: Further keys that each class allows beside it.
+        common: Keys allowed beside the key of every class.
+        beside: Further keys allowed beside the key of one class, by that key.
 
     Returns:
         The key, the object of its class, and the values beside the key.

@@ -98,9 +98,9 @@ class _ScenarioReader:
         given: Arguments from the command line.
         expects: Whether expectations are read.
         duration: Duration of the scenario, once known.
-        names: Names of its nodes, once all are known.
+        names: Names of the scenario's nodes, once all are known.
         looks: Number of times that all expectations so far are judged.
-        not_a_tree: Places where its nodes publish links that no tree can contain.
+        not_a_tree: Places where the scenario's nodes publish links that no tree can contain.
     """
 
     def __init__(self, given: Mapping[str, str], expects: bool) -> None:
@@ -332,7 +332,7 @@ class _ScenarioReader:
         return tuple(one for several in reading.whole(read) for one in several)
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """Read one expectation, which is several if it has several times."""
+        """Read one expectation; return one `Expectation` for each of its times."""
         # Imported here, because most commands judge no expectations.
         from tftool.scenario.questions import SUBJECTS
 

@@ -43,7 +43,7 @@ class Play:
 
     Attributes:
         scenario: Scenario that is played.
-        world: World with its nodes.
+        world: World with the scenario's nodes.
         start: Time at which the run began; times in the scenario count from it.
         failure: Reason why the run ended early; "" if it did not.
     """
@@ -152,7 +152,7 @@ def run_scenario(
 ) -> Verdict:
     """Play a scenario on simulated time to its end, and judge it.
 
-    A node that fails ends the run; that is part of the verdict.
+    The failure of a node ends the run, and becomes part of the verdict.
 
     Args:
         scenario: Scenario to play.
@@ -184,7 +184,7 @@ def played(
         found: File of the scenario.
         until: Last time: a duration, infinity for the whole scenario, or a time inside it;
             `USUAL` if None.
-        margin: Nanoseconds to play on after a time, for transforms that arrive after their stamp.
+        margin: Nanoseconds to play on after the last time, for transforms that arrive late.
         cache_time: Cache time of the buffers, in place of the scenario's own; unlimited if None.
         watch: Function called with the world before the run.
 

@@ -222,7 +222,7 @@ class Bearing(Between):
     """Question for the direction of a frame seen from another."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Return the direction in radians, counter-clockwise from straight ahead."""
         return rigid.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:

@@ -99,10 +99,10 @@ class Expectation:
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """World, the actions in it, and expectations about it.
+    """Description of a world, of the actions in it, and of expectations about it.
 
     Attributes:
-        name: Name: that of the file without the suffix.
+        name: Name of the file, without its suffix.
         file: Path of the file, as given.
         about: Description in words.
         arguments: Arguments that can be set from outside, with their values.
@@ -181,8 +181,8 @@ class Verdict:
     Attributes:
         scenario: Name of the scenario.
         file: Path of its file, as given.
-        outcomes: One for each step that failed or was expected to, in the order of time; then one
-            for each expectation, in the order of the file.
+        outcomes: One outcome for each step that failed or was expected to fail, in order of time;
+            then one for each expectation, in the order of the file.
         lasted: Duration of the run, nanoseconds on its clock.
         failure: Reason why the run ended early; empty if it did not.
         warnings: Sentences about mistakes in programs that simulated time hides.

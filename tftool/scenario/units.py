@@ -28,7 +28,7 @@ class Unit:
 
     @property
     def name(self) -> str:
-        """Unit of a number without one; "" if there is none."""
+        """Unit that a number has if it is written without a unit; "" for a plain number."""
         return next(iter(self.factors), "")
 
 
@@ -185,7 +185,7 @@ _TRUTHS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "
 
 
 def flag(node: Node, reading: Reading) -> bool:
-    """Read true or false, or another word for them."""
+    """Read true or false; yes, on, no and off are accepted too."""
     value = reading.text(node, "true or false")
     if value.lower() not in _TRUTHS:
         raise reading.refuse(node, f"{quoted(value)} is neither true nor false")

@@ -189,7 +189,7 @@ class SimClock(Clock):
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """Set that a node is ended once it blocks simulated time for `STANDSTILL` real seconds."""
+        """End a node that blocks simulated time too long (`STANDSTILL`), unless `until` is None."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
@@ -491,8 +491,8 @@ class FollowedClock(WallClock):
 def pace_of(clock: Clock) -> Clock:
     """Return the clock for waits that a person watches, while the world runs on `clock`.
 
-    That is real time if the world's time comes from another process, which may pause it or run it
-    at any rate.
+    The result shows real time if the world's time comes from another process, which may pause that
+    time or run it at any rate.
     """
     if not isinstance(clock, FollowedClock):
         return clock
@@ -522,8 +522,8 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
         Result of the coroutine.
 
     Raises:
-        KeyboardInterrupt: If a signal ended the run; the cause is an error during the stop.
-        Exception: Any that the coroutine, or a task that it started, raises.
+        KeyboardInterrupt: If a signal ended the run; its `__cause__` is an error during the stop.
+        Exception: Any exception of the coroutine, or of a task that the coroutine started.
     """
     loop = clock.new_loop()
     clock.interrupted = False

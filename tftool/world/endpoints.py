@@ -26,8 +26,9 @@ class Timing:
         lease: Time without a sign of life after which a publisher counts as dead, nanoseconds;
             None for never.
         is_manual: Whether a publisher must publish or assert its liveliness to count as alive;
-            else its process does so for it.
-        lifespan: Age at which a message expires, as shown to programs; None for never.
+            else the publisher's process asserts it.
+        lifespan: Age at which a message expires; programs can read it, but no message expires here.
+            None for never.
     """
 
     deadline: Duration | None = None

@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 
 class Resident:
-    """Base of what runs in a world under a name: a node, or a program with nodes.
+    """Base of a node, or of a program with nodes, that runs in a world under a name.
 
     Nodes know their world; the world knows them only as residents.
 
@@ -101,14 +101,14 @@ async def beside(
     Args:
         work: Coroutine whose result is returned.
         helper: Coroutine to run meanwhile; it begins first.
-        on_cancel: Function called when both are cancelled from outside, before either is.
+        on_cancel: Function called before work and helper are cancelled from outside.
 
     Returns:
         Result of the work.
 
     Raises:
-        Exception: Any of the helper, which ends the work, or of the work; also one that either
-            raises while it is being ended.
+        Exception: Any exception of the work or of the helper, also while they are being ended. An
+            exception of the helper ends the work.
     """
     loop = asyncio.get_running_loop()
     helping = loop.create_task(helper)

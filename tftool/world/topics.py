@@ -311,7 +311,7 @@ class NamedOffers(Generic[T]):
             shares: Whether this process may have another server of that name already.
 
         Raises:
-            TftoolError: If this process has another server of that name, and may not.
+            TftoolError: If this process has another server of that name and `shares` is false.
         """
         name = name.removeprefix("/")
         if name in self._first and not self._first[name].is_remote:

@@ -289,7 +289,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
 
     Raises:
         HasItsOwnCommand: If the program needs a terminal of its own.
-        UsageError: If there is no such package or executable, with the nearest name.
+        UsageError: If there is no such package or executable; the text has the nearest name.
     """
     found = workspace.packages.get(package)
     if found is not None and (executable in found.scripts or found.script_file(executable)):
@@ -339,7 +339,7 @@ def start(
 
     Raises:
         HasItsOwnCommand: If the program needs a terminal of its own.
-        UsageError: If there is no such package or executable, with the nearest name.
+        UsageError: If there is no such package or executable; the text has the nearest name.
         InputError: If the file cannot be read or is not valid Python.
     """
     # As where a workspace is sourced: each of its packages can import the others.

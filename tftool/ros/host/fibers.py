@@ -138,8 +138,8 @@ class Fiber:
             on_busy: Called once, on the loop's thread, when the code has not paused for
                 `patience` real seconds (by default `PATIENCE`).
             patience: See `on_busy`.
-            give_up: Real seconds after which busy code is stopped in strict mode (`GIVE_UP`
-                unless told).
+            give_up: Real seconds after which busy code is stopped in strict mode (by default
+                `GIVE_UP`).
             clock: Clock of the world, which knows at once of a signal: the loop, blocked in strict
                 mode, learns of it only afterwards.
         """

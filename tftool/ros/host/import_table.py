@@ -1,7 +1,7 @@
 """Table of the ROS 2 modules and names that tftool provides, and where each is implemented.
 
-An entry has the form "ROS modules: tftool's module: names". A name is written alone if both sides
-agree, else `rosname=ourname`; "*" stands for every public name of tftool's module. Angle brackets
+An entry has the form "ROS modules: tftool's module: names". A name is written once if ROS
+and tftool use it, else `rosname=ourname`; "*" means all public names of the module. Angle brackets
 contain the tags of an action in XML and YAML launch files, or of a substitution, `$(tag …)`. A
 module with a slash is a package of interfaces; a module with a leading dot is one of tftool outside
 of `tftool.ros`. As in ROS 2, the classes of some modules can also be imported from a module of

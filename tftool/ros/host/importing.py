@@ -191,7 +191,7 @@ class _Finder(MetaPathFinder):
     def _own(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Find a module of the user's."""
+        """Find a module in the user's folders."""
         if self.tested is not None:
             return self._tested(fullname, path, target)
         if fullname.partition(".")[0] not in TAKEN:
@@ -211,7 +211,7 @@ class _Finder(MetaPathFinder):
     def _tested(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Find a module of the tests or their subject, to load it with tftool's builtins."""
+        """Find a module of the tests, or of the code under test; load it with tftool's builtins."""
         for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
             spec = finder.find_spec(fullname, path, target)
             if spec is None:
@@ -327,8 +327,8 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
 def _environment() -> Iterator[None]:
     """Set variables of a sourced ROS 2 inside this block.
 
-    `ROS_DISTRO`, which launch files read, keeps a value that it has. The command `ros2` of child
-    processes is ours: it asks this world in real time.
+    `ROS_DISTRO`, which launch files read, keeps an existing value. If a child process runs `ros2`,
+    it gets tftool's command of that name, which queries this world in real time.
     """
     commands = f"{Path(__file__).parent / 'bin'}{os.pathsep}{os.environ.get('PATH', '')}"
     wanted = {

@@ -129,8 +129,8 @@ def _installed_by_cmake(
 ) -> Iterator[tuple[str, PurePosixPath, Path]]:
     """Yield what a CMakeLists.txt installs: the kind, the place, and the file.
 
-    Programs in `lib` have the kind PROGRAMS and a place below the prefix. All others have a place
-    below the share directory; those that keep their place are left out.
+    Programs in `lib` have the kind PROGRAMS and a place below the prefix. All other files have a
+    place below the share directory; a file with the same path in the source folder is left out.
     """
     pattern = r"^[ \t]*install\(\s*(PROGRAMS|FILES|DIRECTORY)\s+([^)]*)\)"
     for kind, call in re.findall(pattern, re.sub(r"#.*", "", text), re.M):

@@ -69,8 +69,8 @@ class Program(Node):
         nodes: State (`rclpy.seat.NodeSeat`) of each rclpy node; removed at the end.
         unserved: Destroyed nodes, with the number of callbacks that no executor ever served.
         event_loops: Event loops of asyncio that the program created, closed at the end.
-        lines_with_angles: Lines of code whose angles were checked: whether they are degrees.
-        advice: Functions that sum up the program's lookups at the end: a sentence, or "".
+        lines_with_angles: Lines of code whose angles were already checked for degrees.
+        advice: Functions that return a sentence about the program's lookups, or "", at the end.
         on_print: Function that receives printed text, and whether it went to standard output.
     """
 

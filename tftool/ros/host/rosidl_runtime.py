@@ -15,7 +15,7 @@ def interface(name: str, kind: str) -> Any:
     """Return the class of a message, service or action: "package/srv/Name" or "package/Name".
 
     Raises:
-        UsageError: If the interface is unknown, with the nearest name.
+        UsageError: If the interface is unknown; the text has the nearest name.
     """
     package, _, own = name.strip("/").partition("/")
     own = own.removeprefix(f"{kind}/")
@@ -83,7 +83,7 @@ def fill(message: Any, values: Any, where: str = "") -> None:
     """Set a message's fields from values parsed from YAML.
 
     Raises:
-        UsageError: If a field does not exist, or a value has the wrong type; with the field's name.
+        UsageError: If a field is unknown, or a value has the wrong type; the text names the field.
     """
     known = [field.name for field in message.fields__]
     if values is None or values == "":
@@ -240,7 +240,7 @@ def set_message_fields(msg: Any, values: Any, **_: Any) -> None:
     """Set fields of a message from a mapping, as `ros2 topic pub` does.
 
     Raises:
-        UsageError: If a field does not exist, or a value has the wrong type; with the field's name.
+        UsageError: If a field is unknown, or a value has the wrong type; the text names the field.
     """
     fill(msg, values)
 

@@ -165,11 +165,11 @@ class Workspace:
         return None
 
     def file_named(self, path: Path) -> Path | None:
-        """Return a package's file whose path, from one of the workspace's folders, is given.
+        """Return a package's file, given by its path inside or beside the package's folder.
 
         Returns:
-            `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to the start if it is
-            below it; None if no package has such a file.
+            `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to `start` if the
+            file is below that folder; None if no package has such a file.
         """
         if path.is_absolute() or ".." in path.parts:
             return None
@@ -185,7 +185,7 @@ class Workspace:
         """Return the package with a name.
 
         Raises:
-            UsageError: If there is no such package, with the nearest name.
+            UsageError: If there is no such package; the text names the nearest one, or all.
         """
         found = self.packages.get(name)
         if found is None:
@@ -193,7 +193,7 @@ class Workspace:
         return found
 
     def share(self, name: str) -> Path:
-        """Return a package's share directory: its source folder, or one that tftool brings.
+        """Return a package's share directory: its source folder, or a folder shipped with tftool.
 
         Files that setup.py installs under another path are there as well.
 

@@ -1,4 +1,4 @@
-"""Launch files on the command line: search by name, their arguments, and the list of those."""
+"""Launch files on the command line: search by name, arguments, and the list of arguments."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence

@@ -28,7 +28,7 @@ class LaunchContext:
         load: Function that reads an included launch file; None outside of a launch.
         launch: Launch that executes the actions; None outside of a launch.
         argv: Arguments of the launch's command line.
-        noninteractive: Kept as in ROS 2; tftool never asks a question.
+        noninteractive: Setting of ROS 2 without effect: tftool never asks the user a question.
     """
 
     def __init__(

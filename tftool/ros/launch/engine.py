@@ -289,7 +289,7 @@ class Launch(Node):
         self._say("WARNING", "launch", text)
 
     def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
-        """Call `then` with whether a service exists, later, in the present scope.
+        """Call `then` later, in the present scope, with True if a service exists, else False.
 
         Args:
             service: Name of the service.
@@ -362,7 +362,7 @@ class Launch(Node):
         Args:
             action: Action that starts the program, for events.
             executable: Program to start, with its arguments.
-            respawn: Seconds after its end when the program is started again; None for never.
+            respawn: Seconds after which an ended program is started again; None for never.
         """
         label = self._label(executable.label)
         self._actions[label] = action

@@ -77,7 +77,7 @@ def actions_of(elements: Iterable[Element]) -> list[Any]:
     """Return the actions that elements of a launch file describe.
 
     Raises:
-        InputError: If a tag or attribute is unknown; the text gives the line and the nearest one.
+        InputError: If a tag or attribute is unknown; the text has the line and the nearest name.
     """
     return [_action(element) for element in elements]
 

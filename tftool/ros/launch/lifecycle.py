@@ -153,7 +153,7 @@ class LifecycleTransition(Action):
             raise ValueError("a LifecycleTransition needs names of nodes, and transitions")
 
     def execute(self, context: LaunchContext) -> Any:
-        """Request each node's first transition, and each further one after the one before it."""
+        """Request each node's first transition, and a further one when the previous one is done."""
         numbers = [int(perform(context, one)) for one in self.transition_ids]
         for label in self.transition_labels:
             text = perform(context, label)

@@ -77,11 +77,11 @@ class LaunchConfig:
         self._factory = factory or FileHandler
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Set the format of lines on the screen: a name of launch's, or a format with braces."""
+        """Set the format of lines on the screen, by a name that launch knows or with braces."""
         self._screen.setFormatter(_formatter(screen_format, screen_style))
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Set the format of lines in log files: a name of launch's, or a format with braces."""
+        """Set the format of lines in log files, by a name that launch knows or with braces."""
         if log_format == "default":
             # Alone on the screen it is plain.
             _formatter(log_format, log_style)

@@ -153,7 +153,7 @@ def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], 
     """Flatten nested mappings of parameters: from the parts of a dotted name to its value.
 
     Raises:
-        TypeError: If a name is not a string, or no parameter can have a value.
+        TypeError: If a name is not a string, or a value is of a type that parameters cannot have.
     """
     if not isinstance(parameters, Mapping):
         raise TypeError(f"parameters are a mapping from names to values, not {parameters!r}")

@@ -67,8 +67,8 @@ class Startable(Action):
     """Base of actions that start a process, which may be started again after its end.
 
     Attributes:
-        process_details: Name in log lines and command line, once started; None before.
-        return_code: Exit status, once ended; None before.
+        process_details: Name in log lines, and command line; None before the process is started.
+        return_code: Exit status; None before the process has ended.
         output_lines: With `cached_output`, the lines that the process has written, each with
             whether it came from the standard output.
     """

@@ -212,7 +212,7 @@ class ParameterSubstitution(Substitution):
         """Return the parameter's present value in the scope, or the default.
 
         Raises:
-            SubstitutionFailure: If the scope does not set it, and there is no default.
+            SubstitutionFailure: If the scope does not set the parameter, and there is no default.
         """
         name = perform(context, self.name)
         for node, set_name, value in reversed(parameters_in(context)):

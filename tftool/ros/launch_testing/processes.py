@@ -52,7 +52,7 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
 
 
 def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
-    """Return both functions for a condition without a user's function."""
+    """Return the coroutine function and the synchronous one that wait without a user's check."""
     wait_checked, wait_checked_sync = _waits(lambda action, _: condition(action), lambda *_: None)
 
     async def wait(context: Any, action: Any, timeout: float | None = None) -> Any:

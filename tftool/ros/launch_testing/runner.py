@@ -73,7 +73,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Bind those arguments of a function whose names are among some values."""
+    """Bind the arguments of a function whose names are keys of `values`."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 

@@ -38,7 +38,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
     """Return a function that finds texts or patterns, one or a list, in a text from an index.
 
     Raises:
-        ValueError: If `expected_text` is none of these.
+        ValueError: If `expected_text` is neither a text, nor a pattern, nor a list of both.
     """
     if isinstance(expected_text, str):
         wanted = expected_text
@@ -72,7 +72,7 @@ def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[.
     item with `strict` must match every line.
 
     Raises:
-        ValueError: If `expected_lines` is none of these.
+        ValueError: If `expected_lines` is neither a text, nor a pattern, nor a list of both.
     """
     if isinstance(expected_lines, str | re.Pattern):
 
@@ -106,7 +106,7 @@ def expect_output(
     """Return whether a text, or some lines, match what is expected.
 
     Raises:
-        ValueError: Unless one of text and lines, and one expectation, is given.
+        ValueError: Unless exactly one of `text` and `lines`, and one expectation, is given.
     """
     if (text is None) == (lines is None):
         raise ValueError("give either text or lines")

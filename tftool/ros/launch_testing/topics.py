@@ -116,7 +116,7 @@ class WaitForTopics:
 
 
 class DataRepublisher:
-    """Node's helper that publishes one topic's messages, changed by a function, on another."""
+    """Helper of a node that publishes one topic's messages, changed by a function, on another."""
 
     def __init__(
         self,

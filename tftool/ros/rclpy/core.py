@@ -206,7 +206,7 @@ def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
 
 
 def get_rmw_implementation_identifier() -> str:
-    """Return the middleware's name, "tftool": there is none of ROS 2's."""
+    """Return "tftool" as the middleware's name: no middleware of ROS 2 is used."""
     return "tftool"
 
 
@@ -227,7 +227,7 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
     """Check that a class is a message type.
 
     Raises:
-        RuntimeError: If it is another's.
+        RuntimeError: If the class is not a message type.
     """
     if not _is_message(msg_type):
         raise RuntimeError(f"The message type provided is not valid ({msg_type})")
@@ -237,7 +237,7 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
     """Check that a class is a service type.
 
     Raises:
-        RuntimeError: If it is another's.
+        RuntimeError: If the class is not a service type.
     """
     if not _has(srv_type, "Request"):
         raise RuntimeError(f"The service type provided is not valid ({srv_type})")

@@ -78,7 +78,7 @@ class Executor:
         self.shutdown()
 
     def add_node(self, node: Any) -> bool:
-        """Add a node to this executor; return False if it is in it already."""
+        """Add a node to this executor; return False if the executor has the node already."""
         seat = seat_of(node)
         if seat in self._seats:
             return False

@@ -136,7 +136,7 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 
 
 def get_parameter_value(string_value: str) -> Any:
-    """Return a text's value, parsed as YAML, as a ParameterValue message; else the text itself."""
+    """Parse a text as YAML, and return the value, else the text, as a ParameterValue message."""
     value = names.yaml_value(string_value)
     return Parameter("", value=string_value if value is None else value).get_parameter_value()
 
@@ -312,7 +312,8 @@ class NodeParameters:
         """Return a declared parameter.
 
         Raises:
-            ParameterNotDeclaredException: If it is not declared; the text names similar ones.
+            ParameterNotDeclaredException: If no such parameter is declared; the text names similar
+                ones.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None)
@@ -390,8 +391,8 @@ class NodeParameters:
         """Set parameters one by one; return a result for each, accepted or not.
 
         Raises:
-            ParameterNotDeclaredException: If one is not declared; the ones before it stay set.
-            TypeError: If something is not a Parameter.
+            ParameterNotDeclaredException: If a parameter is not declared; those before it stay set.
+            TypeError: If an item of the list is not a Parameter.
         """
         return [self.set_parameters_atomically([one]) for one in parameter_list]
 
@@ -399,8 +400,9 @@ class NodeParameters:
         """Set all given parameters, or none if one of them is rejected; return one result.
 
         Raises:
-            ParameterNotDeclaredException: If one, given or added by a callback, is not declared.
-            TypeError: If something is not a Parameter.
+            ParameterNotDeclaredException: If a parameter, given or added by a callback, is not
+                declared.
+            TypeError: If an item of the list is not a Parameter.
         """
         self.__settable(parameter_list)
         changes = list(parameter_list)
@@ -464,7 +466,8 @@ class NodeParameters:
         Raises:
             ParameterNotDeclaredException: If the parameter is not declared.
             ParameterImmutableException: If the parameter is read-only.
-            InvalidParameterValueException: If neither value fits; nothing is changed then.
+            InvalidParameterValueException: If neither the old nor the alternative value fits;
+                nothing is changed then.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None).get_parameter_value()
@@ -560,7 +563,7 @@ class NodeParameters:
 
 
 def _is_on_step(value: float, limits: Any) -> bool:
-    """Return whether a value is a whole number of steps above a range's start, or its end."""
+    """Return whether a value is a whole number of steps above a range's start, or is its end."""
     if not limits.step or value == limits.to_value:
         return True
     if isinstance(value, int):

@@ -188,7 +188,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
-        """Return the message of one node's parameter in an event; None if it is not in it."""
+        """Return the message about one node's parameter in an event; None if there is none."""
         if event.node != node_name:
             return None
         told = ParameterEventHandler.get_parameters_from_event(event)

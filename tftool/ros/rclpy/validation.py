@@ -44,7 +44,7 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
 
     Raises:
         InvalidTopicNameException: If the name is not a valid topic name.
-        InvalidServiceNameException: If it cannot be a service's.
+        InvalidServiceNameException: If the name cannot be the name of a service.
     """
     kind = InvalidServiceNameException if is_service else InvalidTopicNameException
     return _valid(name, names.topic_name_fault(name), kind)
@@ -55,7 +55,7 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
 
     Raises:
         InvalidTopicNameException: If the name is not a valid topic name.
-        InvalidServiceNameException: If it cannot be a service's.
+        InvalidServiceNameException: If the name cannot be the name of a service.
     """
     kind = InvalidServiceNameException if is_service else InvalidTopicNameException
     fault = names.namespace_fault(name)

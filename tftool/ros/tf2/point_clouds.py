@@ -19,7 +19,7 @@ _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"
 
 
 def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
-    """Return (name, (field, index)) of each element; a field x of three gives x_0, x_1 and x_2."""
+    """Return (name, (field, index)) of each element; a field x with three gives x_0, x_1, x_2."""
     named = []
     for number, field in enumerate(fields):
         name = field.name or f"{DUMMY_FIELD_PREFIX}_{number}"
@@ -123,7 +123,7 @@ def read_points_numpy(
     """Return the points of a cloud as a plain array, one row per point.
 
     Raises:
-        AssertionError: If the fields have different types; also as in `read_points`.
+        AssertionError: If the fields have different types, and in the cases of `read_points`.
     """
     wanted = _named(cloud.fields)
     if field_names is not None:

@@ -76,7 +76,7 @@ class BufferClient(BufferInterface):
         """Return the pose of source in target from the server's buffer.
 
         Raises:
-            TransformException: If the transform is not available, or the server does not answer
+            TransformException: If the transform is not available, or the server does not respond
                 in time.
         """
         return self._ask(question(target_frame, source_frame, time), timeout)
@@ -93,7 +93,7 @@ class BufferClient(BufferInterface):
         """Return the pose of source at one time in target at another, via a fixed frame.
 
         Raises:
-            TransformException: If the transform is not available, or the server does not answer
+            TransformException: If the transform is not available, or the server does not respond
                 in time.
         """
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)

@@ -217,7 +217,7 @@ class _HeardTopic:
         held: Messages that are not drawn yet, with their times of arrival; only the last one,
             unless each message changes what the ones before it showed.
         waiting: Drawn message that cannot be placed yet.
-        rounds: Number of rounds for which it has waited.
+        rounds: Number of rounds for which that message has waited.
         is_news: Whether a fault was not reported to the page yet.
         block: Last packed data sent to pages.
     """
@@ -388,4 +388,4 @@ def _is_known(shape: Shape, buffer: Buffer) -> bool:
 
 
 def _nothing() -> None:
-    """Do nothing: the function to end a subscription that was not made."""
+    """Do nothing, in place of a function that ends a subscription."""

@@ -25,7 +25,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
     """Return gaps and findings as a message for the page; times in seconds since the epoch.
 
     Args:
-        buffer: Buffer to judge, without times of reception and the checks that need them.
+        buffer: Buffer to judge; checks that need times of reception do not run.
         epoch: Time from which the page counts.
     """
     frames = buffer.snapshot(0).frames

@@ -78,7 +78,7 @@ def encode_names(
         frames: Frames to show.
         total: Number of all frames.
         rate: Rate of the clock, for playback.
-        begin: Time to open with if everything was recorded before; None for the present.
+        begin: Time that a page shows first, if the frames were recorded; None for the present.
     """
     place = {frame.frame: index for index, frame in enumerate(frames)}
     return json.dumps(

@@ -44,7 +44,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Find the prefix of its links' names among some frames; return whether it changed."""
+        """Find the prefix of the links' names among some frames; return whether that changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix

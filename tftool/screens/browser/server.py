@@ -121,7 +121,7 @@ class PageServer:
             tell: Function called with sentences for the user.
             name: Name of the source, for a saved page.
             secret: Token that requests for frames must contain; None for a new one.
-            begin: Time to open with if everything was recorded before; None for the present.
+            begin: Time that a page shows first, if the frames were recorded; None for the present.
         """
         self.source = source
         self._name = name
@@ -294,7 +294,7 @@ class PageServer:
         )
 
     def _tree(self, snapshot: Snapshot) -> TreeMessage:
-        """Return the message with the frames' names, made anew only if the tree is a new one."""
+        """Return the message with the frames' names, which is made anew only for a new tree."""
         key = protocol.names_key(snapshot.frames)
         tree = self._trees.get(key)
         if tree is None:

@@ -45,7 +45,7 @@ class StandaloneData:
         begin: First shown time; None for the latest transforms.
         robot: Robot among the frames, with the folders of its meshes.
         tracks: Messages to draw besides the frames.
-        view: First settings, as in the page's address after #.
+        view: Initial settings of the page, in the form of the text after # in its address.
     """
 
     name: str

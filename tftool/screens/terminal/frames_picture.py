@@ -90,7 +90,7 @@ def pictured(
     ages: Mapping[str, float],
     turtles: frozenset[str] = frozenset(),
 ) -> PlanePicture:
-    """Return the picture of the tree of `fixed`, with one lookup per frame; other trees separately.
+    """Return the picture of the tree of `fixed`, with one lookup per frame, and of other trees.
 
     Args:
         snapshot: Snapshot of the frames.

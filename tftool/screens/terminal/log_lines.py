@@ -20,7 +20,7 @@ FAR = 3600.0
 
 @dataclass(slots=True)
 class _Entry:
-    """Log message with the times at which it was logged: the newest ones, and their number."""
+    """Log message with the newest times at which it was logged, and the number of older times."""
 
     record: LogRecord
     kind: str

@@ -68,7 +68,7 @@ class SceneQuestion:
         return changed
 
     def fix(self) -> None:
-        """Draw the picture in the frame under the cursor; if it is already, in the root."""
+        """Draw the picture in the frame under the cursor; if it is drawn there, in the root."""
         self.fixed = "" if self.fixed == self.source else self.source
 
     def swap(self) -> None:

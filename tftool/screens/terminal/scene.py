@@ -125,7 +125,7 @@ class Scene:
     Attributes:
         start: Time from which the screen counts seconds.
         solids: Shapes of a robot among the frames, once its description is known.
-        missed: Name of a turtle that a key was for but that did not exist; its arrival is logged.
+        missed: Name of a missing turtle for which a key was pressed; its arrival will be logged.
     """
 
     def __init__(self, world: ShownFrames, simulator: Simulator | None = None) -> None:
@@ -213,14 +213,14 @@ class Scene:
         )
 
     def newest(self, target: str, source: str) -> Stamp | None:
-        """Return the newest time at which a pair is known; None if never or if all is static."""
+        """Return the newest time at which a pair is known; None if never, or if it is static."""
         try:
             return self.world.buffer.get_latest_common_time(target, source) or None
         except TransformException:
             return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return a state with another pair, without new frames: they may have left the buffer."""
+        """Return a state with another pair and the old frames, which may have left the buffer."""
         snapshot, pair = moment.snapshot, (target, source)
         wanted = self._fixed(snapshot, pair, fixed)
         if moment.picture.fixed != wanted:

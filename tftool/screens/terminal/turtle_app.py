@@ -145,7 +145,7 @@ class TurtleApp(PanelApp):
         scene.world.log.listen(self._journal.add, "screen")
 
     def begin(self, stamp: Stamp) -> None:
-        """Count seconds from now on, when the world starts; not for a recording."""
+        """Count seconds from `stamp` on, when the world starts; a recording keeps its own start."""
         if self.setting.at is None:
             self.scene.start = stamp
 

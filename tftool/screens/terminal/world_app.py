@@ -98,7 +98,7 @@ class Panel(Widget):
                 self.refresh(Region(0, y, width, 1))
 
     def on_resize(self) -> None:
-        """Cut the lines to the panel's new size; they may be older than its first size."""
+        """Cut the lines to the panel's new size; lines may be set before a panel has a size."""
         self.show(self._lines)
 
     def render_line(self, y: int) -> Strip:

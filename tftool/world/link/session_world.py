@@ -110,7 +110,7 @@ class Session:
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
-        """Wait for a duration; longer for a robot's static transforms that have not arrived."""
+        """Wait for a duration, and longer if a robot's static transforms have not arrived yet."""
         await self.lasting(duration)
         if self.link is None or not self.link.options.reach.is_robots:
             return

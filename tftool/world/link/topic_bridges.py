@@ -24,8 +24,8 @@ class TopicBridge:
     """Bridge of an ordinary topic between the world and other processes.
 
     Nodes that declare their publishers and subscriptions, with their quality of service, are
-    announced one by one; all others together as the first node of the world. Messages are received
-    once for all subscriptions, except for latched ones, each of which gets earlier messages.
+    announced one by one; all others are announced together as the first node of the world. Messages
+    are received once for all subscriptions, but each latched subscription gets earlier messages.
     """
 
     def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
@@ -209,13 +209,13 @@ class TransformBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Count the subscribers in other processes; the world's buffer always receives."""
+        """Count the subscribers in other processes; close publishers of nodes that have left."""
         others = self._link.graph.entities(SUBSCRIPTION, name=self._topic.name)
         self._topic.far_subscribers = len(others)
         self._dismiss()
 
     def _dismiss(self) -> None:
-        """Close the publishers of nodes that have left; some authorities never were nodes."""
+        """Close the publishers of nodes that have left the world."""
         for gone in self._nodes - self._node_names():
             self._nodes.remove(gone)
             self._senders.pop(gone).close()

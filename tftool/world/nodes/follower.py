@@ -21,8 +21,8 @@ TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
 class Follower(Node):
     """Node that spawns a turtle and steers it towards a frame by transform lookups.
 
-    With a delay, the turtle goes to the place where the leader was before: the lookup is from the
-    turtle now to the leader then, through a fixed frame.
+    With a delay, the turtle goes to the place where the leader was before. The lookup then uses two
+    times, joined by a fixed frame: the present for the turtle, an earlier time for the leader.
     """
 
     def __init__(

@@ -72,9 +72,9 @@ class Player(Node):
             is_looping: Whether to start again at the end.
             is_restamped: Whether to replace each stamp by the time of sending, and publish no
                 `/clock`.
-            is_silent: Whether to publish no `/clock` although stamps are the recording's.
-            names_topics: Whether a transform whose node was not recorded has its topic as sender,
-                as in descriptions of recordings; else its sender is this node.
+            is_silent: Whether to publish no `/clock` although the recording's stamps are kept.
+            names_topics: Whether the sender of a transform whose node was not recorded is the
+                transform's topic; else the sender is this node.
             feed: Player of the recording's other topics.
         """
         super().__init__(world, name)

@@ -35,7 +35,7 @@ class Taker(Protocol):
 
 
 class Recorder:
-    """Recorder of a world's topics; in a session that was joined, of the original bytes.
+    """Recorder of a world's topics, which stores the original bytes in a joined session.
 
     Attributes:
         topics: Names of the topics that are recorded so far.
@@ -198,7 +198,7 @@ class Recorder:
         self._guarded(put)
 
     def _guarded(self, put: Callable[[], None]) -> None:
-        """Call a function and store its InputError for `refresh`: a listener's is only logged."""
+        """Call a function and store its InputError, which `refresh` raises later."""
         if self._failure is not None:
             return
         try:

@@ -57,10 +57,10 @@ class FarTurtle:
 class FarTurtles(Node):
     """Node that collects a remote simulator's turtles, to be drawn like local ones.
 
-    The background is read from the parameters of the node that sends the poses; so are the strokes
-    of the pens, by a service, if that is tftool's simulator. ROS 2's own turtlesim does not publish
-    its pens: there the trail is the path of the turtles from now on, if all pens have their first
-    settings.
+    The background is read from the parameters of the node that sends the poses. The strokes of the
+    pens are read by a service if that node is tftool's simulator. ROS 2's own turtlesim does not
+    publish its pens: for it, the trail is the path of the turtles from now on, if all pens have
+    their initial settings.
 
     Attributes:
         trail: Lines of the pens.
@@ -133,7 +133,7 @@ class FarTurtles(Node):
             self._drawing.take(told)
 
     async def _ask(self, service: str, request: Any) -> Any:
-        """Return a service's response; None if there is none, as from another release."""
+        """Return a service's response; None if there is no such service or no response."""
         if not self.world.has_service(service):
             return None
         try:

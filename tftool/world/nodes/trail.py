@@ -145,7 +145,7 @@ def _nearest(coordinate: float) -> int:
 
 
 def _between(slope: float, offset: float, low: float, high: float) -> tuple[float, float]:
-    """Return the range of t for which low <= slope * t + offset <= high; empty as (inf, -inf)."""
+    """Return the range of t for which low <= slope * t + offset <= high; (inf, -inf) if empty."""
     if slope == 0.0:
         return (-math.inf, math.inf) if low <= offset <= high else (math.inf, -math.inf)
     first, last = (low - offset) / slope, (high - offset) / slope

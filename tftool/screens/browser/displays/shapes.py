@@ -33,8 +33,8 @@ class Shape:
         text: Text to draw.
         key: Name within the topic; a later shape of the same name replaces this one.
         until: Time at which the shape disappears, nanoseconds; None for never.
-        placement: Root above its frame at its stamp, and the frame's pose in the root
-            (translation and rotation); None each if unknown. None before the lookup.
+        placement: Root of the tree that contains the frame at the stamp, and the frame's pose in
+            that root (translation and rotation), each None if unknown. None before the lookup.
     """
 
     kind: str

@@ -183,7 +183,7 @@ def process_data(process: Process) -> bytes:
 
 
 def process_shown(user_data: bytes, domain: int, session: str) -> Process | None:
-    """Return the tftool process that a participant's user data announces; else None."""
+    """Return the tftool process that a participant's user data announces; None for others."""
     found = _OURS.search(user_data.decode(errors="replace"))
     if found is None or found["role"] not in tuple(Role):
         return None

@@ -325,7 +325,7 @@ class DdsMiddleware(Middleware):
             )
 
     def _compare(self, found: GraphEntity | Process) -> None:
-        """Log why a publisher and a subscription to tf of this process are incompatible, if so."""
+        """Log the reason if messages of another process's new publisher cannot be received."""
         if not isinstance(found, GraphEntity) or found.kind != PUBLISHER:
             return
         # tf2's listeners request a fixed quality; other readers lower theirs.
@@ -354,7 +354,7 @@ class DdsMiddleware(Middleware):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Claim:
-    """Subscription that a node has declared; equal ones are distinct."""
+    """Subscription that a node has declared; two equal declarations count as two subscriptions."""
 
     node: str
     name: str

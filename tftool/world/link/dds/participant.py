@@ -91,7 +91,7 @@ class LibraryLog:
             stderr.value = before
 
     def _open(self, c: ctypes.CDLL) -> int:
-        """Return the C stream to write to; it stays open, as domains continue to use it."""
+        """Return the C stream to write to, which stays open because domains continue to use it."""
         if self._stream is None:
             # Never closed, because the library may write even while the process ends.
             read, write = os.pipe()

@@ -148,7 +148,7 @@ def _checked(place: str) -> str:
     """Return an interface's name, or an address, resolved if it is a host's name.
 
     Raises:
-        LinkError: If the text is none of these.
+        LinkError: If the text is neither an interface nor an address.
     """
     if place in _interfaces():
         return place
@@ -201,7 +201,7 @@ def _is_loopback(place: str) -> bool:
 
 
 def _own(used: Iterable[str]) -> list[str]:
-    """Return those of some interfaces that are given by address."""
+    """Return the items of `used` that are addresses, not names of interfaces."""
     return [one for one in used if one not in _interfaces()]
 
 
@@ -237,7 +237,7 @@ def other_domains(domain: int) -> list[int]:
 
 
 def participants_here(domain: int) -> int:
-    """Count this machine's participants in a domain, with this process's (Linux only)."""
+    """Count this machine's participants in a domain, including this process (Linux only)."""
     return _listening().get(domain, 0)
 
 

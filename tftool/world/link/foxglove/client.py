@@ -169,7 +169,8 @@ class FoxgloveClient:
         Args:
             name: Name of the topic, without a leading slash.
             ros_type: Type of the topic.
-            again: Whether to subscribe again if subscribed, to get messages that the server stores.
+            again: Whether to end an existing subscription and subscribe anew, to get messages that
+                the server stores.
         """
         self._call(self._want, (name, ros_type), again)
 
@@ -232,7 +233,7 @@ class FoxgloveClient:
                 await asyncio.wait_for(self._woken.wait(), pause)
 
     async def _connected(self) -> str:
-        """Connect and read until the connection ends; return the reason, for a sentence."""
+        """Connect and read until the connection ends; return why it ended, for a sentence."""
         try:
             async with _Direct(
                 self._address,
