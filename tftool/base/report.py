@@ -9,7 +9,7 @@ class Judgement:
 
     Attributes:
         subject: The statement, for example "by 20 s: distance from a to b below 0.5 m".
-        ok: Whether the statement holds.
+        ok: Whether the statement is true.
         expected: Description of a passing value, for example "below 0.5 m".
         found: The value found.
         at: Time of the check in seconds from the start; None if the run ended before.

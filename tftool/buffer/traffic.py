@@ -90,7 +90,7 @@ class Series:
 
     @property
     def maximum_delay(self) -> float | None:
-        """Greatest delay from stamp to arrival, seconds; negative if all stamps lie in the
+        """Greatest delay from stamp to arrival, seconds; negative if all stamps are in the
         future.
         """
         return max(self._delays) if self._delays else None

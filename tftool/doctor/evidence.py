@@ -57,7 +57,7 @@ class Evidence:
         joints: Joint names in all joint states; None if none were recorded.
         robot: Robot of the given or recorded description; None without a readable description.
         mistakes: Mistakes in the description, as sentences.
-        odometry: Odometry messages as transforms; None without any.
+        odometry: Odometry messages as transforms; None without odometry.
         mounts: Mounts measured from motion; None if not requested.
     """
 
@@ -92,7 +92,7 @@ class Described:
     Attributes:
         robot: The described robot; None if no description can be read.
         mistakes: Mistakes in the description, as sentences.
-        namespace: Namespace of its topic, "/arm" for "/arm/robot_description".
+        namespace: Namespace of the description's topic, "/arm" for "/arm/robot_description".
     """
 
     robot: Robot | None = None
@@ -314,7 +314,7 @@ def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
 
 
 def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
-    """Return the indices of each distinct name; fast if there is only one."""
+    """Return the indices of each distinct name; fast for a single name."""
     if not len(names) or bool((names == names[0]).all()):
         return [np.arange(len(names), dtype=np.int32)] if len(names) else []
     found: dict[str, list[int]] = {}

@@ -39,7 +39,7 @@ USUAL_WAIT = 0.1
 
 
 class Cause(Enum):
-    """Cause of a failed lookup; WORKS if it succeeds."""
+    """Cause of a failed lookup; WORKS for a lookup that succeeds."""
 
     LATE = "late"
     CLOCK_OFFSET = "clock-offset"
@@ -268,7 +268,7 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
 
 
 def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
-    """Return why a path across two clocks fails, as `clock-offset` finds them; else None."""
+    """Return why a path across two clocks fails (see the check `clock-offset`); else None."""
     moving = [track for track in way if not track.static]
     off = [track for track in moving if track in model.unshifted]
     if not off or len(off) == len(moving):
@@ -513,7 +513,7 @@ class Explanation:
 
     @property
     def check(self) -> str | None:
-        """Return the id of the check that looks for this cause; None if the lookup succeeds."""
+        """Return the id of the check for the cause of the failure; None if the lookup succeeds."""
         return CHECK_OF.get(self.cause)
 
 

@@ -62,7 +62,7 @@ class Diagnosis:
 
     @property
     def worst(self) -> Severity | None:
-        """Return the worst severity of new findings, without consequences; None without any."""
+        """Return the worst severity of new findings that are not consequences, if there are any."""
         found = [f.severity for f in self.findings if f.because_of is None and not f.known]
         return min(found, key=lambda severity: severity.rank, default=None)
 

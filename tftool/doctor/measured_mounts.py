@@ -55,7 +55,7 @@ class MeasuredMount:
         shift: Measured minus published mount, metres and degrees, shape (6,).
         widths: Half-widths of the shift's 95 % interval, shape (6,); NaN if undetermined.
         windows: Measurements of parts of the recording, in the order of time.
-        earlier: The frame's mount in the previous recording; None without one.
+        earlier: The frame's mount in the previous recording; None without a previous recording.
     """
 
     parent: str

@@ -89,7 +89,7 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
 
 
 def is_world(name: str) -> bool:
-    """Whether a name is of a frame that is fixed to the world, not mounted on a robot."""
+    """Whether a name belongs to a frame that is fixed to the world, not mounted on a robot."""
     return not _WORLDS.isdisjoint(last_part(name).lower().split("_"))
 
 

@@ -39,9 +39,10 @@ class Settings:
 
     Attributes:
         cache_time: Cache time of the listener's buffer, nanoseconds.
-        fixed_frame: Frame in which to place sensors; empty for the usual one.
+        fixed_frame: Frame in which to place sensors; empty for the usual frame.
         limits: Thresholds by check and name, instead of the defaults.
-        tf_topics: Topics of transforms to which the listener subscribes; empty for the usual ones.
+        tf_topics: Topics of transforms to which the listener subscribes; empty for the usual
+            topics.
     """
 
     cache_time: Duration = CACHE_TIME
@@ -59,7 +60,8 @@ class Shift:
     """Constant difference between the stamps' clock and the recorder's.
 
     Attributes:
-        by: Time from stamp to reception of most messages, nanoseconds; negative if stamped later.
+        by: Time from stamp to reception of most messages, nanoseconds; negative if the stamps are
+            later.
         spread: Deviation of `by`: the median of the streams, nanoseconds.
         streams: Number of streams with this shift.
         of: Number of all streams.

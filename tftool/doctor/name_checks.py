@@ -97,7 +97,7 @@ _PLACED = frozenset({"LaserScan", "MultiEchoLaserScan", "PointCloud", "PointClou
 
 
 def _sharing(heards: Iterable[Heard]) -> list[str]:
-    """Return the namespaces of robots that send the same topic in one frame; empty for one."""
+    """Return the namespaces of robots with the same topic in one frame; empty for one robot."""
     robots: dict[str, set[str]] = defaultdict(set)
     for heard in heards:
         robot, _, topic = heard.topic.removeprefix("/").partition("/")
@@ -125,7 +125,7 @@ def alike_frames(model: Model, name: str) -> list[str]:
 
 
 def _near(model: Model, name: str) -> list[str]:
-    """Return known names that share a distinctive word with an unknown one, or a misspelling."""
+    """Return known names that have a distinctive word of an unknown name, or resemble it."""
     words = {word for word in distinctive_words(name) if not word.isdigit()}
     found = near_names(last_part(name), sorted(model.frames), 3)
     return [one for one in found if words & distinctive_words(one) or distance(name, one, 1) <= 1]
@@ -472,7 +472,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Return for each frame one frame that stands for all frames connected with it."""
+    """Return a name for each frame that is the same for all frames connected with it."""
     above: dict[str, str] = {}
 
     def top(name: str) -> str:

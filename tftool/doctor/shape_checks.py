@@ -165,7 +165,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def nothing_says(model: Model, root: str) -> Fix:
-    """Return the remedy if there is no evidence for a root's parent: where to look."""
+    """Return the remedy for a root without evidence for its parent: the places to search."""
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
     return Fix(

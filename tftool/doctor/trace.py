@@ -101,7 +101,7 @@ class Question:
 
 
 def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Stamp]:
-    """Return the message of a topic with the stamp nearest to a time; for None the first message.
+    """Return the message of a topic with the stamp nearest to a time; the first if `near` is None.
 
     Returns:
         The stream with the message, and the message's stamp.

@@ -53,7 +53,7 @@ THICK_FROM: Final = 26
 
 
 class _KeptDrawing:
-    """Dots of a drawing's strokes so far, and the number of strokes that are in them."""
+    """Dots of the strokes drawn so far, and the number of these strokes."""
 
     key: object = None
     done = 0

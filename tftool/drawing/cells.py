@@ -56,7 +56,7 @@ def packed(color: Color | None) -> int:
 
 
 def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
-    """Mix packed colours with one colour, as `theme.blend`; `share` is one number or one each."""
+    """Mix packed colours with one colour; `share` is one number for all, or one per colour."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
     mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
@@ -189,8 +189,8 @@ DASH: Final = 3
 def woven(layers: Sequence[Dots]) -> Dots:
     """Lay curves into one picture; where several meet, each gets some of the cells.
 
-    One colour alone would hide the others where they run side by side. A cell shows only the dots
-    of the curve whose turn it is.
+    One colour alone would hide the others where they run side by side. A cell shows the dots of one
+    curve only.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.
@@ -209,7 +209,7 @@ class CellSheet:
     """Characters and colours of columns × rows of cells.
 
     Attributes:
-        texts: Character of each cell; empty behind a wide one.
+        texts: Character of each cell; empty behind a wide character.
         inks: Packed colour of each character.
         grounds: Packed background colour of each cell.
         bold: Whether each character is bold.

@@ -87,7 +87,7 @@ def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool 
 
 
 def live_heading(target: str, source: str, age: Duration | None) -> "Text":
-    """Return a line with the pair and the age of its transform: amber, then red, for an old one.
+    """Return a line with the pair and its transform's age, in amber or red if the age is high.
 
     Args:
         target: Frame in which the pose is expressed.

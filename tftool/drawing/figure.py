@@ -101,8 +101,8 @@ def plot(
         target: Frame in which the poses of a pair are expressed.
         source: Frame whose poses are drawn.
         ax: Axes for one panel; None for a new figure with all panels.
-        what: "position", "rotation", "distance", "speed", "turn rate", or a single curve such
-            as "x" or "yaw". If empty, a new figure has all of them, `ax` the position.
+        what: "position", "rotation", "distance", "speed", "turn rate", or a single curve such as
+            "x" or "yaw". If empty, a new figure has all panels, and `ax` has the position.
         xy: Whether to draw the path from above instead of curves over time.
         start: Time in nanoseconds that is 0 on the axis; None for the first pose.
         dark: Whether a new figure has a dark background.
@@ -111,7 +111,8 @@ def plot(
         The new figure, or `ax`.
 
     Raises:
-        TransformException: If a frame of the pair is unknown, or the two are never connected.
+        TransformException: If a frame of the pair is unknown, or the two frames are never
+            connected.
         TypeError: If a pair is given with poses, or frames are given without a pair.
         UsageError: If there is nothing to draw, or the extra `plot` is not installed.
     """

@@ -324,7 +324,7 @@ def pair_plot(
     """Draw distance and yaw of a pair below each other, with scales that do not change.
 
     Args:
-        path: Poses of the pair, NaN where there is none.
+        path: Poses of the pair, NaN at times without a pose.
         span: Span of time to draw.
         width: Width in cells.
         height: Height in lines.
@@ -403,7 +403,7 @@ def _curve(
 
 
 def _value_at(times: np.ndarray, values: np.ndarray, span: PlotSpan) -> float | None:
-    """Return the last value at or before the marked time; None without one."""
+    """Return the last value at or before the marked time; None without such a value."""
     moment = as_seconds((span.last if span.cursor is None else span.cursor) - span.start)
     holds = np.flatnonzero(np.isfinite(values) & (times <= moment + 1e-9))
     return float(values[holds[-1]]) if len(holds) else None

@@ -149,7 +149,7 @@ class _Writer:
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
-        """Return names with their columns beside them, and long lists at the end or below."""
+        """Return a row for each name, with its columns, and its list at the end or below."""
         if not names:
             return []
         longest = max(map(cell_len, names))
@@ -181,6 +181,6 @@ def _names(nodes: Iterable[str], none: str) -> str:
 
 
 def _goes_without_saying(name: str, ros_type: str) -> bool:
-    """Return whether a service is one that every node has, or hidden as in ROS 2."""
+    """Return whether a service is one that every node has, or one that ROS 2 hides."""
     hidden = any(part.startswith("_") for part in name.split("/"))
     return hidden or ros_type.startswith(_EVERY_NODES)

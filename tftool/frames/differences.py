@@ -109,8 +109,8 @@ class Displacement:
     """Difference between a link's poses in the two compared sets of frames, A and B.
 
     Attributes:
-        millimetres: Distance; for moving links the root mean square.
-        degrees: Angle of rotation; for moving links the root mean square.
+        millimetres: Distance; for a moving link, the root mean square of its distances.
+        degrees: Angle of rotation; for a moving link, the root mean square of its angles.
         worst_millimetres: Largest distance.
         worst_degrees: Largest angle.
         worst_at: Stamp in A at which the difference is largest in units of the tolerance; None if

@@ -124,7 +124,7 @@ def _read_recording(
 
 
 def _robot_beside(options: DescriptionOptions) -> Robot | None:
-    """Return the robot of the description given for a recording; None without one."""
+    """Return the robot of the description given for a recording; None without a description."""
     if options.joints:
         options.refuse("The joints of a recording cannot be set")
     if options.urdf is None and not options.arguments:

@@ -45,7 +45,7 @@ class PlotCurve:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotPanel:
-    """Curves of a plot that share an axis.
+    """Curves of a plot with a common axis.
 
     Attributes:
         title: Title of the panel: "position".

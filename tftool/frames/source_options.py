@@ -71,7 +71,7 @@ class DescriptionOptions:
     Attributes:
         joints: Positions by joint, radians or metres.
         arguments: Values of xacro arguments, by name.
-        urdf: Path of the description for a recording without one.
+        urdf: Path of a description for a recording that has no description.
     """
 
     joints: Mapping[str, float] = field(default_factory=dict)

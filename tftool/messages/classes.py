@@ -127,7 +127,7 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 def build(kind: Any, *values: Any, **named: Any) -> Any:
-    """Create a message without checks: the first fields by position, others by name.
+    """Create a message without checks: the first fields by position, further fields by name.
 
     This is ten times as fast as the constructor, which checks every value.
     """

@@ -257,7 +257,7 @@ class _Array:
 
 
 class _List:
-    """Step of a codec for strings or messages: a fixed number, or a sequence with its length."""
+    """Step of a codec for a field of several strings or messages: a fixed array, or a sequence."""
 
     def __init__(
         self, path: str, field: MessageField, plan: "_Plan | None", layout: Layout

@@ -73,7 +73,7 @@ class Recorded:
     """An open recording, whose messages are read on demand.
 
     Reading raises `InputError` if nothing can be read; other damage is listed in `damage`, and
-    never raises.
+    raises no error.
 
     Attributes:
         name: Name as given by the user.

@@ -220,7 +220,8 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
 
     Raises:
         InputError: If the message is not a string.
-        DescriptionError: If all descriptions have mistakes; it has the mistakes of the first.
+        DescriptionError: If all descriptions have mistakes; the error has the mistakes of the first
+            one.
     """
     kind = INTERFACES.message("std_msgs/msg/String")
     codec = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR)

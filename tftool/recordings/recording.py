@@ -101,7 +101,7 @@ class Recording:
         Args:
             source: The opened container.
             progress: Function called with the progress of reading.
-            robot: Description of the robot; None to use the recorded one.
+            robot: Description of the robot; None to use the recorded description.
             kept: Cache of the recording's columns; None for no cache.
             with_odometry: Whether odometry and poses are used as transforms.
             tf_topics: Topics of transforms to read; empty for all.

@@ -272,7 +272,9 @@ class RollingRecording:
         return self._writer
 
     def tick(self, now: Stamp) -> None:
-        """Write messages that have waited for a second; to be called several times per second.
+        """Write messages that have waited for a second.
+
+        The owner of the recording must call this function several times per second.
 
         Raises:
             InputError: If the file cannot be written; earlier data stays readable.

@@ -33,7 +33,7 @@ class CylinderShape:
 
 @dataclass(frozen=True, slots=True)
 class CapsuleShape:
-    """A cylinder along z with a hemisphere on each end; `length`, metres, is the cylinder's."""
+    """A cylinder of `length` metres along z, with a hemisphere on each end."""
 
     radius: float
     length: float
@@ -149,7 +149,7 @@ class RobotJoint:
         origin: The child's pose in the parent at position zero.
         axis: Unit vector in the joint's frame; the joint turns about it or slides along it.
         limit: Limits of position and speed; None if not given.
-        mimic: Rule by which the joint follows another joint; None if it does not.
+        mimic: Rule by which the joint follows another joint; None if the joint follows none.
     """
 
     name: str

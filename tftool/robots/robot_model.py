@@ -1,4 +1,4 @@
-"""Robot that computes the poses of its links from joint positions, as robot_state_publisher."""
+"""Robot that computes the poses of its links from joint positions, like robot_state_publisher."""
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence

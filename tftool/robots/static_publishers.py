@@ -47,7 +47,7 @@ class StaticFrames:
 
     @property
     def buffer(self) -> Buffer:
-        """Return a buffer with all links; if a child has several, the last is used, as in tf2."""
+        """Return a buffer with all links; if a child has several links, the last one is used."""
         found = Buffer(NO_LIMIT)
         for one in self.links:
             sample = TransformStamped(0, one.parent, one.child, one.transform)

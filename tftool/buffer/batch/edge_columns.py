@@ -28,7 +28,8 @@ class Column:
     Attributes:
         records: Samples in memory order, shape (k, 8); see `history`.
         stamps: Nanoseconds, shape (k,); a copy made at the first use.
-        samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7); a copy as well.
+        samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7); a copy made at the first
+            use.
         origin: Parent and authority of the newest sample in one word; see `history`.
         origins: Parent and authority of each sample in one word; see `history`. None if all samples
             have the same parent and authority.

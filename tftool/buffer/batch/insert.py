@@ -139,7 +139,7 @@ def insert(
         rotations: Quaternions in xyzw order, shape (n, 4).
 
     Returns:
-        Which rows were accepted and why others were not, and the checked rows.
+        The accepted rows with the reasons for the rejected rows, and the checked rows.
     """
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     rows = CheckedRows(stamps, translations, rotations, (child, parent, authority))

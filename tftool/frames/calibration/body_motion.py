@@ -168,8 +168,9 @@ _DENSE: Final = 200
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
     """Return the indices of poses without spikes (flipped tags), which distort a correlation.
 
-    First drop poses whose median distance (or angle) to six neighbours is far above that of the
-    poses around them; then those that are far from the middle of their remaining neighbours.
+    The first step drops poses whose median distance (or angle) to six neighbours is far above that
+    of the poses around them. The second step drops poses that are far from the middle of their
+    remaining neighbours.
     """
     kept = np.arange(len(turns))
     if len(turns) < _DENSE:

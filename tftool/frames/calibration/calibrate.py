@@ -111,7 +111,7 @@ class Calibration:
         unseen_direction: Undetermined direction, a unit vector in moving_a, if it is oblique to the
             x, y and z axes; else None.
         inverted: Whether A was inverted, and whether B was inverted.
-        next_motion: The motion to record next; None if none is needed.
+        next_motion: The motion to record next; None if no other motion is needed.
         scale: Factor of A's translations, and the half-width of its 95 % interval; None if no scale
             was requested.
         notes: Sentences about the inputs.

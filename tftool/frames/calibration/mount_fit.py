@@ -423,8 +423,8 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
 def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Floats, Floats, float]:
     """Solve for the mount's rotation about the only axis, and its translation across the axis.
 
-    The rotation vectors do not determine the turn about the axis; the translations do, linearly in
-    its cosine and sine.
+    The rotation vectors do not determine the turn about the axis. The translations determine the
+    turn, linearly in its cosine and sine.
 
     Args:
         pairs: Motions that turn about one axis.

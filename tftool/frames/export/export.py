@@ -214,7 +214,7 @@ def write_links(
 
     Raises:
         InputError: If the file cannot be written.
-        UsageError: If there is nothing to write, or the format cannot contain it.
+        UsageError: If there is nothing to write, or the format cannot contain the links.
     """
     if not buffer.frames():
         raise UsageError("There are no frames to write.")

@@ -71,7 +71,8 @@ def edit(
 
     Args:
         names: Files or folders of the recordings; several recordings are joined.
-        output: Path to write. Its suffix selects the container; without one, a rosbag2 folder.
+        output: Path to write. The suffix selects the container; a path without a suffix is a
+            rosbag2 folder.
         edits: Changes to make.
         force: Whether existing files may be replaced.
         dry_run: Whether to report the changes without writing.

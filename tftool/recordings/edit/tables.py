@@ -59,7 +59,7 @@ class MessageKind:
 
     @property
     def changes(self) -> bool:
-        """Whether the edit changes the bytes of these messages."""
+        """Whether the edit changes the bytes of messages of this kind."""
         return not self.keeps_bytes or bool(self.result.given)
 
     def stamps(self, rows: Bytes, number: int) -> Stamps:
@@ -70,7 +70,7 @@ class MessageKind:
         return found + np.ascontiguousarray(times[:, 1]).view(np.uint32)
 
     def changed(self, rows: Bytes, length: int) -> Bytes:
-        """Return the new bytes of these messages, shape (n, new length)."""
+        """Return the new bytes of messages of this kind, shape (n, new length)."""
         payload = self.result.payload
         assert payload is not None
         new = np.frombuffer(payload, np.uint8)

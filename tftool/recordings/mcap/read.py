@@ -272,7 +272,7 @@ class Mcap(ChunkedReader):
     # Sequential reading
 
     def _index(self) -> None:
-        """Build an index of a file without one, up to the file's end or its damage.
+        """Build an index of a file without an index, up to the file's end or its damage.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -480,7 +480,7 @@ class Mcap(ChunkedReader):
     def _batch(
         self, chunk: Chunk, chosen: Mapping[int, int], singly: SingleMessages, ahead: Ahead
     ) -> Batch | None:
-        """Return a batch of a chunk's messages; None if there are none, or `singly` read them."""
+        """Return a batch of a chunk's messages; None without any, or if `singly` read them."""
         parts = []
         for channel, place in chunk.indexes.items():
             if channel in chosen:

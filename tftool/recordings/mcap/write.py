@@ -148,8 +148,8 @@ class McapWriter(ChunkedWriter):
 
         Args:
             channel: The channel; a known channel keeps its number.
-            number: Number for the channel; None for any.
-            schema: Number of its schema, which must be known; None for any.
+            number: Number for the channel; None for any unused number.
+            schema: Number of the channel's schema, which must be known; None to choose by the type.
 
         Raises:
             InputError: If there are too many channels or schemas.

@@ -98,7 +98,7 @@ _NONE: Final = ChosenOptions()
 def pose_options(chosen: ChosenOptions) -> Iterator[None]:
     """Apply options to all pose files that are read within this `with` block.
 
-    Recordings are opened in many places by name only: this gives all of them the same options.
+    Recordings are opened in many places by name only: this context gives them all the same options.
     """
     token = _CHOSEN.set(chosen)
     try:

@@ -125,7 +125,7 @@ class Rosbag1Writer(ChunkedWriter):
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message; the last two arguments are not stored."""
+        """Append one message; `publish_time` and `sequence` are not stored."""
         if channel not in self._defined:
             self._defined.add(channel)
             self._keep(self._channel_records[channel])

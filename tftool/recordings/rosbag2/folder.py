@@ -90,7 +90,7 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
 
 
 def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) -> Container:
-    """Open files as one recording; report unreadable files, or raise an error if all are.
+    """Open files as one recording; report unreadable files; fail without a readable one.
 
     Args:
         paths: Paths of the files.

@@ -128,7 +128,7 @@ class SqliteWriter:
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message; the last two arguments are not stored."""
+        """Append one message; `publish_time` and `sequence` are not stored."""
         self._rows.append((channel, log_time, payload))
         self._bytes += len(payload)
         self.counts[channel] = self.counts.get(channel, 0) + 1
