@@ -28,9 +28,9 @@ _PLAY_AGAIN = Fix(
     "a recording was probably played beside nodes that run on the present time: {play_again}"
 )
 _BOTH = 0.05
-"""Share of an edge's samples from which on they come from a second source."""
+"""Fraction of an edge's samples on another clock above which they come from a second source."""
 _PLAYED = seconds(3600)
-"""From what offset on old data is likelier than two clocks."""
+"""Offset of stamps from which old data is likelier than two clocks."""
 _COMPARE = (
     Fix(
         "compare the clocks of the two computers (chronyc tracking); if they agree, or both "
@@ -198,7 +198,7 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_design(track: Track, ahead: int) -> bool:
-    """Whether a transform is stamped ahead on purpose: in ROS 1 it is valid until the next."""
+    """Whether a transform is stamped ahead on purpose: ROS 1 uses it until the next."""
     if ahead <= 1.2 * track.period:
         return True
     return not track.moves and ahead <= CONSTANTS_AHEAD
@@ -305,7 +305,7 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 _STEADY = seconds(0.1)
-"""Within what a delay that no queue makes varies, from its 10 % to its 90 % quantile."""
+"""Maximum variation, from 10 % to 90 % quantile, of a delay that no queue causes."""
 
 
 def _late(model: Model, stream: "Track | Heard", name: str, severity: Severity) -> Hit:

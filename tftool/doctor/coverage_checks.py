@@ -656,7 +656,7 @@ _RELAYED = 5_000_000
 """Maximum difference between the waits of a topic and of its relayed copy, nanoseconds."""
 
 _NOT_PLACED = frozenset({"Imu", "MagneticField", "NavSatFix"})
-"""Messages that a filter takes in as they come; none is placed in odometry by its stamp."""
+"""Types of messages that filters use on arrival, so that nothing looks up their stamps."""
 
 _WORLDS = frozenset({"map", "world", "earth"})
 

@@ -164,7 +164,7 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
 
     Args:
         recording: The recording.
-        scope: Part of the recording, and a description; None for all of it.
+        scope: Part of the recording, and a description; None for the whole recording.
 
     Raises:
         InputError: If the file cannot be read, a topic is missing, or the part is empty.
@@ -366,7 +366,7 @@ def evidence_of_frames(frames: Frames, scope: Scope | None = None) -> Evidence:
 
     Args:
         frames: The frames of a recording, a scenario, a session or a description.
-        scope: Part of a recording, and a description; None for all of it.
+        scope: Part of a recording, and a description; None for the whole recording.
 
     Raises:
         InputError: See `evidence_of_recording`.

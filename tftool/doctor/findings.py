@@ -17,7 +17,7 @@ Fact: TypeAlias = object
 
 
 STOPPED_PERIODS = 10
-"""Number of its periods without a sample after which a transform may have stopped."""
+"""Number of a transform's periods without a sample after which it may have stopped."""
 
 STOPPED_AFTER = 1.0
 """Seconds without a sample after which a transform may have stopped; both limits must be passed."""

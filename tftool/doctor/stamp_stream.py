@@ -33,7 +33,7 @@ WILD = seconds(3600)
 """Deviation of a single stamp, nanoseconds, too large for a late message or a slow clock."""
 
 FEW = 0.01
-"""Maximum fraction of a stream's stamps that may deviate so far."""
+"""Maximum fraction of a stream's stamps that may deviate by more than `WILD`."""
 
 ZERO_QUATERNION = 1e-12
 """Squared length of a rotation below which tf2 drops the sample."""

@@ -52,7 +52,7 @@ def moment(stamp: int) -> str:
 
 
 def dated(stamp: int) -> str:
-    """Format a stamp with its date, or marked as a simulation's."""
+    """Format a stamp with its date; mark a stamp of a simulation."""
     if stamp < SIMULATED_BELOW:
         return f"{moment(stamp)} (simulation)"
     day = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=stamp // 1000)

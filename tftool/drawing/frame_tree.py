@@ -272,7 +272,7 @@ LEAST_NAME = 16
 """Cells of guides and names for which a column of facts is dropped."""
 
 SHARE = 0.6
-"""Share of the width that guides and names may take; beyond it guides shrink and names are cut."""
+"""Fraction of the width for guides and names; wider guides shrink, and longer names are cut."""
 
 BROADCASTERS = (24, 16, 11)
 """Widths in cells of the column of broadcasters, tried from wide to narrow."""
@@ -434,7 +434,7 @@ def _pruned(forest: Forest, kept: Collection[str]) -> Forest:
 
 
 def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
-    """Return the sort key of a frame: fast or old ones first, static ones last."""
+    """Return the sort key of a frame: fast or old frames first, static frames last."""
     still = info.is_static or info.parent is None
     if order is TreeOrder.rate:
         return (still, -info.rate if info.samples > 1 else 0.0, info.frame)

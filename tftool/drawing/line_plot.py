@@ -34,7 +34,7 @@ LABELS: Final = 10
 """Cells at the left of a panel for the labels of its axis."""
 
 NOISE: Final = 1e-6
-"""Share of a panel's largest value below which a value is shown as 0."""
+"""Fraction of a panel's largest value below which a value is shown as 0."""
 
 LEAST_ROWS: Final = 3
 ROWS: Final = 7

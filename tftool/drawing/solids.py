@@ -31,7 +31,7 @@ PLAIN: Final[Rgb] = (0.78, 0.80, 0.84)
 """Colour of shapes that have none."""
 
 _AROUND: Final = 20
-"""Number of corners of a polygon that stands for a circle."""
+"""Number of corners of a polygon that replaces a circle."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +41,7 @@ class Solids:
     Attributes:
         frames: Names of the frames.
         ends: For each frame, the index after its last corner and after its last triangle.
-        points: Corners, in the frame they move with, metres, shape (n, 3).
+        points: Corners in coordinates of their frames, metres, shape (n, 3).
         triangles: Indices of three corners each, shape (m, 3).
         colors: Red, green and blue from 0 to 1 of each triangle, shape (m, 3).
     """

@@ -27,7 +27,7 @@ NEAREST, MOST_DISTANT = 1e3, 1e-3
 """Limits of the zoom, as magnifications of the view of the whole scene."""
 
 ROOMY: Final = 0.6
-"""Share of the view that a scene must fill so that the view does not shrink."""
+"""Fraction of the view that a scene must fill so that the view does not shrink."""
 
 
 @dataclass(frozen=True, slots=True)

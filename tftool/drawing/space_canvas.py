@@ -28,7 +28,7 @@ MOST_NAMED: Final = 40
 """Largest number of names that are written."""
 
 CELLS_PER_NAME: Final = 150
-"""Cells of a picture for each name: on a small one, names would hide the robot."""
+"""Cells of a picture for each name; in a small picture, more names would hide the robot."""
 
 MOST_POINTS: Final = 1_000_000
 """Points of triangles that are processed at once, to limit memory."""

@@ -11,7 +11,7 @@ from tftool.geometry.rigid import Transform
 
 
 def up_to(whole: Buffer, moment: Stamp) -> Buffer:
-    """Return a buffer with the samples of another one up to a time, and all static transforms."""
+    """Return a buffer with the samples of `whole` up to a time, and all static transforms."""
     frames = whole.frames()
     found = Buffer(whole.cache_time, max_frames=max(1, len(frames)))
     for frame in frames:

@@ -25,7 +25,7 @@ from tftool.robots.static_publishers import StaticFrames, load_statics
 Stamps: TypeAlias = npt.NDArray[np.int64]
 
 MOST_MOMENTS: Final = 2_000_000
-"""Maximum number of times at which a link is compared; of more, every second, third … is used."""
+"""Maximum number of times at which a link is compared; of more times, every n-th is used."""
 
 
 class Behaviour(StrEnum):

@@ -111,7 +111,7 @@ QUANTITIES: Final = tuple(name for _, names, _ in _GROUPS.values() for name in n
 
 
 def chosen(words: Sequence[str]) -> tuple[str, ...]:
-    """Return the quantities that words name: a quantity, or a panel for all of its quantities.
+    """Return the quantities that words name; the title of a panel names all its quantities.
 
     Raises:
         UsageError: If a word is neither a quantity nor a panel.

@@ -446,7 +446,7 @@ def _recordings(
     """Return the recordings among some paths, their kinds, and the other paths.
 
     Raises:
-        PermissionError: If there is no recording, and some files must not be read.
+        PermissionError: If there is no recording, and some files may not be read.
     """
     if len(entries) > MOST_FILES:
         raise InputError(

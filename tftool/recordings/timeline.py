@@ -154,7 +154,7 @@ class Timeline:
         return len(self.moments)
 
     def place(self, moment: Stamp, *, after: bool = False) -> int:
-        """Return the number of the first message at or after a time, or only after it."""
+        """Return the number of the first message at a time or later; with `after`, only later."""
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:

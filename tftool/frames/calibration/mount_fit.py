@@ -20,10 +20,10 @@ from tftool.geometry.conversions import quaternion_from_matrix
 
 ROUNDS: Final = 12
 _CLIP: Final = 5.0
-"""Number of standard deviations beyond which residuals have no weight."""
+"""Number of standard deviations at which a residual has a quarter of the full weight."""
 
 MOUNT, SHIFT, DRIFT, SCALE, JOIN = slice(0, 6), 6, 7, 8, slice(9, 15)
-"""Indices of the parameters: rotation and translation of X, d, drift of d, scale of A, Y."""
+"""Indices of the parameters: mount, clock offset, its drift, scale, pose Y of the fixed frames."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -189,7 +189,7 @@ class _Residuals:
         self.jacobian[:, 3:] -= lever @ self.jacobian[:, :3]
 
     def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
-        """Return the fit; compute the pose Y of each segment anew if their number changed."""
+        """Return the fit, with new poses Y if the number of segments changed."""
         if len(fit.joins) == self.count:
             return fit
         back = batch.conjugate(problem.rotations)

@@ -188,7 +188,7 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
 
 
 def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
-    """Raise an error for names that were not recorded, and for one new name of two frames."""
+    """Raise an error for names that were not recorded, and new names that equal others."""
     wanted: list[LinkName] = [*edits.drop, *edits.poses, *edits.reparent]
     if not (wanted or edits.rename):
         return

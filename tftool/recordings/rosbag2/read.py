@@ -223,7 +223,7 @@ _MOST_GAPS: Final = 40
 _LEAST_HEAD: Final = 4096
 
 LOWEST_ROW: Final = -(2**63)
-"""Number before that of any row."""
+"""Number that is lower than the number of any row."""
 
 # Name, type and position in the primary key of each column.
 _COLUMNS: Final = [
