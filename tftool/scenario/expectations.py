@@ -28,7 +28,7 @@ class Expectations(Node):
     """Node that judges every expectation at its time, after everything else of that instant.
 
     Attributes:
-        outcomes: Outcome of each expectation; None for those still to come.
+        outcomes: Outcome of each expectation; None for an expectation not judged yet.
     """
 
     phase: ClassVar[Phase] = Phase.WATCH
@@ -50,7 +50,7 @@ class Expectations(Node):
         self._stops.append(world.log.listen(self._scene.count, self.name))
 
     def judged(self) -> tuple[Outcome, ...]:
-        """Return the outcome of each expectation, "not reached" for those still to come."""
+        """Return the outcome of each expectation, "not reached" if it was not judged yet."""
         pairs = zip(self.expected, self.outcomes, strict=True)
         return tuple(
             outcome or expected.outcome("not reached", None, False) for expected, outcome in pairs

@@ -42,7 +42,7 @@ class StepFailed(TftoolError):
 class Script(Node):
     """Node that carries out every step at its time; steps of one instant in file order.
 
-    A step that fails is logged and recorded; the others are carried out all the same.
+    A step that fails is logged and recorded; the other steps are carried out all the same.
 
     Attributes:
         start: Time at which the script began.
@@ -57,7 +57,7 @@ class Script(Node):
         self.outcomes: list[Outcome] = []
 
     async def run(self) -> None:
-        """Carry out all steps; one that waits for a response does not delay others."""
+        """Carry out all steps; a step that waits for a response delays no other step."""
         self.start = self.clock.now()
         await asyncio.gather(*(self._do(step) for step in self.steps))
 

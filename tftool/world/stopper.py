@@ -41,7 +41,7 @@ _LEAVE_SCREEN = (
 class Overdue(BaseException):
     """Exception raised inside a node that blocks the loop beyond the end of the run.
 
-    It is not an `Exception`, so that it also ends a node that catches those and goes on.
+    It is not an `Exception`, so that it also ends a node that catches each `Exception`.
     """
 
 

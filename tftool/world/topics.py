@@ -283,7 +283,7 @@ class Offer(Generic[T]):
 
 
 class NamedOffers(Generic[T]):
-    """Servers of services or of actions, by name; further servers of a name wait to take over.
+    """Servers of services or of actions, by name; further servers of one name wait to take over.
 
     Attributes:
         by_name: Active server of each name, read-only.

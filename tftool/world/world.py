@@ -206,7 +206,7 @@ class World:
             kind: Type of the values.
             callback: Function called with every further value.
             quality: Requested quality of service. A latched subscription gets earlier messages of
-                latched publishers: those of this process at once, others as they arrive.
+                latched publishers: from this process at once, from other processes as they arrive.
         """
         topic = self.topic(name, kind)
         taken: Callable[[Any], object] = callback

@@ -206,7 +206,7 @@ class Examination(FleetTask):
         }
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Return the worst severity among findings that are not consequences of others."""
+        """Return the worst severity among findings that are not consequences of other findings."""
         if rows[0]["id"] in (UNREADABLE, NONE_FOUND):
             return str(rows[0]["id"])
         severities = {row["severity"] for row in rows if row.get("because_of") is None}
@@ -263,7 +263,7 @@ def sweep(
     """Process many recordings, and write each result as soon as it is known.
 
     Args:
-        sources: Recordings; those that the output already has are skipped.
+        sources: Recordings; a recording that the output already has is skipped.
         output: File for the rows; None to return them.
         workers: Executor to use.
         task: Work to do for each recording.

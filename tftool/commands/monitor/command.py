@@ -237,7 +237,7 @@ def report_recording(
         report: Report to fill and to write.
         period: Nanoseconds between two reports; None for one report about everything.
         lasting: Nanoseconds to report on, counted from when the frames are connected.
-        cache_time: Cache time of the lookups, as in a session.
+        cache_time: Cache time of the buffer for lookups, nanoseconds; None for the default.
 
     Raises:
         TransformException: If the frames are not connected within `lasting`.

@@ -137,7 +137,7 @@ class Display:
             tell_record(record)
 
     def draw(self) -> None:
-        """Redraw the lines."""
+        """Redraw the lines with the playback's position and a finding."""
         if not self._is_terminal:
             return
         player = self._player
@@ -166,7 +166,7 @@ class Display:
         self._erase = _ERASE if len(lines) == 1 else _ERASE_TWO
 
     def clear(self) -> None:
-        """Erase the lines."""
+        """Erase the lines with the playback's position and a finding."""
         if self._erase:
             sys.stderr.write(self._erase)
             sys.stderr.flush()

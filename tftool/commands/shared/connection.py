@@ -109,7 +109,7 @@ class FileOptions(TypedDict):
 class Connection:
     """Connection of a command to a session, according to the command's options.
 
-    Use it in a `with`, whose end closes every link and file that it opened.
+    Use a connection in a `with` block: at its end, the block closes every opened link and file.
 
     Attributes:
         command: Name of the command.

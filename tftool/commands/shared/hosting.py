@@ -44,7 +44,7 @@ class JoinDecision:
 
     Attributes:
         session: Joined session; None if the command must host one.
-        link: Link through which others join; None if the hosted world is not shared.
+        link: Link through which other processes join; None if the hosted world is not shared.
         alone: Sentence on why the hosted world is not shared; empty if it is.
     """
 
@@ -218,7 +218,7 @@ def join_session(
 ) -> Session | None:
     """Return the world of the running session; None if there is none.
 
-    It is for commands that host worlds on simulated time only, which others cannot join.
+    This is for commands that host worlds on simulated time only, which no process can join.
 
     Raises:
         LinkError: If a session was requested and there is none.

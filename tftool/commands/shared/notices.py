@@ -116,7 +116,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
 
 class FoldedLog:
-    """Printer of a world's log that prints the first of equal messages and counts the others."""
+    """Printer of a world's log that prints the first of equal messages and counts its repeats."""
 
     def __init__(self, *, whole: bool = False) -> None:
         """Start with all counts at zero.

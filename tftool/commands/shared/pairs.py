@@ -22,7 +22,7 @@ IDENTITY = "A frame seen from itself is always the identity."
 
 @dataclass(frozen=True, slots=True)
 class FramePair:
-    """Two frames, and the time at which one is looked up in the other.
+    """Two frames, and the time at which the source is looked up in the target.
 
     Attributes:
         target: Frame in which the transform is expressed.

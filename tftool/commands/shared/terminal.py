@@ -82,7 +82,7 @@ _LONGEST = max(map(len, _NAMES))
 
 
 def keys_in(typed: bytes) -> list[str]:
-    """Return the names of the keys that sent these bytes; unknown bytes are ignored."""
+    """Return the names of the keys that sent the bytes `typed`; unknown bytes are ignored."""
     found = []
     while typed:
         for length in range(min(_LONGEST, len(typed)), 1, -1):

@@ -49,8 +49,8 @@ class StateMonitor:
 
         Args:
             take: Function called while the mutex is held.
-            timeout: Longest wait in seconds: of tftool's clock in a program's thread, real ones in
-                any other. None for no limit, 0 to check once.
+            timeout: Longest wait in seconds: of tftool's clock in a program's thread, of real time
+                in any other thread. None for no limit, 0 to check once.
 
         Returns:
             Whether `take` returned True in time.

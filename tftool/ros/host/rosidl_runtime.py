@@ -210,7 +210,7 @@ def message_to_ordereddict(msg: Any, **options: Any) -> "OrderedDict[str, Any]":
 
     Args:
         msg: The message.
-        options: As for `plain`.
+        options: Options of `plain`.
     """
     return OrderedDict(plain(msg, **options))
 
@@ -221,13 +221,13 @@ def message_to_yaml(msg: Any, *, flow_style: bool = False, **options: Any) -> st
     Args:
         msg: The message.
         flow_style: Whether to write everything on one line.
-        options: As for `plain`.
+        options: Options of `plain`.
     """
     return as_yaml(plain(msg, **options), flow_style=flow_style)
 
 
 def message_to_csv(msg: Any, **options: Any) -> str:
-    """Return the values in a message, separated by commas; `options` as for `plain`."""
+    """Return the values in a message, separated by commas; `options` are those of `plain`."""
     return as_csv(plain(msg, **options))
 
 

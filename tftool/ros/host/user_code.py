@@ -18,7 +18,7 @@ def file_body(path: Path) -> Callable[[], None]:
     """Return a function that runs a node's file as `python3 FILE` would.
 
     A file that defines `main` but neither calls it nor `rclpy.init` is meant for a console script,
-    as the tutorials' files are: then `main` is called.
+    like the tutorials' files: then `main` is called.
 
     Raises:
         InputError: If the file cannot be read or is not valid Python; the text shows the line.

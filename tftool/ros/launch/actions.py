@@ -57,7 +57,7 @@ class DeclareLaunchArgument(Action):
         return None
 
     def shown_default(self) -> str | None:
-        """Return the argument's default as --show-args displays it; None without a default."""
+        """Return the text that --show-args displays as the default; None without a default."""
         return None if self.default_value is None else describe(self.default_value)
 
 

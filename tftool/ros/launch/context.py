@@ -130,7 +130,7 @@ class LaunchContext:
         return str(substitution.perform(self))
 
     def enter_file(self, path: Path) -> None:
-        """Make a launch file the current one.
+        """Make a launch file the current file.
 
         Raises:
             UsageError: If too many launch files include each other.

@@ -404,7 +404,7 @@ class Launch(Node):
             action: Action that starts the command, for events.
             name: Name of the command in log lines, before the number.
             command: Command to start.
-            respawn: As for `start_node`.
+            respawn: Seconds until a restart; see `start_node`.
         """
         label = self._label(name)
         self._actions[label] = action
@@ -427,7 +427,7 @@ class Launch(Node):
         Args:
             action: Action that runs the command, for events.
             words: Words after `ros2`.
-            respawn: As for `start_node`.
+            respawn: Seconds until a restart; see `start_node`.
 
         Raises:
             UsageError: If tftool does not know this command of ROS 2.
@@ -450,7 +450,7 @@ class Launch(Node):
             action: Action that starts the program, for events.
             argv: Command line of the program; the first word gives its name in log lines.
             body: The function.
-            respawn: As for `start_node`.
+            respawn: Seconds until a restart; see `start_node`.
         """
         label = self._label(Path(argv[0]).name)
         self._actions[label] = action

@@ -76,7 +76,7 @@ class ParameterDescription:
         """Return name and value of the parameter, with substitutions evaluated.
 
         Raises:
-            ValueError: If the value is not of its type.
+            ValueError: If the value is not of the parameter's type.
         """
         self.name = perform(context, self.name)
         return self.name, self._value.evaluate(context)

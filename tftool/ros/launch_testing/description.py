@@ -136,7 +136,7 @@ class ReadyAggregator:
         self._ready, self._left = ready_fn, num_to_aggregate
 
     def ready_fn(self) -> None:
-        """Count one call; at the n-th, call the function."""
+        """Count one call of this method; at the n-th call, call the aggregator's function."""
         self._left -= 1
         if self._left == 0:
             self._ready()

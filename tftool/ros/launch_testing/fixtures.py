@@ -122,10 +122,10 @@ def fixture(
 
     Args:
         decorated: Function that returns the description.
-        args: As for `pytest.fixture`.
+        args: Arguments of `pytest.fixture`.
         shutdown_when_idle: Whether the launch ends after its last process has ended.
         auto_shutdown: Whether to shut the launch down after its tests.
-        kwargs: As for `pytest.fixture`.
+        kwargs: Keyword arguments of `pytest.fixture`.
     """
     scope = kwargs.get("scope", "function")
     if scope != "function":

@@ -130,7 +130,7 @@ class IoHandler(_Record):
             process: Action of the process, or a part of its name; None for all processes.
             cmd_args: Arguments of the process, to choose among processes of one name.
             timeout: Longest wait in seconds.
-            options: As for `assertInStream`.
+            options: Further options of `assertInStream`.
 
         Raises:
             NoMatchingProcessException: If the process has written nothing at all.

@@ -49,14 +49,14 @@ class TestResult(unittest.TextTestResult):
 
 
 class _Loader(unittest.TestLoader):
-    """Loader of the test classes that run during the launch, or of those that run after it."""
+    """Loader of the test classes that run during the launch, or with `after_end` after its end."""
 
     def __init__(self, *, after_end: bool) -> None:
         super().__init__()
         self._after_end = after_end
 
     def loadTestsFromTestCase(self, testCaseClass: Any) -> unittest.TestSuite:
-        """Return the tests of a class; none if the class runs at the other time."""
+        """Return the tests of a class, or no tests if this loader does not load that class."""
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._after_end:
             return unittest.TestSuite()
         # A class of its own for each launch, which gets that launch's values.

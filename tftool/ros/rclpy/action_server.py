@@ -90,7 +90,7 @@ class ServerGoalHandle:
         self._status = "aborted"
 
     def canceled(self, response: Any = None) -> None:
-        """Mark the goal as canceled, as its client requested."""
+        """Mark the goal as canceled, which its client requested."""
         self._status = "canceled"
 
     def execute(self, execute_callback: Any = None) -> None:

@@ -328,7 +328,7 @@ class NodeParameters:
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """Return a parameter, or an alternative if it is not declared or has no value."""
+        """Return a parameter, or an alternative for a parameter not declared or without a value."""
         found = self._parameters.get(name)
         if found is not None and found.type_ is not Type.NOT_SET:
             return found

@@ -267,7 +267,7 @@ def _require_started(context: Any) -> None:
 
 
 class ROSClock(Clock):
-    """Clock of ROS time, as nodes have; a `TimeSource` may set its time."""
+    """Clock of ROS time, which every node has; a `TimeSource` may set its time."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> "ROSClock":
         """Create a clock of ROS time."""

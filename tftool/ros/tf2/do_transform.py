@@ -25,7 +25,7 @@ from_msg_msg = to_msg_msg
 
 
 def _registered(name: str) -> Callable[[Do], Do]:
-    """Register the decorated function with buffers, as the one that transforms a message type."""
+    """Register the decorated function with buffers: it transforms messages of one type."""
     kind = INTERFACES.message(name)
 
     def register(function: Do) -> Do:

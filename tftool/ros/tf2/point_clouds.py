@@ -34,7 +34,7 @@ def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
 def dtype_from_fields(
     fields: Iterable[Any], point_step: int | None = None, is_bigendian: bool = False
 ) -> "np.dtype[Any]":
-    """Return the structured numpy dtype of a point with some PointFields.
+    """Return the structured numpy dtype of a point with the PointFields `fields`.
 
     Raises:
         ValueError: If a field's datatype is unknown, or the fields are larger than a point.

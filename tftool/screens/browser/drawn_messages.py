@@ -215,7 +215,7 @@ class _HeardTopic:
         quality: Quality of service of the subscription.
         stop: Function that ends the subscription.
         held: Messages that are not drawn yet, with their times of arrival; only the last one,
-            unless each message changes what the ones before it showed.
+            unless each message changes what the messages before it showed.
         waiting: Drawn message that cannot be placed yet.
         rounds: Number of rounds for which that message has waited.
         is_news: Whether a fault was not reported to the page yet.

@@ -45,7 +45,7 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
 
 
 def chosen(snapshot: Snapshot) -> list[int]:
-    """Return the indices of the frames to show; if there are too many, those nearest to roots."""
+    """Return the indices of frames to show: all, or as many as allowed, nearest to the roots."""
     if len(snapshot.frames) <= MOST_FRAMES:
         return list(range(len(snapshot.frames)))
     kept = grow(snapshot, most=MOST_FRAMES).children

@@ -216,7 +216,7 @@ def _frames(
 def _robot(
     robot: ShownRobot | None, shown: Iterable[FrameInfo], block: PackedBlock
 ) -> tuple[dict[str, Any] | None, list[dict[str, Any]]]:
-    """Return the robot's message, its files, and the files that those refer to."""
+    """Return the robot's message, its files, and the files to which its files refer."""
     if robot is None:
         return None, []
     if robot.mover is not None:

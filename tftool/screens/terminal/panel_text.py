@@ -52,7 +52,7 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
 def tree(
     moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
-    """Return the lines of the tree panel: every link with rate and age; stale ones amber, then red.
+    """Return the lines of the tree panel: links with rate and age, amber, then red if stale.
 
     Args:
         moment: State to show.

@@ -1,4 +1,4 @@
-"""Pair of frames and time that a screen shows, as the user selects them."""
+"""Pair of frames and time that the user selects and a screen shows."""
 
 from dataclasses import replace
 

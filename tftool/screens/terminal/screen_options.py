@@ -17,11 +17,11 @@ class Setting:
         ascii_only: Whether to draw with ASCII only.
         colors: Whether colours may be used.
         light: Whether the terminal's background is light.
-        drive_only: Whether only the field is shown, as in teleop.
+        drive_only: Whether to show only the field, for `tftool teleop`.
         banner: Lines to show above the field.
         at: First time to show, standing still; None for the present.
         scenarios: Function that returns name and description of the scenarios to choose from;
-            None if none can be chosen.
+            None if no scenario can be chosen.
     """
 
     title: str = "tftool"

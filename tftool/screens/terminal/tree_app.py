@@ -61,7 +61,7 @@ class TreeWindow:
         ascii_only: bool,
         history: TrafficHistory = NO_HISTORY,
     ) -> list[Text]:
-        """Return lines: the heading, the rows that fit, and the number of others."""
+        """Return lines: the heading, the rows that fit, and the numbers of rows above and below."""
         if not snapshot.frames:
             return [Text(NOTHING)][:height]
         found = compact(

@@ -52,9 +52,9 @@ class Role(StrEnum):
     """Role of a tftool process in its session.
 
     Attributes:
-        HOST: The process runs the world that others look at.
+        HOST: The process runs the world that other processes look at.
         SOURCE: The process adds data of its own: a static transform or a user's node.
-        GUEST: The process adds nothing, and waits for one that does.
+        GUEST: The process adds nothing, and waits for a host or a source.
     """
 
     HOST = "host"
@@ -193,7 +193,7 @@ class Graph:
 
 
 def hosts(processes: Iterable[Process]) -> list[Process]:
-    """Return the processes that run a world which others look at."""
+    """Return the processes that run a world which other processes look at."""
     return [one for one in processes if one.role is Role.HOST]
 
 

@@ -36,7 +36,7 @@ class Inbox:
         self._closed = False
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Make the calls in an event loop from now on, the queued ones first."""
+        """Make the calls in an event loop from now on, the queued calls first."""
         with self._lock:
             self._loop = loop
             self._scheduled = bool(self._waiting)
@@ -153,7 +153,7 @@ class Outbox:
         self._thread: threading.Thread | None = None
 
     def put(self, send: Callable[[], object], size: int = 0) -> None:
-        """Queue a call after all earlier ones; exceptions of the call are ignored.
+        """Queue a call after all earlier calls; exceptions of the call are ignored.
 
         If the queue is full and nothing was sent for `LONGEST_WAIT` seconds, the call is dropped: a
         send that never returns must not block the event loop for ever.

@@ -169,7 +169,7 @@ class Middleware:
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with others' messages on a topic; return a function that ends this.
+        """Call `on_message` with other processes' messages; return a function that ends this.
 
         Args:
             name: Name of the topic.

@@ -185,7 +185,7 @@ class Link(LinkContext):
             self._nodes[name] = self.middleware.node(name)
 
     def _match_endpoints(self) -> None:
-        """Store others' nodes, publishers and subscriptions in the world."""
+        """Store other processes' nodes, publishers and subscriptions in the world."""
         self.world.know_far_nodes(one.node for one in self.graph.entities(NODE))
         there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION))
         for entity in self.endpoints.keys() - there:

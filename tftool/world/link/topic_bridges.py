@@ -270,7 +270,7 @@ class TransformBridge:
                 self._inbound = None
 
     def _takes_paths(self, payload: bytes, authority: str) -> bool:
-        """Insert a large message's transforms as arrays, one per link; return False for others.
+        """Insert a large message's transforms as arrays, one per link; else return False.
 
         Raises:
             MalformedMessage: If the bytes are not transforms.

@@ -140,7 +140,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Jump to a time: send the frames known at that time, and those of the second before it."""
+        """Jump to a time: send the frames known then, and the transforms of the second before."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()

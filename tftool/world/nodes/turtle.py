@@ -393,7 +393,7 @@ class TurtlePorts:
         self._turtle.leave()
 
     def remove_topics(self) -> None:
-        """Remove the topics without a subscriber; the next turtle of that name uses the others."""
+        """Remove topics without a subscriber; the next turtle of that name uses those that stay."""
         for what in ("pose", "color_sensor", "cmd_vel"):
             topic = self._world.topics().get(self._prefix + what)
             if topic is not None and not topic.subscribers:

@@ -205,9 +205,9 @@ class Participant:
 
         Args:
             domain: Number of the domain.
-            network: Network in which to search for others.
-            name: Name that others see.
-            user_data: User data that others see.
+            network: Network in which to search for other participants.
+            name: Name that other participants see.
+            user_data: User data that other participants see.
 
         Raises:
             LinkError: If the domain cannot be joined.
@@ -255,7 +255,7 @@ class Participant:
         on_sample: Callable[[DdsSample], object],
         on_refused: Callable[[int], object] | None = None,
     ) -> "TopicReader":
-        """Create a topic's reader, which calls `on_sample` in the event loop with others' messages.
+        """Create a topic's reader, which calls `on_sample` in the event loop with messages.
 
         Args:
             topic: Name of the topic in DDS.
@@ -328,7 +328,7 @@ class Participant:
         return BuiltinDataReader(self.entity, topic, listener=Telling())
 
     def tell(self, user_data: bytes) -> None:
-        """Replace the participant's user data, which others see."""
+        """Replace the participant's user data, which other participants see."""
         self.entity.set_qos(Qos(Policy.Userdata(user_data)))
 
     def at_close(self, close: Callable[[], None]) -> None:

@@ -27,7 +27,7 @@ _RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
 @dataclass(frozen=True, slots=True)
 class Network:
-    """Network in which a participant searches for others.
+    """Network in which a participant searches for other participants.
 
     Attributes:
         interfaces: Names or addresses of the interfaces to use; empty for the interfaces on the
@@ -78,7 +78,7 @@ class Network:
 
 
 def network(places: Iterable[str], environment: Mapping[str, str] | None = None) -> Network:
-    """Return the network in which to search for others.
+    """Return the network in which to search for other participants.
 
     Args:
         places: Interfaces and addresses that the user gave.

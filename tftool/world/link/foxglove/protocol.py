@@ -1,6 +1,6 @@
 """Messages of the Foxglove WebSocket protocol that a reader needs.
 
-A server sends JSON about its channels, and binary messages of subscribed ones. All of it is
+A server sends JSON about its channels, and binary messages of subscribed channels. All of it is
 untrusted: every field is checked, and every store has a limit.
 
 Source: the protocol's description in foxglove/ws-protocol, and foxglove-sdk.

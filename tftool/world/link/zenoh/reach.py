@@ -30,7 +30,7 @@ class Certificates:
     Attributes:
         certificate: Our certificate, PEM.
         key: Our private key, PEM.
-        authority: Certificate of the authority that signed the other side's, PEM.
+        authority: Certificate of the authority that signed the other side's certificate, PEM.
     """
 
     certificate: Path

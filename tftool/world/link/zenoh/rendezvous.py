@@ -113,7 +113,7 @@ def _member(path: Path) -> str:
 
 
 class Rendezvous:
-    """Place of one process among those of its machine and domain.
+    """Place of one process among the processes of its machine and domain.
 
     Attributes:
         folder: Folder of the members' sockets.
@@ -139,8 +139,8 @@ class Rendezvous:
         `settle` releases the lock.
 
         Raises:
-            LinkError: If the folder cannot be created, is open to others, or has a path too long
-                for sockets.
+            LinkError: If the folder cannot be created, is open to other users, or has a path too
+                long for sockets.
         """
         if HAS_UNIX_SOCKETS and not _holds_sockets(self.folder):
             raise LinkError(
@@ -215,7 +215,7 @@ class Rendezvous:
 
 
 def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
-    """Yield endpoint and process id of members that respond; the files of others are removed."""
+    """Yield endpoint and process id of members that respond; `sweep` removes files of others."""
     for path in sorted(folder.iterdir()):
         if path.suffix == ".sock":
             if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):
@@ -237,7 +237,7 @@ def _make_private(path: Path) -> None:
     """Create a folder that only its owner may enter, or check an existing folder for that.
 
     Raises:
-        LinkError: If the folder cannot be created, or others may enter it.
+        LinkError: If the folder cannot be created, or other users may enter it.
     """
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
