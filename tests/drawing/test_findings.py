@@ -38,8 +38,8 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "error  split-tree: camera_link is not joined to the tree of odom",
         "       tree 2: camera_link, camera_optical; used by /image (80 messages)",
         "       so:  nothing in it can be placed in odom, and nothing of odom in it",
-        "       fix: nothing in the data says where camera_link belongs: check the node that "
-        "should publish it (a driver, the robot description and its joint states, a "
+        "       fix: nothing in the data says where to join camera_link: check the node that "
+        "should publish that (a driver, the robot description and its joint states, a "
         "localiser)",
         "",
         "warning  teleport: base_link in odom jumps 2.51 m within 20 ms",

@@ -47,9 +47,9 @@ def test_a_programs_own_handler_of_ctrl_c_is_called_at_the_end(tmp_path):
     file.write_text(
         "import rclpy, signal, sys\nrclpy.init()\nnode = rclpy.create_node('polite')\n"
         "def stop(number, frame):\n    node.get_logger().info(f'stop {number}')\n    sys.exit(0)\n"
-        "before = signal.signal(signal.SIGINT, stop)\n"
+        "first = signal.getsignal(signal.SIGINT)\nbefore = signal.signal(signal.SIGINT, stop)\n"
         "signal.signal(signal.SIGTERM, lambda *_: None)\n"
-        "assert signal.getsignal(signal.SIGINT) is stop and callable(before)\n"
+        "assert signal.getsignal(signal.SIGINT) is stop and before == first\n"
         "rclpy.spin(node)\n"
     )
     with RosRuntime() as runtime:

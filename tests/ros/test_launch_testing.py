@@ -243,7 +243,7 @@ def generate_test_description():
 
 class TestIt(unittest.TestCase):
     def test_it(self, proc_info):
-        proc_info.assertWaitForShutdown("slow", timeout=5)
+        proc_info.assertWaitForShutdown("slow", timeout=60)
         assert proc_info["slow"].returncode == -2
 """
     run(test_it=HEAD + described).assert_outcomes(passed=1)
