@@ -165,7 +165,7 @@ def test_a_program_named_like_a_node_lives_beside_it(tftool, broken):
 
     result = tftool("check", "turtles", "--run", file)
 
-    assert f"'{file}' runs beside the scenario's own nodes" in result.err
+    assert f"'{file}' runs in addition to the scenario's own nodes" in result.err
     assert "[turtle_following]: Successfully spawned\n" in result.err
     assert "A turtle named [turtle2] already exists" in result.err
 

@@ -47,9 +47,9 @@ def test_a_domain_in_the_environment_that_is_none_is_named(tftool, monkeypatch, 
     ("words", "told"),
     [
         (["--join", "--host"], "contradict each other"),
-        (["--host", "--read-only"], "cannot --host a session"),
-        (["--listen", "7448"], "'7448' is no endpoint"),
-        (["--connect", "http/localhost:1"], "'http/localhost:1' is no endpoint"),
+        (["--host", "--read-only"], "leave one out"),
+        (["--listen", "7448"], "'7448' is not an endpoint"),
+        (["--connect", "http/localhost:1"], "'http/localhost:1' is not an endpoint"),
         (["--connect", "tcp/127.0.0.1"], "'tcp/127.0.0.1' has no port: write tcp/HOST:PORT"),
         (["--listen", "tls/[::1]"], "'tls/[::1]' has no port: write tls/HOST:PORT"),
         (["--listen", "udp/here:"], "'udp/here:' has no port"),
@@ -88,7 +88,7 @@ def test_a_named_world_cannot_be_joined(tftool, words):
     result = tftool(*words, "--join")
 
     assert result.status == 2
-    assert "'robot' is always hosted: leave out --join, or the name of the scenario." in result.err
+    assert "'robot' is a scenario, which cannot be joined: leave out --join" in result.err
 
 
 @pytest.mark.parametrize("option", [["--listen", "tcp/127.0.0.1:7999"], ["--read-only"]])
@@ -110,8 +110,8 @@ def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):
 @pytest.mark.parametrize(
     ("cert", "key", "ca", "refusal"),
     [
-        ("own.key", "own.key", "ca.pem", "'{}/own.key' holds no certificate in PEM."),
-        ("own.pem", "own.key", "ca.key", "'{}/ca.key' holds no certificate in PEM."),
+        ("own.key", "own.key", "ca.pem", "'{}/own.key' contains no certificate in PEM format."),
+        ("own.pem", "own.key", "ca.key", "'{}/ca.key' contains no certificate in PEM format."),
         ("own.pem", "own.ext", "ca.pem", "'{}/own.ext' holds no private key in PEM"),
         ("own.pem", "locked.key", "ca.pem", "'{}/locked.key' holds no private key in PEM, or one"),
         ("own.pem", "ca.key", "ca.pem", "'{0}/ca.key' is not the key of the certificate '{0}/own"),
@@ -183,7 +183,7 @@ def test_who_does_something_cannot_only_look(tftool, words, purpose):
     result = tftool(*words, "--read-only")
 
     assert result.status == 2
-    assert f"--read-only publishes nothing, and to {purpose} is all {words[0]} does." in result.err
+    assert f"the only purpose of {words[0]} is to {purpose}: leave out --read-only." in result.err
 
 
 def test_without_zenoh_a_world_is_hosted_and_joining_says_what_is_missing(

@@ -148,7 +148,7 @@ def test_any_argument_can_be_set(tftool):
         (["--rate", "0"], 2, "0 is not between 0.001 and 1000"),
         (["--rate", "nan"], 2, "nan is not between 0.001 and 1000"),
         (["--rate", "1e300"], 2, "1e+300 is not between 0.001 and 1000"),
-        (["--for", "1e300"], 2, "1e+300 is too large: beyond 9e+09"),
+        (["--for", "1e300"], 2, "1e+300 is too large: give 9e+09 at most"),
         (["--rate", "fast"], 2, "'fast' is not a number"),
         (["--for", "-1"], 2, "-1 is not a positive number"),
         (["--set", "delay"], 2, "--set takes NAME=VALUE"),

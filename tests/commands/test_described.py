@@ -138,7 +138,7 @@ def test_a_scenario_takes_no_joint_positions(tftool):
     result = tftool("tree", "turtles", "--joint", "turn=1")
 
     assert result.status == 2
-    assert "'turtles' is no robot description and no recording: leave out --joint turn=1" in (
+    assert "'turtles' is neither a robot description nor a recording: leave out --joint turn=1" in (
         result.err
     )
 
@@ -183,7 +183,7 @@ def test_a_recording_takes_the_description_it_lacks(tftool, recording, robot):
     ("words", "status", "told"),
     [
         (["--joint", "turn=1"], 2, "The joints of a recording cannot be set"),
-        (["a:=b"], 2, "Only a robot description has arguments"),
+        (["a:=b"], 2, "xacro arguments need a robot description"),
         (["--urdf", "none.urdf"], 3, "cannot read 'none.urdf'"),
     ],
 )
@@ -198,7 +198,7 @@ def test_a_description_takes_no_other(tftool, robot):
     result = tftool("tree", robot, "--urdf", robot)
 
     assert result.status == 2
-    assert "--urdf is for a recording" in result.err
+    assert "--urdf is only allowed for a recording" in result.err
 
 
 def test_info_of_a_text_file_and_of_a_scenario_by_its_name(tftool, tmp_path):

@@ -113,8 +113,8 @@ def test_spans_apart_are_said(tftool, tmp_path):
         (["A", "session"], 3, "No session is running"),
         (["session", "session"], 2, "is one"),
         (["A", "A", "--json", "--markdown"], 2, "leave one out"),
-        (["A", "A", "--mm", "-1"], 2, "not zero or more"),
-        (["A", "A", "--mm", "nan"], 2, "not zero or more"),
+        (["A", "A", "--mm", "-1"], 2, "give zero or more"),
+        (["A", "A", "--mm", "nan"], 2, "give zero or more"),
         (["A", "A", "--align", "end"], 2, "end"),
     ],
 )

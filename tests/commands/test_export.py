@@ -64,7 +64,7 @@ def test_a_dash_is_no_name_of_a_file(tftool, run, tmp_path, monkeypatch, words):
     result = tftool("export", *words[:-2], run, *words[-2:], "-o", "-")
 
     assert result.status == 2
-    assert "'-' means stdout, to which this cannot be written: name a file." in result.err
+    assert "but this output can only be written to a file: name a file." in result.err
     assert os.listdir(tmp_path) == ["run.mcap"]
 
 
@@ -392,18 +392,22 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
     [
         (["odom", "base", "RUN"], 2, "-o FILE"),
         (["odom", "base", "RUN", "-o", "a.doc"], 2, "has no known suffix"),
-        (["odom", "base", "RUN", "-o", "a.urdf"], 2, "holds links"),
+        (["odom", "base", "RUN", "-o", "a.urdf"], 2, "contains links"),
         (["RUN", "-o", "a.tum"], 2, "TARGET SOURCE"),
         (["odom", "base", "RUN", "more", "-o", "a.tum"], 2, "TARGET SOURCE [FROM], not 4 words"),
         (["RUN", "--pair", "odom", "-o", "a.csv"], 2, "TARGET:SOURCE"),
         (["RUN", "--pair", "odom:base", "--pair", "odom:camera", "-o", "a.tum"], 2, "one pair"),
-        (["odom", "base", "RUN", "-o", "a.tum", "--rate", "1", "--every", "1"], 2, "give one"),
+        (
+            ["odom", "base", "RUN", "-o", "a.tum", "--rate", "1", "--every", "1"],
+            2,
+            "leave out all but one",
+        ),
         (["odom", "base", "RUN", "-o", "a.tum", "--rpy"], 2, "columns of CSV"),
         (["odom", "base", "RUN", "-o", "a.tum", "--at", "1"], 2, "--from and --to"),
         (["odom", "base", "RUN", "-o", "a.tum", "--from", "2", "--to", "1"], 2, "is after --to"),
         (["odom", "base", "RUN", "-o", "a.tum", "--from", "100"], 2, "100 s is after its end."),
         (["odom", "base", "RUN", "-o", "a.tum", "--to", "1e9"], 2, "is before that."),
-        (["odom", "base", "RUN", "-o", "a.tum", "--for", "1"], 2, "--for is for"),
+        (["odom", "base", "RUN", "-o", "a.tum", "--for", "1"], 2, "--for is only allowed for"),
         (["odom", "base", "RUN", "-o", "a.tum", "--at-stamps-of", "/scan"], 3, "/scan"),
         (["odom", "base", "turtles", "-o", "a.tum", "--at-stamps-of", "/scan"], 2, "recording"),
         (["odom", "nope", "RUN", "-o", "a.tum"], 4, "nope"),
@@ -497,7 +501,7 @@ def test_in_python_a_file_is_written_in_one_line(buffer, tmp_path):
     assert (done.count, done.refused, done.paths) == (400, 0, (tmp_path / "a.csv",))
     with pytest.raises(library.UsageError, match="'word' is not a format"):
         library.export(buffer, "odom", "base", path=tmp_path / "b.csv", format="word")
-    with pytest.raises(library.UsageError, match="two frames"):
+    with pytest.raises(library.UsageError, match="Only one frame"):
         library.export(buffer, "odom", path=tmp_path / "b.csv")
 
 

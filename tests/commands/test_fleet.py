@@ -135,7 +135,7 @@ def test_a_report_that_would_not_be_written_is_refused(tftool, fleet, tmp_path, 
     result = tftool("doctor", fleet, "-o", output, *words)
 
     assert (result.status, result.out) == (2, "")
-    assert f"-o writes rows, and {words[0]} another report: leave one out." in result.err
+    assert f"-o writes rows instead of a report: leave out {words[0]}." in result.err
     assert not output.exists()
 
 
@@ -220,7 +220,10 @@ def test_a_place_that_needs_another_package_is_wrong_usage(tftool):
     result = tftool("info", "s3://bucket/run.mcap")
 
     assert result.status == 2
-    assert "'s3://bucket/run.mcap' needs more than the extra 'fleet': " in result.err
+    assert (
+        "'s3://bucket/run.mcap' needs a package that the extra 'fleet' does not contain: "
+        in result.err
+    )
     assert "s3fs" in result.err
 
 
@@ -228,8 +231,11 @@ def test_a_place_that_needs_another_package_is_wrong_usage(tftool):
     ("words", "told"),
     [
         (["--scheduler", "tcp://127.0.0.1:1"], "add -o FILE"),
-        (["-o", "x.jsonl", "-j", "2", "--scheduler", "tcp://127.0.0.1:1"], "leave --jobs out"),
-        (["-o", "x.jsonl", "--scheduler", "nothing"], "is no address of a Dask scheduler"),
+        (
+            ["-o", "x.jsonl", "-j", "2", "--scheduler", "tcp://127.0.0.1:1"],
+            "--scheduler and --jobs are two ways",
+        ),
+        (["-o", "x.jsonl", "--scheduler", "nothing"], "is not the address of a Dask scheduler"),
     ],
 )
 def test_a_cluster_that_cannot_be_is_refused(tftool, fleet, tmp_path, monkeypatch, words, told):
@@ -303,7 +309,7 @@ def test_a_refused_scheduler_leaves_no_thread_behind(tftool, fleet, tmp_path):
     gc.disable()
     try:
         result = tftool("doctor", fleet, "-o", output, "--scheduler", "nothing")
-        assert "is no address of a Dask scheduler" in result.err
+        assert "is not the address of a Dask scheduler" in result.err
         assert "IO loop" not in [thread.name for thread in enumerate_threads()]
     finally:
         gc.enable()

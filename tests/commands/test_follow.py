@@ -55,12 +55,12 @@ def test_a_delay_beyond_what_is_remembered_is_told_with_what_helps(tftool, simul
     ("words", "sentence"),
     [
         (["--period", "0"], "0 is not a positive number."),
-        (["--delay", "-1"], "-1 is not zero or more."),
+        (["--delay", "-1"], "-1 is not allowed here: give zero or more."),
         (["--kp-distance", "nan"], "nan is not a finite number."),
         (["--max-speed", "-2"], "-2 is not a positive number."),
         (["turtle1", "turtle1"], "'turtle1' cannot follow itself"),
         (["turtle1", "a turtle"], "a turtle"),
-        (["base_link", "bob", "robot"], "scenario 'robot' has no turtles"),
+        (["base_link", "bob", "robot"], "scenario 'robot' has no turtle simulator"),
     ],
 )
 def test_what_cannot_be_followed_is_wrong_usage(tftool, simulated, words, sentence):

@@ -223,7 +223,7 @@ def test_the_past_of_a_recording_is_told_from_its_end(tftool, recording):
         (["--at", "11"], 2, "lasts 10 s: 11 s is after its end."),
         (["--at", "1970-01-01T00:00:49Z"], 2, "begins at 50: 49 is before that."),
         (["--at", "1e9"], 2, "ends at 60: 1000000000 is after that."),
-        (["--join"], 2, "is always hosted"),
+        (["--join"], 2, "which cannot be joined"),
         (["--read-only"], 2, "which cannot be shared"),
     ],
 )

@@ -99,14 +99,14 @@ def test_what_is_there_already_is_left_alone(tftool, place, words):
     result = tftool("new", *words)
 
     assert result.status == 2
-    assert "is there already" in result.err
+    assert "exists already" in result.err
     assert (place / words[0]).read_text() == "mine"
 
 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["Bad-Name"], "is no valid package name"),
+        (["Bad-Name"], "is not a valid package name"),
         (["import"], "of Python"),
         (["random"], "of Python"),
         (["my_frames", "--example", "carot"], "there is no example 'carot'"),
@@ -129,7 +129,7 @@ def test_a_folder_that_cannot_be_written_is_said(tftool, place):
     result = tftool("new", "file/my_frames")
 
     assert result.status == 3
-    assert "cannot be made" in result.err
+    assert "cannot be created" in result.err
 
 
 @pytest.mark.parametrize("step", STEPS)
@@ -177,10 +177,10 @@ def test_a_package_of_one_empty_node_runs_by_its_name_and_builds(tftool, place):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("a", "--node-name", "my-node"), "is no valid node name"),
-        (("a", "--node-name", "class"), "is no valid node name"),
-        (("a", "--node-name", "b", "--exercise"), "leave out --node-name"),
-        (("a", "--scenario", "--exercise"), "--scenario makes no package"),
+        (("a", "--node-name", "my-node"), "is not a valid node name"),
+        (("a", "--node-name", "class"), "is not a valid node name"),
+        (("a", "--node-name", "b", "--exercise"), "--exercise and --node-name exclude each other"),
+        (("a", "--scenario", "--exercise"), "--scenario makes a file, not a package"),
     ],
 )
 def test_words_that_make_no_package_are_refused(tftool, place, words, said):

@@ -23,10 +23,10 @@ def test_a_duration_is_exact_to_the_nanosecond(text, nanoseconds):
     ("check", "text", "told"),
     [
         (positive, "0", "0 is not a positive number."),
-        (positive, "1e-12", "1e-12 is less than a nanosecond."),
-        (not_negative, "-1", "-1 is not zero or more."),
+        (positive, "1e-12", "1e-12 is less than a nanosecond: give a longer time."),
+        (not_negative, "-1", "-1 is not allowed here: give zero or more."),
         (finite, "inf", "inf is not a finite number."),
-        (finite, "1e300", "1e+300 is too large: beyond 9e+09."),
+        (finite, "1e300", "1e+300 is too large: give 9e+09 at most."),
         (finite, "soon", "'soon' is not a number."),
         (finite, "", "'' is not a number."),
     ],

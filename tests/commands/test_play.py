@@ -45,8 +45,8 @@ def test_over_and_over_it_tells_of_every_jump_back(tftool, simulated, run):
         (["--rate", "0"], "is not between 0.01 and 100"),
         (["--restamp", "yesterday"], "yesterday"),
         (["--read-only"], "--read-only publishes nothing"),
-        (["--join"], "is always hosted"),
-        (["--from", "soon"], "'soon' is no moment"),
+        (["--join"], "which cannot be joined"),
+        (["--from", "soon"], "'soon' is not a moment"),
     ],
 )
 def test_what_cannot_be_played_is_a_sentence(tftool, simulated, run, words, sentence):

@@ -96,15 +96,18 @@ def test_a_finding_of_the_doctors_ends_it_and_is_said(here, tftool):
             ["-o", "run.mcap", "--max-duration", "2"],
             "into a folder: name a folder, without '.mcap' (-o run)",
         ),
-        (["-o", "run", "--max-size", "lots"], "--max-size takes a number"),
+        (["-o", "run", "--max-size", "lots"], "--max-size must be a number"),
         (["-o", "run", "--max-size", "5k"], "is too small"),
         (["-o", "run", "--ring", "5", "--max-size", "5M"], "--ring writes one file"),
         (["-o", "run.mcap", "--on", "split-tre"], "did you mean split-tree"),
-        (["-o", "there.mcap"], "exists: --force"),
-        (["-o", "run.mcap", "orbit"], "--in orbit records a scenario, /orbit a topic of that name"),
+        (["-o", "there.mcap"], "exists: add --force"),
+        (
+            ["-o", "run.mcap", "orbit"],
+            "write --in orbit to record a scenario, or /orbit for a topic",
+        ),
         (
             ["-o", "run.mcap", "there.mcap"],
-            "'there.mcap' is a scenario or a file, and the words here are topics",
+            "'there.mcap' is a scenario or a file, but only topics are expected here",
         ),
     ],
 )

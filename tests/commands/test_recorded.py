@@ -161,7 +161,7 @@ def test_a_recording_in_the_place_of_a_frame_is_told(tftool, run, command):
     result = tftool(*command, "base_link", run)
 
     assert result.status == 2
-    assert "the words here are frames: write two of them before it" in result.err
+    assert "a frame is expected here: write two frames before the file" in result.err
 
 
 def test_topics_there_are_stand_beside_one_there_is_not(tftool, run):

@@ -51,7 +51,10 @@ def test_another_turtle_can_be_driven(tftool):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["--keys", "up sideways"], "'sideways' is no key of teleop; the keys are up, down, left"),
+        (
+            ["--keys", "up sideways"],
+            "'sideways' is not a key of teleop; the keys are up, down, left",
+        ),
         (["--keys", " "], "--keys needs at least one key"),
         (["bob", "--keys", "up"], "There is no turtle 'bob' here; there are turtle1, turtle2."),
         (["no name", "--keys", "up"], "'no name' cannot be a turtle's name"),

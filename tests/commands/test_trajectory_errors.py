@@ -150,10 +150,10 @@ def test_several_chains_need_a_pair(tftool, tmp_path):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("--fit", "se3"), "go with --ape or --rpe"),
-        (("-o", "x.svg"), "go with --ape or --rpe"),
-        (("--ape", "--markdown"), "--json does"),
-        (("--ape", "--align", "start"), "does not go with --ape"),
+        (("--fit", "se3"), "need --ape or --rpe"),
+        (("-o", "x.svg"), "need --ape or --rpe"),
+        (("--ape", "--markdown"), "use --json"),
+        (("--ape", "--align", "start"), "cannot be combined with --ape"),
         (("--rpe", "--per", "0"), "--per must be frames, metres or degrees"),
         (("--rpe", "--per", "1.5"), "--per must be frames, metres or degrees"),
         (("--rpe", "--per", "10cm"), "--per must be frames, metres or degrees"),

@@ -38,7 +38,7 @@ def test_view_takes_the_next_port_when_one_is_taken_and_says_so(simulated, tftoo
         taken = holder.getsockname()[1]
         result = tftool("view", "static", "--for", "1", "--port", taken)
 
-    said = re.fullmatch(rf"Port {taken} is not free: taking (\d+)\.\n", result.err)
+    said = re.fullmatch(rf"Port {taken} is not free: port (\d+) is used\.\n", result.err)
     assert result.status == 0
     assert int(said[1]) > taken
     assert f"http://127.0.0.1:{said[1]}/?token=" in result.out

@@ -260,7 +260,7 @@ def test_programs_get_one_object_a_line_failures_included(world, capsys):
 def test_an_offset_beyond_what_is_remembered_names_the_cache(world, capsys):
     _, err, _ = echoed(world, capsys, offset=-seconds(15), patience=seconds(3))
 
-    assert "remembers 10 s" in err
+    assert "only keeps 10 s" in err
     assert "--cache-time 20" in err
 
 

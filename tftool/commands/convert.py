@@ -33,28 +33,28 @@ class ConvertOptions(
     """
 
     words: list[str] | None = argument(
-        "Numbers or pasted text; - or nothing reads stdin.", metavar="[ROTATION]..."
+        "Numbers, or pasted text. With - or without any, stdin is read.", metavar="[ROTATION]..."
     )
     form: str | None = option(
-        f"What bare numbers are: {', '.join(NAMED_FORMS)}, or an "
-        "order of axes: s (fixed) or r (rotating) and three axes, as in sxyz or rzyx.",
+        f"Meaning of numbers without names: {', '.join(NAMED_FORMS)}, or an order of axes: s "
+        "(fixed) or r (rotating) and three axes, as in sxyz or rzyx.",
         "--as",
         metavar="FORM",
     )
     degrees: bool = flag("Angles are in degrees, in the input and in what --into prints.")
     then: list[str] | None = option(
-        "Chain another one behind it: the pose of its child in the first one's parent. "
-        "Again for more.",
+        "Append another pose: the result is the pose of the last child in the first parent. "
+        "Repeat the option for more poses.",
         metavar="ROTATION",
     )
-    inverse: bool = flag("Turn the result round: the parent in the child.")
+    inverse: bool = flag("Invert the result: print the pose of the parent in the child.")
     target: str | None = option(
-        "Print this form alone, in full precision: one of --as, matrix4, urdf or static.",
+        "Print only this form, in full precision: a form of --as, matrix4, urdf or static.",
         "--into",
         metavar="FORM",
         panel=OUTPUT,
     )
-    all_orders: bool = flag("Add all 24 orders of Euler angles.", "--all", panel=OUTPUT)
+    all_orders: bool = flag("Also print all 24 orders of Euler angles.", "--all", panel=OUTPUT)
     for_programs: Json = False
 
 

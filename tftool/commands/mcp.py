@@ -31,7 +31,7 @@ class McpOptions(Command, shares=False):
     """
 
     root: Path = argument(
-        "Folder below which files may be asked about.", default=..., metavar="ROOT"
+        "Folder with the files that the agent may ask about.", default=..., metavar="ROOT"
     )
 
 
@@ -58,7 +58,7 @@ with how many are missing: `part` names one key of an answer, `skip` leaves out 
 def run(options: McpOptions) -> ExitStatus:
     """Run `tftool mcp`: serve the tools over stdin and stdout until stdin is closed."""
     if not options.root.is_dir():
-        raise InputError(f"'{options.root}' is no folder: name the folder of the recordings.")
+        raise InputError(f"'{options.root}' is not a folder: name the folder with the recordings.")
     try:
         # An optional package of 40 MB, which only this command needs.
         from mcp.server import MCPServer
@@ -220,7 +220,10 @@ class Questions:
                 check=False,
             )
         except subprocess.TimeoutExpired:
-            raise InputError(f"'{command}' took more than {TIMEOUT:g} s: ask for less.") from None
+            raise InputError(
+                f"'{command}' took more than {TIMEOUT:g} s and was stopped: ask for a shorter "
+                "span or a smaller file."
+            ) from None
         if not done.stdout.strip():
             told = {"refused": done.stderr.strip()}
             if done.returncode == ExitStatus.NO_TRANSFORM:
@@ -249,10 +252,11 @@ class Questions:
         try:
             path = (self._root / source).resolve(strict=True)
         except (OSError, ValueError, RuntimeError) as error:
-            raise InputError(f"'{source}' is no file below the root.") from error
+            raise InputError(f"'{source}' does not exist below the root.") from error
         if not self._stays_inside(path):
             raise InputError(
-                f"'{source}' is outside of the root, or a link that leads there: it is not read."
+                f"'{source}' is outside of the root, or a link to a file outside: only files "
+                "below the root are read."
             )
         word = f"./{path.relative_to(self._root)}"
         if path.suffix == ".xacro" or source.endswith(".xacro"):

@@ -45,7 +45,7 @@ class NewOptions(Command, shares=False):
     """
 
     name: str = argument(
-        "What to make: a package's name, or a path that ends in it.", default=..., metavar="PACKAGE"
+        "Name of the package to make, or a path that ends in it.", default=..., metavar="PACKAGE"
     )
     example: str = option(
         f"Which step of the tutorial: {', '.join(EXAMPLES)}.",
@@ -53,11 +53,13 @@ class NewOptions(Command, shares=False):
         default="follower",
         metavar="STEP",
     )
-    exercise: bool = flag("Leave the key lines of the step's nodes to you: TODO.")
+    exercise: bool = flag("Replace the key lines of the step's nodes by TODO, for you to write.")
     node_name: str = option(
-        "Make a package with this empty node instead.", default="", metavar="NAME"
+        "Make a package with one empty node of this name, without a step of the tutorial.",
+        default="",
+        metavar="NAME",
     )
-    scenario: bool = flag("Make a scenario of that name, and nothing else.")
+    scenario: bool = flag("Make only a scenario file of that name, without a package.")
     as_json: Json = False
 
 
@@ -133,7 +135,7 @@ def _check_name(name: str) -> None:
     if not re.fullmatch(r"[a-z](_?[a-z0-9])*", name):
         hint = " With --scenario it is a scenario." if name.endswith((".yaml", ".yml")) else ""
         raise UsageError(
-            f"'{name}' is no valid package name: use small letters, digits and single "
+            f"'{name}' is not a valid package name: use small letters, digits and single "
             f"underscores, a letter first, as in 'my_frames'.{hint}"
         )
     if keyword.iskeyword(name) or name in sys.stdlib_module_names:
@@ -147,14 +149,14 @@ def _check_node(name: str) -> None:
     """Raise an error for a node name that Python could not import."""
     if not name.isidentifier() or not name.isascii() or keyword.iskeyword(name):
         raise UsageError(
-            f"'{name}' is no valid node name: use letters, digits and underscores, a letter first, "
-            "as in 'turtle_tf_broadcaster'."
+            f"'{name}' is not a valid node name: use letters, digits and underscores, a letter "
+            "first, as in 'turtle_tf_broadcaster'."
         )
 
 
 def _refuse_existing(path: Path) -> None:
     if path.exists() or path.is_symlink():
-        raise UsageError(f"'{path}' is there already; nothing was written. Choose another name.")
+        raise UsageError(f"'{path}' exists already; nothing was written. Choose another name.")
 
 
 def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
@@ -211,7 +213,7 @@ def _write(path: Path, files: dict[str, str]) -> None:
                 file.write_text(text, encoding="utf-8")
             os.rename(made, path)
     except OSError as error:
-        raise InputError(f"'{path}' cannot be made: {error.strerror}.") from None
+        raise InputError(f"'{path}' cannot be created: {error.strerror}.") from None
 
 
 def _make_scenario(path: Path, *, as_json: bool) -> None:
@@ -220,7 +222,7 @@ def _make_scenario(path: Path, *, as_json: bool) -> None:
     try:
         shutil.copyfile(shipped("examples", TEMPLATE) / "scenario.yaml", path)
     except OSError as error:
-        raise InputError(f"'{path}' cannot be made: {error.strerror}.") from None
+        raise InputError(f"'{path}' cannot be created: {error.strerror}.") from None
     _tell(
         path,
         "",
@@ -266,11 +268,11 @@ def run(options: NewOptions) -> ExitStatus:
     refuse(
         (
             options.scenario and (options.exercise or options.node_name),
-            "--scenario makes no package: leave it out.",
+            "--scenario makes a file, not a package: leave out the options of a package.",
         ),
         (
             options.exercise and options.node_name,
-            "--exercise is about a step: leave out --node-name.",
+            "--exercise and --node-name exclude each other: leave one out.",
         ),
     )
     if options.scenario:

@@ -25,35 +25,46 @@ class CalibrateOptions(Command, shares=False, poses=True):
     """
 
     places: list[str] = argument(
-        "A recording or pose file with both motions, or one for each.",
+        "One recording or pose file with both motions, or one file for each motion.",
         default=...,
         metavar="FROM [FROM]",
     )
     moving: list[str] | None = option(
-        "A motion: frames of tf, or a topic of Odometry or PoseStamped. Twice; not for a pose "
-        "file.",
+        "Frames of a motion in tf, or a topic of Odometry or PoseStamped. Give the option once "
+        "for each of the two motions; a pose file needs none.",
         metavar="FIXED:MOVING|TOPIC",
     )
-    planar: bool = flag("Ask for x, y and yaw alone; keep the rest of the mount.")
-    time_only: bool = flag("Measure the clock offset alone.")
+    planar: bool = flag(
+        "Estimate only x, y and yaw; keep the other numbers of the published mount."
+    )
+    time_only: bool = flag("Measure only the clock offset, without the mount.")
     scale: bool = flag("Estimate a scale of the first motion's translations.")
-    check: bool = flag("Compare the published mount; 1 where it is outside the interval.")
+    check: bool = flag(
+        "Compare the published mount with the result; exit status 1 if it is outside the interval."
+    )
     urdf: Path | None = option(
-        "Description that has the mount.", "--urdf", metavar="FILE", panel=MOUNT
+        "Robot description that contains the mount.", "--urdf", metavar="FILE", panel=MOUNT
     )
     mounted: str | None = option(
-        "Name of the second moving frame in tf or the description.", metavar="NAME", panel=MOUNT
+        "Name that the second moving frame has in tf or in the description, if it differs.",
+        metavar="NAME",
+        panel=MOUNT,
     )
     joint: str | None = option(
-        "Joint whose origin is changed; the first fixed one on the way if not said.",
+        "Joint whose origin is changed; if not given, the first fixed joint between the two "
+        "frames.",
         metavar="NAME",
         panel=MOUNT,
     )
     seed: int = option("Seed of the numbers drawn for intervals.", default=0, metavar="N", min=0)
-    no_cache: bool = flag("Read recordings anew, and keep no columns.")
+    no_cache: bool = flag("Read the recordings again, without the cache, and write no cache.")
     output: Path | None = output_file(
         "Write the mount: .urdf, .launch.py, .launch.yaml, .launch.xml or .sh."
     )
-    report: Path | None = option("Write a page with curves: .html.", metavar="FILE", panel=OUTPUT)
+    report: Path | None = option(
+        "Write an .html page with curves of the motions and the errors.",
+        metavar="FILE",
+        panel=OUTPUT,
+    )
     force: Force = False
     for_programs: Json = False

@@ -168,9 +168,12 @@ def run(options: CalibrateOptions) -> ExitStatus:
     refuse(
         (
             len(options.places) > 2,
-            "Two motions are compared: name one FROM with both, or one for each.",
+            "Two motions are needed: give one FROM that contains both, or one FROM for each.",
         ),
-        (len(options.moving or []) > 2, "--moving is given twice at most, once for each motion."),
+        (
+            len(options.moving or []) > 2,
+            "--moving can be given at most twice, once for each motion.",
+        ),
         (
             options.time_only
             and (
@@ -180,9 +183,12 @@ def run(options: CalibrateOptions) -> ExitStatus:
                 or options.output is not None
                 or options.report is not None
             ),
-            "--time-only measures the clock offset alone: leave out the options of the mount.",
+            "--time-only measures only the clock offset: leave out the options of the mount.",
         ),
-        (options.joint is not None and options.output is None, "--joint goes with -o FILE."),
+        (
+            options.joint is not None and options.output is None,
+            "--joint is only allowed with -o FILE: add one.",
+        ),
     )
     _refuse_outputs(options.output, options.report, options.urdf, force=options.force)
     opened = [
@@ -195,8 +201,8 @@ def run(options: CalibrateOptions) -> ExitStatus:
             return _print_clocks(paths, for_programs=options.for_programs)
         if options.output is not None and paths[0].child_frame_id == paths[1].child_frame_id:
             raise UsageError(
-                f"Both motions are of '{paths[0].child_frame_id}': name the frames, with "
-                "--frames PARENT:CHILD behind each pose file."
+                f"Both motions are those of frame '{paths[0].child_frame_id}': give each pose "
+                "file its own names with --frames PARENT:CHILD after the file."
             )
         robot = None if options.urdf is None else load_urdf(options.urdf)
         published = PublishedMount.of(robot, opened[0], paths, options.mounted)
@@ -280,7 +286,8 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
     if len(opened) == 1:
         if len(words) != 2:
             raise UsageError(
-                f"'{visible(opened[0].name)}' alone needs two motions: --moving FIXED:MOVING twice."
+                f"'{visible(opened[0].name)}' is the only FROM, so it must contain both motions: "
+                "give --moving FIXED:MOVING twice."
             )
         _refuse_shared_mount(opened[0].buffer, words)
         return [(opened[0], words[0]), (opened[0], words[1])]
@@ -326,9 +333,9 @@ def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
 
 def _refuse_chain(word: str, parent: str, child: str) -> NoReturn:
     raise UsageError(
-        f"--moving {word} passes through {parent} → {child}: that would return the published "
-        "mount. Give motions that were measured apart, such as a topic of Odometry "
-        "(--moving /vo/odometry)."
+        f"--moving {word} passes through {parent} → {child}: the result would be the published "
+        "mount itself. Give two motions that were measured independently, such as a topic of "
+        "Odometry (--moving /vo/odometry)."
     )
 
 

@@ -146,7 +146,7 @@ def _joint(published: PublishedMount, name: str | None) -> RobotJoint | None:
     robot = published.robot
     if robot is None:
         if name is not None:
-            raise UsageError("--joint goes with a description: name it with --urdf FILE.")
+            raise UsageError("--joint needs a robot description: name one with --urdf FILE.")
         return None
     way: list[RobotJoint] = []
     link = published.name
@@ -210,7 +210,7 @@ def with_origin(text: bytes, joint: str, origin: str) -> bytes:
     try:
         parser.Parse(text, True)
     except expat.ExpatError as error:
-        raise InputError(f"The description is no XML: {error}.") from error
+        raise InputError(f"The description is not valid XML: {error}.") from error
     if not span:
         raise InputError(f"The description has no joint '{joint}'.")
     low, high = span

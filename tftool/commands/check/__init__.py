@@ -27,31 +27,37 @@ class CheckOptions(Command, shares=False):
         metavar="SCENARIO...",
     )
     programs: list[str] | None = option(
-        "What follows 'tftool run': a program of yours in place of that node, or beside "
-        "all of them.",
+        "Run a program of yours in place of NODE, or beside all nodes of the scenario. WORDS are "
+        "those after 'tftool run'.",
         "--run",
         metavar="[NODE=]WORDS",
     )
     launched: str | None = option(
-        "What follows 'tftool launch': a launch file in place of all nodes.",
+        "Run a launch file in place of all nodes of the scenario. WORDS are those after 'tftool "
+        "launch'.",
         "--launch",
         metavar="WORDS",
     )
     packages: list[str] | None = option(
-        "A package of yours: list what ROS 2 would not find of it, once it is built.",
+        "List the parts of your package that ROS 2 would not find after building the package.",
         "--as-ros",
         metavar="PACKAGE",
     )
-    force: bool = flag("Run them also where a real ROS 2 is sourced.", "--ros-free")
+    force: bool = flag(
+        "Run the programs without ROS even if a real ROS 2 is sourced.", "--ros-free"
+    )
     junit: Junit = None
     recordings: Path | None = option(
-        "Keep a recording of each scenario in which something did not hold: NAME.mcap.",
+        "Write a recording NAME.mcap of each scenario with an expectation that failed.",
         "--record",
         metavar="FOLDER",
     )
-    strict: bool = flag("A scenario with a warning, as of two parents, fails.")
+    strict: bool = flag(
+        "Let a scenario fail that has a warning, such as the one about two parents."
+    )
     verbose: bool = flag(
-        "Show what held, every line of the nodes' logs, and which folders are skipped.",
+        "Also show the expectations that held, all logs of the nodes, and the folders that are "
+        "skipped.",
         "--verbose",
         "-v",
     )

@@ -197,7 +197,9 @@ def _strictly(report: Report) -> Report:
 def run(options: CheckOptions) -> ExitStatus:
     """Run `tftool check`: judge scenarios and packages, and print the outcomes."""
     if not options.scenarios and not options.packages:
-        raise UsageError("which scenario? Give its name or file, or a package as --as-ros PACKAGE")
+        raise UsageError(
+            "no scenario is named: give its name or file, or a package as --as-ros PACKAGE"
+        )
     kept = None if options.recordings is None else _Kept(options.recordings)
     judging: AbstractContextManager[Callable[..., Verdict]]
     if options.programs or options.launched is not None:

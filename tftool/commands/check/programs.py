@@ -42,8 +42,8 @@ def judge_with(
     for one in entrants:
         if not one.node:
             notice(
-                f"'{visible_lines(one.words[0])}' runs beside the scenario's own nodes; "
-                "--run NODE=FILE runs it in the place of one."
+                f"'{visible_lines(one.words[0])}' runs in addition to the scenario's own nodes; "
+                "--run NODE=FILE runs it instead of NODE."
             )
     workspace = Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():

@@ -31,15 +31,18 @@ class DemoOptions(Command, hosts_turtles=True, recordings=True):
     """
 
     scenario: str | None = argument(
-        "Scenario to play, a built-in name or a file; or a recording to look at. "
-        "If not said: what runs here already, else turtles.",
+        "Scenario to play (built-in name or file), or a recording to show. If not given: the "
+        "session that runs here, else turtles.",
         metavar="[FROM]",
     )
     source_frame: str | None = option(
-        "Whom turtle2 follows: turtle1, carrot1, ...", metavar="FRAME"
+        "Frame that turtle2 follows: turtle1, carrot1, ...", metavar="FRAME"
     )
     rate: float = option(
-        "How many times real time.", default=1.0, metavar="TIMES", callback=within(0.001, 1000)
+        "Speed of the demo: 2 is twice as fast as real time.",
+        default=1.0,
+        metavar="TIMES",
+        callback=within(0.001, 1000),
     )
     lasting: Duration | None = seconds_option(
         "End after so many seconds of the world's time.", "--for", panel=None
@@ -50,7 +53,9 @@ class DemoOptions(Command, hosts_turtles=True, recordings=True):
     recording: Path | None = option(
         "Record the world of the demo to an .mcap file.", "--record", metavar="FILE"
     )
-    still: bool = flag("Leave turtle1 alone: it does not draw by itself where no key is pressed.")
+    still: bool = flag(
+        "Leave turtle1 where it is while no key is pressed; otherwise it begins to draw by itself."
+    )
     listing: bool = flag("List the built-in scenarios, and end.", "--list")
     ascii_only: Ascii = False
     light: Light = False

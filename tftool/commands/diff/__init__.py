@@ -45,28 +45,35 @@ class DiffOptions(Command, descriptions=True, urdf=True):
         default=...,
         metavar="A",
     )
-    second: str = argument("What it is compared with.", default=..., metavar="B")
+    second: str = argument(
+        "Frames to compare with A, of the same kinds as A.", default=..., metavar="B"
+    )
     millimetres: float = option(
-        "How far a frame may lie elsewhere.",
+        "Accept differences in position up to this many millimetres.",
         "--mm",
         default=1.0,
         metavar="MM",
         callback=not_negative,
     )
     degrees: float = option(
-        "How far it may be turned.", "--deg", default=0.1, metavar="DEGREES", callback=not_negative
+        "Accept differences in rotation up to this many degrees.",
+        "--deg",
+        default=0.1,
+        metavar="DEGREES",
+        callback=not_negative,
     )
     rate_percent: float | None = option(
-        "How much a rate may differ; rates do not count if not said.",
+        "Accept rates that differ up to this many percent; if not given, rates are not compared.",
         metavar="PERCENT",
         callback=not_negative,
     )
     align: Literal["start"] | None = option(
-        "Compare what moves from each one's own start, not by stamps.", metavar="start"
+        "Compare moving links by the time since the start of A and of B, not by their stamps.",
+        metavar="start",
     )
-    everything: bool = flag("List links that do not differ, too.", "--all", panel=OUTPUT)
+    everything: bool = flag("Also list the links that do not differ.", "--all", panel=OUTPUT)
     ape: bool = flag("Measure the absolute pose error of trajectory B.", panel=TRAJECTORIES)
-    rpe: bool = flag("Measure its relative pose error.", panel=TRAJECTORIES)
+    rpe: bool = flag("Measure the relative pose error of trajectory B.", panel=TRAJECTORIES)
     pairs: Pairs = None
     clock_offset: bool = flag(
         "Measure the offset between the clocks of two motions of one body, t_A = t_B + offset.",
@@ -90,6 +97,8 @@ class DiffOptions(Command, descriptions=True, urdf=True):
     )
     lasting: RunFor = None
     for_programs: Json = False
-    markdown: bool = flag("Print it for an issue on the web.", panel=OUTPUT)
+    markdown: bool = flag(
+        "Print the differences as Markdown, for an issue on the web.", panel=OUTPUT
+    )
     output: Path | None = output_file("Draw the errors of --ape and --rpe: .svg, .pdf or .png.")
     force: Force = False

@@ -64,27 +64,35 @@ def _refuse_contradictions(options: DiffOptions) -> None:
     refuse(
         (
             options.for_programs and options.markdown,
-            "--json and --markdown are two ways to print it: leave one out.",
+            "--json and --markdown are two output formats: leave one out.",
         ),
         (
             options.first == options.second == SESSION,
-            "The session that runs is one: name what it is compared with.",
+            "A and B are both the running session: replace one by a recording, a scenario or a "
+            "description.",
         ),
-        (options.clock_offset and measures, "--clock-offset goes without --ape and --rpe."),
+        (
+            options.clock_offset and measures,
+            "--clock-offset cannot be combined with --ape and --rpe: leave one out.",
+        ),
         (
             options.clock_offset and (options.markdown or output is not None),
-            "--clock-offset goes without --markdown and -o.",
+            "--clock-offset cannot be combined with --markdown and -o: leave one out.",
         ),
         (
             not (options.clock_offset or measures)
             and (options.pairs or output or options.force or is_chosen),
-            "--pair, --fit, --match, --per, -o and --force go with --ape or --rpe: add one.",
+            "--pair, --fit, --match, --per, -o and --force need --ape or --rpe: add one of the "
+            "two.",
         ),
         (
             measures and options.markdown,
-            "--markdown does not go with --ape and --rpe: --json does.",
+            "--markdown cannot be combined with --ape and --rpe: use --json.",
         ),
-        (measures and options.align is not None, "--align does not go with --ape and --rpe."),
+        (
+            measures and options.align is not None,
+            "--align cannot be combined with --ape and --rpe: leave one out.",
+        ),
         (
             output is not None and _form(output) not in figure.FORMATS,
             f"cannot draw to '{output}': end it in .svg, .pdf or .png.",

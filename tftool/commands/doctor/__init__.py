@@ -46,49 +46,70 @@ class DoctorOptions(Command, looks_only=True, urdf=True):
     """
 
     places: list[str] | None = argument(
-        "Whose frames: recordings (file, folder, glob) and scenarios; if not said, the "
+        "Frames to check: recordings (file, folder, glob) and scenarios; if not given, the "
         "session that runs, else the turtles.",
         metavar="[FROM]...",
     )
     select: list[str] | None = option("Run only these checks or areas.", metavar="ID,...")
     ignore: list[str] | None = option("Leave these checks or areas out.", metavar="ID,...")
-    fail_on: FailOn = option("From what on the exit status is 1.", default=FailOn.warning)
+    fail_on: FailOn = option(
+        "Least severity of a finding with which the exit status is 1.", default=FailOn.warning
+    )
     baseline: Path | None = option(
-        "Fail by what this report of --json lacks alone.", metavar="OLD.json"
+        "Fail only for findings that this earlier report, made with --json, does not contain.",
+        metavar="OLD.json",
     )
     limits: list[str] | None = option(
-        "Another threshold: gap.seconds=2.", "--limit", metavar="ID.NAME=VALUE"
+        "Set a threshold of a check, as in gap.seconds=2; --explain ID prints the names.",
+        "--limit",
+        metavar="ID.NAME=VALUE",
     )
     cache_time: CacheTime = None
     fixed_frame: str = option(
-        "Where sensors are to be placed; odom, else map.", default="", metavar="FRAME"
+        "Frame in which messages of sensors must be placeable; if not given, odom, else map.",
+        default="",
+        metavar="FRAME",
     )
     tf_topic: list[str] | None = option(
-        "Look at these transforms alone: /robot1/tf.", metavar="TOPIC"
+        "Check only the transforms of this topic, such as /robot1/tf.", metavar="TOPIC"
     )
     begin: At | None = option(
-        "Look at a recording from there on.", "--from", metavar="MOMENT", parser=moment
+        "Leave out what a recording holds before this moment.",
+        "--from",
+        metavar="MOMENT",
+        parser=moment,
     )
-    end: At | None = option("Look at it up to there.", "--to", metavar="MOMENT", parser=moment)
+    end: At | None = option(
+        "Leave out what a recording holds after this moment.",
+        "--to",
+        metavar="MOMENT",
+        parser=moment,
+    )
     lasting: RunFor = None
-    mounts: bool = flag("Hold mounts against recorded motion, too: seconds more.")
-    statistics: bool = flag("Print rate, latency and gaps of everything, too.")
-    steps: bool = flag("Print where a localiser or odometry steps: when, how far, the drift.")
+    mounts: bool = flag(
+        "Also compare published sensor mounts with the recorded motion, which takes seconds longer."
+    )
+    statistics: bool = flag("Also print the rate, latency and gaps of every link.")
+    steps: bool = flag(
+        "Print a table of the jumps of a localiser or of odometry: when, how far, and the drift."
+    )
     pair: str = option(
-        "Steps of the edges between two frames; else of map to odom.",
+        "With --steps: check the links between these two frames; if not given, map to odom.",
         default="",
         metavar="TARGET:SOURCE",
     )
-    verbose: bool = flag("Print all evidence, and skipped checks.", "--verbose", "-v")
+    verbose: bool = flag("Print all evidence, and the checks that were skipped.", "--verbose", "-v")
     for_programs: Json = False
-    markdown: bool = flag("Print it for an issue on the web.")
+    markdown: bool = flag("Print the report as Markdown, for an issue on the web.")
     junit: Junit = None
-    sarif: Path | None = option("Write SARIF for a code host.", "--sarif", metavar="FILE")
+    sarif: Path | None = option(
+        "Write the findings as SARIF, which code hosts display.", "--sarif", metavar="FILE"
+    )
     output: Rows = None
     processes: Jobs = 1
     resume: Resume = False
     scheduler: Scheduler = ""
     explain: str = option(
-        "Tell all about one check, and stop.", "--explain", default="", metavar="ID"
+        "Print the description of one check, and stop.", "--explain", default="", metavar="ID"
     )
     listed: bool = flag("List all checks, and stop.", "--list")

@@ -55,7 +55,7 @@ def _read_baseline(path: Path) -> Baseline:
         reason = error.strerror or error
         raise InputError(f"'{visible(str(path))}' cannot be read: {reason}.") from error
     except (ValueError, RecursionError) as error:
-        raise _no_report(path, "is no JSON") from error
+        raise _no_report(path, "is not valid JSON") from error
     reports = content if isinstance(content, list) else [content]
     try:
         return {
@@ -63,7 +63,7 @@ def _read_baseline(path: Path) -> Baseline:
             for report in reports
         }
     except (KeyError, TypeError, AttributeError) as error:
-        raise _no_report(path, "is no report of the doctor") from error
+        raise _no_report(path, "is not a report of the doctor") from error
 
 
 def _marked(baseline: Baseline, source: str, diagnosis: Diagnosis | str) -> Diagnosis | str:
@@ -212,27 +212,28 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
     refuse(
         (
             options.for_programs and options.markdown,
-            "--json and --markdown are two ways to print it: leave one out.",
+            "--json and --markdown are two output formats: leave one out.",
         ),
-        (makes_rows and others, f"-o writes rows, and {others} another report: leave one out."),
+        (makes_rows and others, f"-o writes rows instead of a report: leave out {others}."),
         (
             options.steps and (options.markdown or options.junit or options.statistics),
-            "--steps prints a table in place of the findings: leave out --markdown, --junit and "
+            "--steps prints a table instead of the findings: leave out --markdown, --junit and "
             "--statistics.",
         ),
         (
             not makes_rows and (options.resume or options.processes > 1 or options.scheduler),
-            "--jobs, --resume and --scheduler make rows: add -o FILE.",
+            "--jobs, --resume and --scheduler are only allowed with -o FILE: add it.",
         ),
         (
             options.pair and not options.steps,
-            f"--pair {options.pair} is about steps: add --steps.",
+            f"--pair {options.pair} is only allowed with --steps: add it.",
         ),
         (
             options.baseline is not None and makes_rows,
-            "--baseline applies to reports, and -o writes rows: leave one out.",
+            "--baseline marks findings of a report, but -o writes rows instead of a report: "
+            "leave one out.",
         ),
-        (options.mounts and makes_rows, "--mounts goes with a report: leave -o out."),
+        (options.mounts and makes_rows, "--mounts cannot be combined with -o: leave one out."),
     )
 
 

@@ -38,13 +38,13 @@ class EchoOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     target: Target
     source: Source
     place: str | None = argument(
-        "Whose frames: a scenario (name or file), a recording (file, folder, glob) or a "
-        "robot description; if not said, the session that runs, else the turtles. A number "
-        "is a rate.",
+        "Source of the frames: a scenario (name or file), a recording (file, folder, glob) or a "
+        "robot description; if not given, the session that runs, else the turtles. A number is "
+        "taken as --rate.",
         metavar="[FROM]",
     )
     rate: float | None = option(
-        "How often; once a second if not said.",
+        "Lookups per second; 1 if not given.",
         "--rate",
         "-r",
         metavar="HZ",
@@ -52,22 +52,24 @@ class EchoOptions(Command, looks_only=True, recordings=True, descriptions=True, 
         callback=within(0.001, 1000),
     )
     once: bool = flag("Print one transform and stop.", panel=WHEN)
-    count: int | None = option("Print so many transforms and stop.", min=1, metavar="N", panel=WHEN)
+    count: int | None = option("Print N transforms and stop.", min=1, metavar="N", panel=WHEN)
     at: AtOption = None
     stamps_of: StampsOf = None
     offset: Duration | None = seconds_option(
-        "Ask about a moment so far from now; -5 is five seconds ago.", check=finite
+        "Look up the transform at now plus SECONDS; -5 means five seconds ago.", check=finite
     )
     fixed_frame: str | None = option(
-        "With --offset: take only SOURCE from that moment and TARGET from now, "
-        "by way of this frame, which stands still.",
+        "With --offset: look up only SOURCE at that moment, and TARGET now. FRAME must not move "
+        "between the two moments, such as world.",
         metavar="FRAME",
         panel=WHEN,
     )
-    distance: bool = flag("Add how far apart the two frames are, in metres.", panel=OUTPUT)
-    precision: int = decimals("Decimals.", default=3)
+    distance: bool = flag(
+        "Also print the distance between the two frames, in metres.", panel=OUTPUT
+    )
+    precision: int = decimals("Number of decimals.", default=3)
     timeout: Duration | None = seconds_option(
-        "Give up waiting after so long (exit status 4).", check=not_negative
+        "Stop waiting for the transform after SECONDS (exit status 4).", check=not_negative
     )
     for_programs: Json = False
     cache_time: CacheTime = None

@@ -74,19 +74,20 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
     refuse(
         (
             options.once and options.count not in (None, 1),
-            f"--once and --count {options.count} contradict each other.",
+            f"--once and --count {options.count} contradict each other: leave one out.",
         ),
         (
             options.at is not None and options.count not in (None, 1),
-            f"--at asks about one moment, and has one answer, not {options.count}.",
+            f"--at looks up one moment and prints one transform, not {options.count}: leave out "
+            "--count.",
         ),
         (
             options.fixed_frame is not None and options.offset is None,
-            "--fixed-frame needs --offset: it carries SOURCE over that time.",
+            "--fixed-frame needs --offset: it connects SOURCE at that time with TARGET now.",
         ),
         (
             options.at is not None and options.offset is not None,
-            "--at and --offset both choose the moment: leave one out.",
+            "--at and --offset both set the time of the lookup: leave one out.",
         ),
     )
     refuse_file_as_frame(*frames, place)
@@ -96,7 +97,7 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
     if options.stamps_of is not None and not (
         is_file and options.at is None and options.offset is None
     ):
-        raise UsageError("--at-stamps-of goes with a recording, and without --at and --offset.")
+        raise UsageError("--at-stamps-of needs a recording as FROM, and no --at or --offset.")
     printer = Printer(options.precision, options.distance, options.for_programs)
     pair = FramePair(*frames, offset=options.offset or 0, fixed_frame=options.fixed_frame)
     is_one_moment = options.stamps_of is None and (
@@ -152,14 +153,16 @@ def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, f
     if Path(place).exists():
         return place, rate
     if rate is not None:
-        raise UsageError(f"The rate is given twice: {place} and --rate {rate:g}.")
+        raise UsageError(
+            f"The rate is given twice, as {place} and as --rate {rate:g}: leave one out."
+        )
     return None, within(0.001, 1000)(number)
 
 
 def _check_names(*frames: str) -> None:
     for frame in frames:
         if not frame:
-            raise UsageError("A frame's name cannot be empty.")
+            raise UsageError("A frame's name is empty: write its name, such as map.")
         if frame.startswith("/"):
             raise UsageError(
                 f"Frame \"{frame}\": in tf2 frame_ids cannot start with a '/'. "

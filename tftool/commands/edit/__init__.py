@@ -40,7 +40,7 @@ class EditOptions(Command, shares=False, poses=True):
         "Recordings: files, folders, globs. Several are joined.", default=..., metavar="IN..."
     )
     output: Path = option(
-        "What to write: .mcap, .db3 or .bag; a name without a suffix is a folder as "
+        "File to write: .mcap, .db3 or .bag; a name without a suffix becomes a folder, as "
         "rosbag2 records it.",
         "--output",
         "-o",
@@ -49,62 +49,75 @@ class EditOptions(Command, shares=False, poses=True):
         panel=OUTPUT,
     )
     drop: list[str] | None = option(
-        "Leave a link out; * stands for any name. Again for more.",
+        "Leave a link out; * matches any name. Repeat the option for more links.",
         metavar="PARENT:CHILD",
         panel=LINKS,
     )
     poses: list[str] | None = option(
-        "Give a link these numbers: metres, and roll, pitch, yaw in radians (90deg for "
-        "degrees) or the quaternion x, y, z, w. Again for more.",
+        "Set the transform of a link: x, y, z in metres, then roll, pitch, yaw in radians (90deg "
+        "for degrees) or a quaternion x, y, z, w. Repeat the option for more links.",
         "--set",
         metavar="PARENT:CHILD=X,Y,Z,R,P,Y",
         panel=LINKS,
     )
     reparent: list[str] | None = option(
-        "Hang a child from another parent; it stays where it is. Again for more.",
+        "Give a child another parent; the child keeps its pose. Repeat the option for more links.",
         metavar="PARENT:CHILD=NEW",
         panel=LINKS,
     )
     statics_first: bool = flag(
-        "Put the latest value of every static at the beginning; cuts always do.", panel=LINKS
+        "Put the latest value of every static transform at the beginning; --from and --to always "
+        "do so.",
+        panel=LINKS,
     )
     statics_from: str | None = option(
-        "Take the statics of another recording or a robot description, in place of "
+        "Take the static transforms of another recording or of a robot description; they replace "
         "those of the same frames.",
         metavar="OTHER",
         panel=LINKS,
     )
     rename: list[str] | None = option(
-        "Rename a frame. Again for more.", metavar="OLD=NEW", panel=NAMES
+        "Rename a frame. Repeat the option for more frames.", metavar="OLD=NEW", panel=NAMES
     )
-    prefix: str | None = option("Put r1/ before every frame.", metavar="r1/", panel=NAMES)
-    strip_slash: bool = flag("Take the slash off /base_link and others.", panel=NAMES)
+    prefix: str | None = option(
+        "Put this prefix before the name of every frame.", metavar="r1/", panel=NAMES
+    )
+    strip_slash: bool = flag(
+        "Remove the leading slash from the names of frames: /base_link becomes base_link.",
+        panel=NAMES,
+    )
     everywhere: bool = flag(
-        "Change names and stamps in all messages with a header, not in tf alone.", panel=NAMES
+        "Change names and stamps in all messages with a header, not only in tf.", panel=NAMES
     )
     start: At | None = moment_option(
-        "Cut everything before: seconds since the start, or a stamp.", "--from"
+        "Cut everything before this moment: seconds since the start, or a stamp.", "--from"
     )
     end: At | None = option(
-        "Cut what follows.", "--to", metavar="MOMENT", parser=moment, panel=WHEN
+        "Cut everything after this moment.", "--to", metavar="MOMENT", parser=moment, panel=WHEN
     )
     by_record_time: bool = flag(
-        "--from and --to are times of reception, not stamps of headers.",
+        "Compare --from and --to with the times at which messages were received, not with the "
+        "stamps of headers.",
         "--record-time",
         panel=WHEN,
     )
     shift: Duration = seconds_option(
-        "Add this to the stamps of transforms that move.", default=0, check=finite
+        "Add SECONDS to the stamps of transforms that are not static.", default=0, check=finite
     )
     restamp: str | None = option(
-        "Stamp transforms that move with the time they were received.", metavar="log", panel=WHEN
+        "With 'log': stamp transforms that are not static with the time at which they were "
+        "received.",
+        metavar="log",
+        panel=WHEN,
     )
     split_every: Duration = seconds_option(
-        "Write a folder of files that last so long, each with all statics at its head.",
+        "Write a folder of files of SECONDS each; every file begins with all static transforms.",
         default=0,
         panel=OUTPUT,
     )
-    ros2: bool = flag("Convert messages of ROS 1 to ROS 2's, in an .mcap too.", panel=OUTPUT)
+    ros2: bool = flag(
+        "Convert messages of ROS 1 to those of ROS 2, also in an .mcap file.", panel=OUTPUT
+    )
     force: Force = False
-    dry_run: bool = flag("Say what would be done, and write nothing.", panel=OUTPUT)
+    dry_run: bool = flag("Print what would be changed, and write nothing.", panel=OUTPUT)
     for_programs: Json = False

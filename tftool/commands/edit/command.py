@@ -52,7 +52,7 @@ def _moments(
     """Return the values of --from and --to as stamps; None for an option that was not given."""
     if start is None and end is None:
         if by_record_time:
-            raise UsageError("--record-time goes with --from or --to.")
+            raise UsageError("--record-time is only allowed with --from or --to: add one.")
         return None, None
     epoch = 0
     if any(one is not None and not one.is_stamp for one in (start, end)):
@@ -64,7 +64,7 @@ def _moments(
     low = start.stamp(epoch) if start is not None else None
     high = end.stamp(epoch) if end is not None else None
     if low is not None and high is not None and high < low:
-        raise UsageError("--to is before --from.")
+        raise UsageError("--to is before --from: exchange the two.")
     return low, high
 
 
@@ -97,11 +97,13 @@ def _frame(option: str, text: str) -> str:
     """Return a frame name or prefix as tf2 stores it: without a leading slash."""
     name = stripped(text)
     if not name.strip():
-        raise UsageError(f"{option}: '{text}' is empty: a frame needs a name.")
+        raise UsageError(f"{option}: a frame's name in '{text}' is empty: write its name.")
     if name != name.strip() or not name.isprintable() or len(name.encode()) > LONGEST_NAME:
-        raise UsageError(f"{option}: '{text}' is no name of a frame.")
+        raise UsageError(f"{option}: '{text}' is not a valid name of a frame.")
     if name.startswith("/") or "//" in name:
-        raise UsageError(f"{option}: '{text}' has an empty part between its slashes.")
+        raise UsageError(
+            f"{option}: '{text}' has an empty part between two slashes: remove one slash."
+        )
     return name
 
 
@@ -159,14 +161,16 @@ def _statics(name: str) -> "tuple[TransformStamped, ...]":
                 int(edge.stamps[-1]), edge.parent, edge.child, pose
             )
     if not samples:
-        raise UsageError(f"'{name}' holds no statics.")
+        raise UsageError(
+            f"'{name}' has no static transforms: choose another file for --statics-from."
+        )
     return tuple(samples.values())
 
 
 def run(options: EditOptions) -> ExitStatus:
     """Run `tftool edit`: write the changed recording."""
     if options.restamp not in (None, "log"):
-        raise UsageError("--restamp takes 'log': the time a message was received.")
+        raise UsageError("--restamp must be 'log', which is the time when a message was received.")
     low, high = _moments(
         options.names, options.start, options.end, by_record_time=options.by_record_time
     )
@@ -188,7 +192,10 @@ def run(options: EditOptions) -> ExitStatus:
         split_every=options.split_every,
     )
     if options.everywhere and not (edits.names or edits.stamps):
-        raise UsageError("--everywhere goes with --rename, --prefix, --strip-slash or --shift.")
+        raise UsageError(
+            "--everywhere is only allowed with --rename, --prefix, --strip-slash or --shift: add "
+            "one."
+        )
     bar = Bar(f"Editing {visible(options.names[0])}")
     try:
         with interruptible():

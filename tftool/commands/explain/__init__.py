@@ -34,19 +34,22 @@ class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=Tru
     place: From = None
     at: AtOption = None
     message: str = option(
-        "Ask for the stamp of a message of this topic, when it arrived: the first one, "
-        "or the nearest to --at or to the moment behind its @.",
+        "Look up at the stamp of a message of this topic, as of its arrival: the first message, "
+        "or the one nearest to --at or to the moment after @.",
         default="",
         metavar="TOPIC[@MOMENT]",
     )
     asked_at: At | None = moment_option(
-        "When it is asked, as log time; if not said, when the message of that stamp "
-        "arrived, else at the moment itself.",
+        "Log time at which the listener asks; if not given, the arrival of the message, or "
+        "without --message the moment of --at.",
         panel=None,
     )
     cache_time: CacheTime = None
     timeout: Duration = option(
-        "How long the listener waits.", default=0, metavar="SECONDS", parser=duration(not_negative)
+        "Time that the listener waits for the transform.",
+        default=0,
+        metavar="SECONDS",
+        parser=duration(not_negative),
     )
     lasting: RunFor = None
     for_programs: Json = False

@@ -34,8 +34,8 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
     if options.place is not None and named(options.place).kind is Kind.DESCRIPTION:
         if options.message or options.asked_at is not None:
             raise UsageError(
-                "A robot description has neither times nor messages: leave out --message "
-                "and --asked-at."
+                "A robot description contains no times and no messages: leave out --message and "
+                "--asked-at."
             )
         return _explain_joints(
             connection, options.place, (options.target, source), for_programs=options.for_programs
@@ -43,7 +43,9 @@ def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
     connection.robot.refuse("Only a robot description has joints and arguments")
     topic, _, behind = options.message.partition("@")
     if behind and at is not None:
-        raise UsageError(f"--message {options.message} already names a moment: leave out --at.")
+        raise UsageError(
+            f"--message {options.message} already contains a moment, after the @: leave out --at."
+        )
     if behind:
         at = moment(behind)
     settings = Settings(cache_time=options.cache_time or seconds(10))

@@ -40,16 +40,17 @@ class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True
     """
 
     words: list[str] | None = argument(
-        "A pair of frames and whose they are; one word alone is FROM, and its links are written.",
+        "A pair of frames, and where they come from. With one word alone, FROM, its links are "
+        "written.",
         metavar="[TARGET SOURCE] [FROM]",
     )
     output: Path | None = output_file(
-        f"Where to write it. Of pairs {suffixes_of(trajectories=True)}; of links "
+        f"File to write. For pairs of frames: {suffixes_of(trajectories=True)}; for links: "
         f"{suffixes_of(trajectories=False)}."
     )
     form: Format | None = option(
-        f"What to write: {', '.join(Format)}; if not said, what -o ends in. EuRoC is written "
-        "where it is said.",
+        f"Format to write: {', '.join(Format)}; if not given, the suffix of -o decides. EuRoC "
+        "needs this option.",
         "--format",
         "-f",
         metavar="FORMAT",
@@ -65,12 +66,13 @@ class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True
     lasting: RunFor = None
     rpy: bool = flag("Add roll, pitch and yaw to CSV and Parquet.", panel=OUTPUT)
     precision: int = decimals(
-        "Decimals; 17 writes each number as short as it can be read back.", default=9
+        "Number of decimals; 17 writes each number with the fewest digits that restore it exactly.",
+        default=9,
     )
-    root: str | None = option("Of links, take those below this frame.", metavar="FRAME")
+    root: str | None = option("Write only the links below this frame.", metavar="FRAME")
     with_moving: bool = flag(
-        "Put links that move into a URDF, as floating joints (robot_state_publisher "
-        "skips them); where they are at --at, else at last."
+        "Also write moving links into a URDF, as floating joints, which robot_state_publisher "
+        "skips. Their pose is that of --at, or the latest one."
     )
     foxglove: bool = flag("Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.", panel=OUTPUT)
     force: Force = False

@@ -30,7 +30,7 @@ def run(connection: Connection, options: ExportOptions) -> ExitStatus:
         options.precision, options.rpy, options.foxglove, options.with_moving, options.root
     )
     if options.output is None:
-        raise UsageError("Say where to write it: -o FILE.")
+        raise UsageError("No file to write is given: add -o FILE.")
     asked, place = pairs_and_place(options.words or [], options.pairs or [])
     form = options.form or format_of(options.output)
     _refuse_misfits(form, asked, options)
@@ -73,23 +73,25 @@ def _refuse_misfits(form: Format, pairs: list[tuple[str, str]], options: ExportO
     refuse(
         (
             form.is_trajectory and not pairs,
-            f"{form} holds pairs of frames over time: tftool export TARGET SOURCE [FROM].",
+            f"{form} contains pairs of frames over time: write tftool export TARGET SOURCE [FROM] "
+            "-o FILE.",
         ),
         (
             form.is_trajectory and (has_at or has_root),
-            "--at and --root go with links; a span has --from and --to.",
+            "--at and --root are only allowed for links. For a pair of frames, use --from and "
+            "--to.",
         ),
         (
             not form.is_trajectory and pairs,
-            f"{form} holds links, and no pair: tftool export [FROM] -o FILE.",
+            f"{form} contains links, not pairs of frames: write tftool export [FROM] -o FILE.",
         ),
         (
             not form.is_trajectory and has_at,
-            "Static transforms have no moment: --at goes with --with-moving.",
+            "--at has no effect on static transforms: leave it out, or add --with-moving.",
         ),
         (
             is_chosen(options) and not form.is_trajectory,
-            f"{form} holds links without times: leave out the options of time.",
+            f"{form} contains links without times: leave out the options that choose times.",
         ),
     )
 
@@ -134,4 +136,6 @@ def _tell(done: Exported) -> None:
     names = " and ".join(str(path) for path in done.paths)
     notice(visible(f"Wrote {count(done.count, what)} to {names}{when}."))
     if done.format is Format.kitti:
-        notice("KITTI's own frames look along z: the poses are written unchanged.")
+        notice(
+            "In KITTI's frames, z points forward: the poses are written without turning their axes."
+        )

@@ -366,12 +366,15 @@ def _failure(error: Exception) -> str:
         InputError: If the cluster cannot be reached any more, so that no recording is to blame.
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):
-        raise UsageError("The workers of the cluster do not have this tftool installed.") from error
+        raise UsageError(
+            "The workers of the cluster do not have this version of tftool: install it there."
+        ) from error
     if type(error).__name__ == "KilledWorker":
         return "the workers that read it were ended (memory?)"
     if isinstance(error, CancelledError) or type(error).__module__.startswith("distributed"):
         raise InputError(
-            "The connection with the cluster was lost: --resume goes on with the rest."
+            "The connection to the cluster was lost: the same command with --resume processes "
+            "the remaining recordings."
         ) from error
     return f"{type(error).__name__}: {error}"
 
@@ -411,7 +414,7 @@ def expanded(words: Sequence[str]) -> list[str]:
                 or (os.path.isfile(match) and _is_recording(match))
             ]
             if not matches:
-                raise InputError(f"No file is named by '{visible(word)}'.")
+                raise InputError(f"No file matches '{visible(word)}'.")
             continue
         try:
             what = named(word)

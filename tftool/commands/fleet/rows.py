@@ -165,7 +165,7 @@ class RowFile:
         except OSError as error:
             raise InputError(
                 f"'{self.path}' cannot be written: {error.strerror or error}. The rows are in "
-                f"'{self._growing}': --resume goes on from there."
+                f"'{self._growing}': the same command with --resume continues from there."
             ) from error
 
     def _make_parquet(self) -> None:
@@ -214,7 +214,8 @@ def _arrow() -> Any:
         import pyarrow.parquet
     except ImportError:
         raise UsageError(
-            "Parquet needs an extra: pip install 'tftool-tf2[parquet]'; .jsonl and .csv do not."
+            "Writing Parquet needs an extra: pip install 'tftool-tf2[parquet]', or write .jsonl "
+            "or .csv."
         ) from None
     return pyarrow
 

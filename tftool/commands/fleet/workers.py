@@ -40,7 +40,8 @@ def connected(address: str) -> Iterator[Executor]:
         import distributed
     except ImportError:
         raise UsageError(
-            "--scheduler needs an extra: pip install 'tftool-tf2[fleet]'; --jobs does not."
+            "--scheduler needs an extra: pip install 'tftool-tf2[fleet]', or use --jobs on this "
+            "machine."
         ) from None
     # Dask logs every start and end of a worker, which does not interest the user.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
@@ -58,7 +59,8 @@ def connected(address: str) -> Iterator[Executor]:
             ) from error
         except ValueError as error:
             raise UsageError(
-                f"'{visible(address)}' is no address of a Dask scheduler: write tcp://HOST:8786."
+                f"'{visible(address)}' is not the address of a Dask scheduler: write "
+                "tcp://HOST:8786."
             ) from error
         yield client.get_executor()
     finally:
@@ -123,5 +125,5 @@ def workers_of(count: int, scheduler: str) -> Workers:
             else Workers(count, 4 * count, partial(processes, count))
         )
     if count != 1:
-        raise UsageError("--scheduler replaces --jobs: leave --jobs out.")
+        raise UsageError("--scheduler and --jobs are two ways to share the work: leave one out.")
     return Workers(1, _ON_CLUSTER, partial(connected, scheduler), is_remote=True)

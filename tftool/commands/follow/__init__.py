@@ -27,50 +27,76 @@ class FollowOptions(Command):
 
     leader: str = argument("Frame to follow.", default="turtle1", metavar="[LEADER]")
     follower: str = argument(
-        "Turtle to spawn and to steer.", default="turtle2", metavar="[FOLLOWER]"
+        "Turtle to spawn and to drive.", default="turtle2", metavar="[FOLLOWER]"
     )
     place: str | None = argument("World to host: a scenario's name or file.", metavar="[FROM]")
     period: Duration = seconds_option(
-        "Time between two commands; 1 if not said.", default=seconds(1), panel=None
+        "Time between two commands; 1 if not given.", default=seconds(1), panel=None
     )
     delay: Duration = seconds_option(
-        "Go where the leader was so long ago: time travel.",
+        "Drive to where the leader was SECONDS ago (the tutorial's time travel).",
         default=0,
         check=not_negative,
         panel=None,
     )
     fixed_frame: str = option(
-        "Frame that stands still over the delay.", default="world", metavar="FRAME"
+        "With --delay: frame that does not move during the delay.", default="world", metavar="FRAME"
     )
     kp_distance: float = option(
-        "Speed per metre of distance.", default=0.5, callback=finite, metavar="GAIN"
+        "Proportional gain of the speed: m/s per metre of distance.",
+        default=0.5,
+        callback=finite,
+        metavar="GAIN",
     )
     ki_distance: float = option(
-        "Speed per metre and second.", default=0.0, callback=finite, metavar="GAIN"
+        "Integral gain of the speed: m/s per metre of distance and second.",
+        default=0.0,
+        callback=finite,
+        metavar="GAIN",
     )
     kd_distance: float = option(
-        "Speed per metre a second.", default=0.0, callback=finite, metavar="GAIN"
+        "Derivative gain of the speed: m/s for each m/s by which the distance changes.",
+        default=0.0,
+        callback=finite,
+        metavar="GAIN",
     )
     kp_bearing: float = option(
-        "Turn rate per radian of bearing.", default=1.0, callback=finite, metavar="GAIN"
+        "Proportional gain of the turn rate: rad/s per radian of bearing.",
+        default=1.0,
+        callback=finite,
+        metavar="GAIN",
     )
     ki_bearing: float = option(
-        "Turn rate per radian and second.", default=0.0, callback=finite, metavar="GAIN"
+        "Integral gain of the turn rate: rad/s per radian of bearing and second.",
+        default=0.0,
+        callback=finite,
+        metavar="GAIN",
     )
     kd_bearing: float = option(
-        "Turn rate per radian a second.", default=0.0, callback=finite, metavar="GAIN"
+        "Derivative gain of the turn rate: rad/s for each rad/s by which the bearing changes.",
+        default=0.0,
+        callback=finite,
+        metavar="GAIN",
     )
     integral_limit: float | None = option(
-        "Most that an integral adds to a command.", callback=not_negative, metavar="LIMIT"
+        "Largest part of a command that comes from an integral gain.",
+        callback=not_negative,
+        metavar="LIMIT",
     )
     dead_band: float = option(
-        "Distance that counts as there.", default=0.0, metavar="METRES", callback=not_negative
+        "Distance to the leader at which the follower stops.",
+        default=0.0,
+        metavar="METRES",
+        callback=not_negative,
     )
     max_speed: float | None = option(
-        "Most it drives; no limit if not said.", metavar="M/S", callback=positive
+        "Largest speed of the follower; if not given, there is no limit.",
+        metavar="M/S",
+        callback=positive,
     )
     stale_after: Duration | None = seconds_option(
-        "Stop when the leader's newest transform is older; never, if not said.", panel=None
+        "Stop when the leader's newest transform is older than SECONDS; if not given, never.",
+        panel=None,
     )
     run_for: RunFor = None
     cache_time: CacheTime = None

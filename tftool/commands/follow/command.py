@@ -51,9 +51,7 @@ def run(connection: Connection, options: FollowOptions) -> ExitStatus:
     )
     world = session.world
     if session.is_hosted and simulator_of(world) is None:
-        raise UsageError(
-            f"{session.name} has no turtles: nothing there can spawn {options.follower!r}."
-        )
+        raise UsageError(f"{session.name} has no turtle simulator to spawn {options.follower!r}.")
     if options.delay and options.delay >= world.buffer.cache_time:
         notice(
             f"The buffer remembers {as_seconds(world.buffer.cache_time):g} s, so where "

@@ -23,7 +23,7 @@ from tftool.robots.static_publishers import read_statics
 def run(connection: Connection, options: InfoOptions) -> ExitStatus:
     """Run `tftool info`: print the contents of one file, or a line or row for each of several."""
     if options.output is None and (options.resume or options.scheduler):
-        raise UsageError("--resume and --scheduler make rows: add -o FILE.")
+        raise UsageError("--resume and --scheduler are only allowed with -o FILE: add it.")
     if (
         options.output is None
         and len(options.places) == 1
@@ -105,7 +105,7 @@ def _show(connection: Connection, place: str, name: str, *, for_programs: bool) 
         raise InputError(sentence) if Path(place).is_file() else UsageError(sentence)
     if not found.kind.is_recording:
         raise UsageError(
-            f"'{word}' is a {found.kind.value} and no recording: 'tftool tree {word}' shows its "
+            f"'{word}' is a {found.kind.value}, not a recording: 'tftool tree {word}' shows its "
             "frames."
         )
     recording = open_from(connection, place, tells=False).recording

@@ -27,7 +27,9 @@ class LaunchOptions(Command):
         default=...,
         metavar="FILE|PACKAGE [FILE] [NAME:=VALUE]…",
     )
-    show_args: bool = flag("Show what the file takes.", "-s", "--show-args", "--show-arguments")
+    show_args: bool = flag(
+        "Print the arguments of the launch file, and stop.", "-s", "--show-args", "--show-arguments"
+    )
     force: RosFree = False
     run_for: RunFor = None
     simulated: Simulated = False

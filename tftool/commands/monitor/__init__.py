@@ -25,8 +25,8 @@ class MonitorOptions(Command, looks_only=True, recordings=True):
     """
 
     words: list[str] | None = argument(
-        "Two frames, for the chain between them; then whose frames: a scenario (name or "
-        "file) or a recording (file, folder, glob); if not said, the session that runs, else "
+        "Two frames, for the chain between them; then the source of the frames: a scenario (name "
+        "or file) or a recording (file, folder, glob); if not given, the session that runs, else "
         "the turtles.",
         metavar="[A B] [FROM]",
     )
@@ -35,7 +35,7 @@ class MonitorOptions(Command, looks_only=True, recordings=True):
         "Time between two reports: 1 on a terminal, 10 elsewhere."
     )
     as_tf2: bool = flag(
-        "Print tf2_monitor's own numbers, its flaws included.", "--tf2", panel=OUTPUT
+        "Print the numbers that tf2_monitor prints, with the same errors.", "--tf2", panel=OUTPUT
     )
     for_programs: Json = False
     cache_time: CacheTime = None

@@ -455,7 +455,7 @@ def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
     """Split the words into frames and FROM: two words are frames, one is FROM, three are both."""
     if len(words) > 3:
         raise UsageError(
-            f"{len(words)} words are too many: no frames or two of them, then a scenario."
+            f"{len(words)} words are too many: write two frames or none, then at most one FROM."
         )
     if len(words) < 2:
         place = words[0] if words else None

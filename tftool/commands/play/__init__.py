@@ -27,10 +27,10 @@ class PlayOptions(Command, recordings=True):
     """
 
     file: str = argument(
-        "What to play: a file, a folder, a glob.", default=..., metavar="RECORDING"
+        "Recording to play: a file, a folder or a glob.", default=..., metavar="RECORDING"
     )
     rate: float = option(
-        "How many times real time.",
+        "Speed of the playback: 2 is twice as fast as real time.",
         "--rate",
         "-r",
         default=1.0,
@@ -40,14 +40,16 @@ class PlayOptions(Command, recordings=True):
     begin: At | None = moment_option(
         "Where to begin: seconds since the start, or a stamp.", "--from"
     )
-    until: At | None = moment_option("Where to end, likewise.", "--to")
+    until: At | None = moment_option("Where to end: seconds since the start, or a stamp.", "--to")
     loop: bool = flag("Start over at the end.")
-    paused: bool = flag("Begin standing still.")
+    paused: bool = flag("Start paused; space continues.")
     restamp: Literal["now"] | None = option(
-        "Give transforms stamps of the present, and publish no /clock.", "--restamp", metavar="now"
+        "With 'now': give transforms the present time as stamps, and publish no /clock.",
+        "--restamp",
+        metavar="now",
     )
     everything: bool = flag(
-        "Send every other topic too whose type is known, with its own stamps.", "--all"
+        "Also publish all other topics whose type is known, with the recorded stamps.", "--all"
     )
-    force: bool = flag(f"Over {ROBOTS}: play beside publishers of /tf that are there.")
+    force: bool = flag(f"Over {ROBOTS}: play even if /tf already has publishers.")
     run_for: RunFor = None

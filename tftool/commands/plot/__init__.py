@@ -40,28 +40,30 @@ class PlotOptions(Command, looks_only=True, recordings=True):
     """
 
     words: list[str] | None = argument(
-        "A pair of frames and whose they are; with --pair one word at most, FROM.",
+        "A pair of frames, and where they come from. With --pair, only FROM is allowed.",
         metavar="[TARGET SOURCE] [FROM]",
     )
     pairs: Pairs = None
     output: Path | None = output_file("Write a picture: .svg, .pdf or .png.")
     only: list[str] | None = option(
-        "Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
-        "speed, turn-rate, or single ones.",
+        "Draw only these: position (x, y, z), rotation (roll, pitch, yaw), distance, speed, "
+        "turn-rate, or single curves such as x.",
         metavar="WHAT,...",
     )
-    from_above: bool = flag("Draw the path from above, in place of time.", "--xy")
+    from_above: bool = flag(
+        "Draw the path seen from above, y over x, instead of curves over time.", "--xy"
+    )
     first: FromOption = None
     last: ToOption = None
     every: Every = None
     rate: Rate = None
     stamps_of: StampsOf = None
     window: Duration = seconds_option(
-        "How far back a live plot reaches; 20 if not said.", default=seconds(20)
+        "How far back a live plot reaches; 20 if not given.", default=seconds(20)
     )
     lasting: RunFor = None
     ascii_only: Ascii = False
     light: Light = False
-    dark: bool = flag("With -o: on a dark ground.", panel=OUTPUT)
+    dark: bool = flag("With -o: draw on a dark background.", panel=OUTPUT)
     force: Force = False
     as_json: Json = False

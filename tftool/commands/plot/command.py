@@ -72,7 +72,7 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
     """Run `tftool plot`: draw, print or write the plot."""
     asked, place = pairs_and_place(options.words or [], options.pairs or [])
     if not asked:
-        raise UsageError("Name what to plot: tftool plot TARGET SOURCE [FROM].")
+        raise UsageError("Nothing to plot is given: write tftool plot TARGET SOURCE [FROM].")
     _quantities(options)
     is_live = (
         options.output is None and place is None and sys.stdout.isatty() and not options.as_json
@@ -80,21 +80,24 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
     refuse(
         (
             options.from_above and options.only,
-            "--xy draws the path, and --only values over time: leave one out.",
+            "--xy draws a path, but --only chooses curves over time: leave one out.",
         ),
         (
             options.output is None and (options.dark or options.force),
-            "--dark and --force go with -o FILE.",
+            "--dark and --force are only allowed with -o FILE: add it.",
         ),
         (
             options.as_json and options.output is not None,
-            "--json prints the values, and -o draws: leave one out.",
+            "--json prints values, but -o draws a picture: leave one out.",
         ),
-        (options.as_json and options.from_above, "--json prints values over time: leave out --xy."),
+        (
+            options.as_json and options.from_above,
+            "--json prints values over time, but --xy draws a path: leave one out.",
+        ),
         (
             is_live and (is_chosen(options) or options.first or options.last),
-            "A live plot shows the last --window of time: leave out the other moments, or name a "
-            "FROM.",
+            "A live plot shows the time of --window up to now: leave out the other options of "
+            "time, or name a FROM.",
         ),
     )
     if is_live:

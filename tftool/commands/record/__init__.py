@@ -29,31 +29,33 @@ class RecordOptions(Command, looks_only=True):
     """
 
     output: Path = option(
-        "What to write: a name ending in .mcap, or without a suffix a folder.",
+        "File to write: a name that ends in .mcap; a name without a suffix becomes a folder.",
         "--output",
         "-o",
         default=...,
         metavar="FILE",
         panel=OUTPUT,
     )
-    topics: list[str] | None = argument("Topics beside /tf and /tf_static.", metavar="[TOPIC]...")
+    topics: list[str] | None = argument(
+        "Topics to record in addition to /tf and /tf_static.", metavar="[TOPIC]..."
+    )
     everything: bool = flag("Record every topic.", "--all")
     place: str | None = option(
         "Host this scenario, and record what it does.", "--in", metavar="SCENARIO"
     )
     run_for: RunFor = None
     ring: Duration | None = seconds_option(
-        "Keep only so much of the past, in memory, and write it in the end."
+        "Keep only the last SECONDS, in memory, and write them when the recording ends."
     )
     finding: str | None = option(
-        "Write the last minute (--ring) when the doctor finds this, and stop.",
+        "Stop when the doctor has this finding, and write the last minute, or the time of --ring.",
         "--on",
         metavar="FINDING",
         panel=WHEN,
     )
     max_size: str | None = option(
-        "Begin a new file from a size on: 500M, 2G.", metavar="SIZE", panel=OUTPUT
+        "Begin a new file when a file reaches this size: 500M, 2G.", metavar="SIZE", panel=OUTPUT
     )
-    max_duration: Duration | None = seconds_option("Begin a new file after so long.", panel=OUTPUT)
+    max_duration: Duration | None = seconds_option("Begin a new file every SECONDS.", panel=OUTPUT)
     force: Force = False
     for_programs: Json = False

@@ -155,7 +155,7 @@ def tell(rolling: RollingRecording, recorder: Recorder) -> None:
     for name in recorder.missing:
         notice(f"'{visible(name)}' was never published.")
     if not rolling.transforms:
-        notice("No transform arrived: 'tftool monitor' shows the traffic.")
+        notice("No transform arrived: check with 'tftool monitor' whether one is published.")
 
 
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)(?:i?B)?", re.ASCII)
@@ -211,7 +211,7 @@ def _size(text: str | None) -> int:
         return 0
     match = _SIZE.fullmatch(text.strip())
     if match is None:
-        raise UsageError(f"--max-size takes a number and k, M or G, such as 500M, not '{text}'.")
+        raise UsageError(f"--max-size must be a number with k, M or G, such as 500M, not '{text}'.")
     found = int(float(match[1]) * _UNITS[match[2]])
     if found < _LEAST_SIZE:
         raise UsageError(f"--max-size {text} is too small: 100k is the minimum.")
@@ -230,8 +230,8 @@ def _refuse_places(topics: Sequence[str]) -> None:
         if builtin.path_of(word) is not None or Path(word).is_file():
             shown = visible(word)
             raise UsageError(
-                f"'{shown}' is a scenario or a file, and the words here are topics: --in {shown} "
-                f"records a scenario, /{shown} a topic of that name."
+                f"'{shown}' is a scenario or a file, but only topics are expected here: write "
+                f"--in {shown} to record a scenario, or /{shown} for a topic of that name."
             )
 
 
@@ -241,7 +241,9 @@ def _check_finding(name: str) -> None:
         hint = (
             f"did you mean {' or '.join(near)}?" if near else "'tftool doctor --list' names them."
         )
-        raise UsageError(f"--on: the doctor has no finding '{name}'; {hint}")
+        raise UsageError(
+            f"--on must be a finding of the doctor, which has none named '{name}'; {hint}"
+        )
 
 
 def run(connection: Connection, options: RecordOptions) -> ExitStatus:

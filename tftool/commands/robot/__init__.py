@@ -33,12 +33,16 @@ class RobotOptions(Command, descriptions=True):
 
     place: str = argument("A robot description: URDF or xacro.", default=..., metavar="FILE")
     link: str | None = option(
-        "Link whose pose is shown; the farthest if not said.", "--link", metavar="LINK"
+        "Link whose pose is shown; if not given, the one farthest from the root.",
+        "--link",
+        metavar="LINK",
     )
-    follow: bool = flag("Move no joint; follow the /joint_states of others.")
+    follow: bool = flag(
+        "Move no joint; take the positions from the /joint_states that other nodes publish."
+    )
     no_screen: bool = flag("Publish until stopped, without sliders.")
     rate: float = option(
-        "How often frames are broadcast, and joint states published.",
+        "Rate at which frames and joint states are published.",
         "--rate",
         "-r",
         default=20.0,
@@ -46,7 +50,7 @@ class RobotOptions(Command, descriptions=True):
         callback=within(0.1, 1000),
     )
     frame_prefix: str = option(
-        "What to put before every link: left/.", default="", metavar="PREFIX"
+        "Prefix of the name of every frame, such as left/.", default="", metavar="PREFIX"
     )
     meshes: Meshes = None
     output: Path | None = output_file(

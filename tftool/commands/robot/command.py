@@ -141,7 +141,9 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
             "here."
         )
     if options.follow and connection.robot.joints:
-        raise UsageError("--follow takes joints from others: leave out --joint.")
+        raise UsageError(
+            "--follow takes all joint positions from /joint_states: leave out --joint."
+        )
     if options.output is None and not options.no_screen and (lacking := screen_lacks()):
         raise UsageError(f"The sliders need a terminal, and {lacking}: add --no-screen.")
     described = load_described(found, connection.robot)

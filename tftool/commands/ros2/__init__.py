@@ -23,7 +23,7 @@ class Ros2Options(
     """
 
     words: list[str] = argument(
-        "The words behind ros2 with ROS.", default=..., metavar="COMMAND VERB …"
+        "The words that you would write after ros2.", default=..., metavar="COMMAND VERB …"
     )
     place: str | None = option(
         "World to host: a scenario's name or file.", "--in", metavar="SCENARIO"

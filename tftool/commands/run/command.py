@@ -80,8 +80,8 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
     text = file.read_text(encoding="utf-8", errors="replace")
     if not any(f"{quote}{word}{quote}" in text for word in given for quote in "'\""):
         raise UsageError(
-            f"put {' and '.join(given)} before FILE: words after it go to the program. "
-            "'tftool run FILE -- WORDS' passes any words to it."
+            f"put {' and '.join(given)} before FILE: words after FILE are passed to the program. "
+            "To pass such words to the program, write 'tftool run FILE -- WORDS'."
         )
 
 
@@ -112,8 +112,8 @@ def _run_other(
     if (target, *words[:1]) == KEYBOARD:
         if refused:
             raise UsageError(
-                "'turtlesim turtle_teleop_key' reads keys until q is pressed, in the session "
-                "that runs or beside a turtle of its own; --in, --for and --simulated go with nodes"
+                "'turtlesim turtle_teleop_key' reads keys until q is pressed, not for a set "
+                "time: leave out --in, --for and --simulated, which are only allowed for nodes"
             )
         return drive(connection, TeleopOptions(turtle=running.driven_turtle(words[1:])))
     command = executables.COMMANDS.get((target, "".join(words[:1])))
@@ -121,8 +121,8 @@ def _run_other(
         return None
     if refused:
         raise UsageError(
-            f"'{target} {words[0]}' is 'tftool {shlex.join(command)}' here; --in, --for and "
-            "--simulated go with nodes"
+            f"'{target} {words[0]}' is 'tftool {shlex.join(command)}' here: leave out --in, --for "
+            "and --simulated, which are only allowed for nodes"
         )
     return _run_command(connection, [*command, *_own_words(words[1:])])
 

@@ -21,7 +21,9 @@ class SessionOptions(Command, looks_only=True):
         "Address of a robot's Foxglove server: ws://robot:8765.", metavar="[FROM]"
     )
     listen_for: Duration = seconds_option(
-        "How long to listen for rates; 1 if not said.", "--for", default=seconds(1), panel=None
+        "How long to listen for rates; 1 if not given.", "--for", default=seconds(1), panel=None
     )
-    verbose: bool = flag("List the services of parameters and actions, too.", "--verbose", "-v")
+    verbose: bool = flag(
+        "Also list the services that parameters and actions use.", "--verbose", "-v"
+    )
     for_programs: Json = False

@@ -106,11 +106,13 @@ def run(connection: Connection, options: SessionOptions) -> ExitStatus:
     """Run `tftool session`: print who shares the session, and what is published."""
     if options.place is not None:
         raise UsageError(
-            f"'{visible(options.place)}' is no session that runs: leave it out, or give the "
-            "address of a Foxglove server, such as ws://robot:8765."
+            f"'{visible(options.place)}' is not the address of a session: leave it out to show "
+            "the session here, or give the address of a Foxglove server, such as ws://robot:8765."
         )
     if connection.mode is Mode.HOST:
-        raise UsageError("'session' only lists processes: leave out --host.")
+        raise UsageError(
+            "'session' only lists the processes of a running session: leave out --host."
+        )
     link = connection.open_link()
     if link is None:
         raise LinkError("no other process can be reached from here")

@@ -214,8 +214,8 @@ class Connection:
         """
         if word is None and self.reach.only_reads:
             raise UsageError(
-                f"{self.place} is a running session, which keeps no past: leave out the "
-                "moment, or record it first ('tftool record')."
+                f"{self.place} is a running session, which does not store the past: leave out the "
+                "option for a moment, or record the session first ('tftool record')."
             )
         self.refuse_to_join(word)
         if self.needs_link:
@@ -232,13 +232,11 @@ class Connection:
             UsageError: If --join or an address was given.
         """
         if word is not None and self.reach.only_reads:
-            raise UsageError(
-                f"'{visible(word)}' and {self.place} are two sources: name one at a time."
-            )
+            raise UsageError(f"'{visible(word)}' and {self.place} are two sources: leave one out.")
         if word is not None and self.mode is Mode.JOIN:
             raise UsageError(
-                f"'{visible(word)}' is always hosted: leave out --join, or the name of the "
-                "scenario."
+                f"'{visible(word)}' is a scenario, which cannot be joined: leave out --join, or "
+                "leave out the scenario to join the running session."
             )
 
     def refuse_read_only(self, purpose: str) -> None:
@@ -249,15 +247,16 @@ class Connection:
         """
         if self.read_only:
             raise UsageError(
-                f"--read-only publishes nothing, and to {purpose} is all {self.command} does."
+                f"--read-only publishes nothing, but the only purpose of {self.command} is to "
+                f"{purpose}: leave out --read-only."
             )
 
     def tell_read_only(self) -> None:
         """Print what --read-only means for the nodes that the command runs."""
         if self.read_only:
             notice(
-                "--read-only: other processes get nothing that nodes here publish, broadcast "
-                "or serve."
+                "--read-only: other processes receive no messages and no answers from the nodes "
+                "here."
             )
 
 
@@ -291,7 +290,9 @@ def read(
     if join and host:
         raise UsageError("--join and --host contradict each other: choose one.")
     if host and read_only:
-        raise UsageError("--read-only publishes nothing, so it cannot --host a session.")
+        raise UsageError(
+            "--read-only publishes nothing, but a session with --host must publish: leave one out."
+        )
     far = None
     if address is not None:
         far = reach_at(address)
@@ -324,8 +325,8 @@ def _joint(word: str) -> tuple[str, float]:
         position = math.nan
     if not name or not equals or not math.isfinite(position):
         raise UsageError(
-            f"'--joint {word}' sets no joint: write NAME=VALUE, such as "
-            "--joint elbow=0.5 or --joint elbow=30deg."
+            f"'--joint {word}' is not the position of a joint: write NAME=VALUE, such as --joint "
+            "elbow=0.5 or --joint elbow=30deg."
         )
     return name, position
 
@@ -333,7 +334,7 @@ def _joint(word: str) -> tuple[str, float]:
 def _argument(word: str) -> tuple[str, str]:
     name, assigned, value = word.partition(":=")
     if not name or not assigned:
-        raise UsageError(f"'{word}' is no xacro argument: write NAME:=VALUE.")
+        raise UsageError(f"'{word}' is not a xacro argument: write NAME:=VALUE.")
     return name, value
 
 
@@ -396,7 +397,9 @@ def open_from(
         refuse_moment(connection)
     if not shares:
         if lasting is not None and place is not None and named(place).kind is not Kind.SCENARIO:
-            raise UsageError("--for is for live sources: for a recording use --to.")
+            raise UsageError(
+                "--for is only allowed for a running session: for a recording, use --to."
+            )
         connection.refuse_to_share(place)
     if place is None:
         refuse_options_of_files(connection.robot, connection.recording, None)

@@ -62,12 +62,12 @@ def _declared(reach: type[Reach]) -> dict[str, Any]:
 
 
 SESSION_OPTIONS: dict[str, Any] = {
-    "join": (bool, flag("Join the session that runs here; fail if none does.", "--join")),
-    "host": (bool, flag("Host a world of its own, whatever runs here.", "--host")),
+    "join": (bool, flag("Join the session that runs here; fail if there is none.", "--join")),
+    "host": (bool, flag("Host a new world, even if a session runs here.", "--host")),
     "domain": (
         int | None,
         option(
-            "Session to share; ROS_DOMAIN_ID, else 0, if not said.",
+            "Number of the session to share; if not given, ROS_DOMAIN_ID, else 0.",
             "--domain",
             min=0,
             max=LARGEST_DOMAIN,
@@ -84,13 +84,14 @@ class _OfRobots:
     """Options of commands whose FROM may be a robot description."""
 
     joint: list[str] | None = option(
-        "Position of a joint in rad or m (30deg too); again for more.",
+        "Position of a joint in rad or m, or in degrees as 30deg. Repeat the option for more "
+        "joints.",
         metavar="NAME=VALUE",
         panel=ROBOT,
     )
     argument: list[str] | None = option(
-        "A xacro argument; NAME:=VALUE alone does too. xacro evaluates expressions of the "
-        "file: expand none from strangers.",
+        "Argument for xacro; the option's name can be left out. xacro evaluates Python "
+        "expressions of the file: use only files that you trust.",
         metavar="NAME:=VALUE",
         panel=ROBOT,
     )
@@ -106,17 +107,18 @@ class _OfRecordings:
     """Options of commands whose FROM may be a recording."""
 
     with_odometry: bool = flag(
-        "Take Odometry and PoseStamped for transforms, of frames that tf lacks.",
+        "Also take messages of Odometry and PoseStamped as transforms, for frames that are not "
+        "in tf.",
         panel=RECORDING,
     )
     tf_topic: list[str] | None = option(
-        "Read these transforms alone, /r1/tf; again for more robots, whose equal frame names "
-        "get the namespace as prefix.",
+        "Read only the transforms of this topic, such as /r1/tf. Repeat the option for more "
+        "robots: frame names that several of them use get the namespace as prefix.",
         metavar="TOPIC",
         panel=RECORDING,
     )
     no_cache: bool = flag(
-        "Read all of it anew, and keep no columns for the next question.",
+        "Read the whole recording, without the cache, and write no cache.",
         panel=RECORDING,
     )
 
@@ -128,7 +130,7 @@ class _OfUndescribed:
     """Option --urdf of commands: the robot description for a recording that contains none."""
 
     urdf: Path | None = option(
-        "Description of the robot in a recording that has none inside.",
+        "Robot description for a recording that does not contain one.",
         metavar="FILE",
         panel=ROBOT,
     )
@@ -145,18 +147,18 @@ class _OfPoseFiles:
     """Options of commands whose FROM may be a pose file; `LaidOutCommand` applies them."""
 
     frames: str | None = option(
-        "Names of parent and child in a pose file. Each of these options is for the file it "
-        "follows.",
+        "Names of parent and child in a pose file. Each option of this group applies to the pose "
+        "file before it.",
         metavar="PARENT:CHILD",
         panel=POSES,
     )
     pose_rate: float | None = option(
-        "Poses in a second, where they have no stamps.", metavar="HZ", panel=POSES
+        "Poses per second, for a file without stamps.", metavar="HZ", panel=POSES
     )
     pose_format: str | None = option(
-        "Format of the file, where its content fits two.", metavar="NAME", panel=POSES
+        "Format of the file, if its content fits several.", metavar="NAME", panel=POSES
     )
-    inverted: bool = flag("Take the inverse of each pose that is written.", panel=POSES)
+    inverted: bool = flag("Invert each pose of the file.", panel=POSES)
     axes: str | None = option("Axes of the cameras: opencv or opengl.", metavar="NAME", panel=POSES)
 
 
@@ -287,7 +289,10 @@ def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> s
             )
         is_required = getattr(getattr(command, parameter, None), "default", None) is ...
         if len(found) > 1 or is_required or not hasattr(command, parameter):
-            raise UsageError(f"'{visible(found[0])}' is a FROM: give only one, as the last word.")
+            raise UsageError(
+                f"'{visible(found[0])}' is the address of a session: give one such address only, "
+                "as the last word."
+            )
         words[parameter] = (
             [one for one in several if one not in found] if several is value else None
         )

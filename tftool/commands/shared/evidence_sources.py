@@ -51,7 +51,9 @@ def evidence_from(
     kind = None if word is None else named(word).kind
     is_recording = kind is not None and kind.is_recording
     if not is_recording and (scope.tf_topics or scope.begin is not None or scope.end is not None):
-        raise UsageError("--tf-topic, --from and --to are for recordings.")
+        raise UsageError(
+            "--tf-topic, --from and --to are only allowed for recordings: leave them out."
+        )
     if kind is Kind.DESCRIPTION:
         shown = visible(word or "")
         raise UsageError(

@@ -94,7 +94,7 @@ def join_or_host(
             # The silent process may be a host: a second world of equal names would mix with it.
             link.close()
             raise LinkError(
-                f"{link.unanswering} Or avoid it: --domain N makes a separate session, "
+                f"{link.unanswering} Or work without it: --domain N starts a separate session, "
                 "--host a private world."
             )
         if connection.mode is Mode.JOIN or connection.read_only:
@@ -106,8 +106,8 @@ def join_or_host(
                 else ""
             )
             raise LinkError(
-                f"No {what} is running in domain {connection.domain}: start one with "
-                f"'tftool demo', or leave out the option to host one here.{looks}"
+                f"No {what} is running in domain {connection.domain}: start one with 'tftool "
+                f"demo', or leave out --join and --read-only to start one here.{looks}"
             )
     elif alone := _why_alone(connection, link):
         link.close()
@@ -244,8 +244,8 @@ def refuse_moment(connection: Connection) -> None:
         if link.graph.has_sources:
             running = session_name(link, connection.place)
             raise UsageError(
-                f"A session is running here, {running}; it keeps no past. Name a scenario "
-                f"('{HOME} --at 5') or a recording ('tftool record -o run.mcap', then "
+                f"A session is running here, {running}; it does not store the past. Name a "
+                f"scenario ('{HOME} --at 5') or a recording ('tftool record -o run.mcap', then "
                 f"'run.mcap --at 5'); --host hosts '{HOME}' in any case."
             )
     finally:

@@ -63,7 +63,7 @@ def not_negative(value: float | None) -> float | None:
         typer.BadParameter: If the value is negative, NaN or infinite, or above `MOST`.
     """
     if value is not None and not (math.isfinite(value) and value >= 0):
-        raise typer.BadParameter(f"{value:g} is not zero or more.")
+        raise typer.BadParameter(f"{value:g} is not allowed here: give zero or more.")
     return _bounded(value)
 
 
@@ -80,7 +80,7 @@ def within(least: float, most: float) -> Callable[[float | None], float | None]:
 
 def _bounded(value: float | None) -> float | None:
     if value is not None and abs(value) > MOST:
-        raise typer.BadParameter(f"{value:g} is too large: beyond {MOST:g}.")
+        raise typer.BadParameter(f"{value:g} is too large: give {MOST:g} at most.")
     return value
 
 
@@ -103,7 +103,7 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
         except ValueError:
             raise typer.BadParameter(f"'{text}' is not a number.") from None
         if exact and not found:
-            raise typer.BadParameter(f"{text} is less than a nanosecond.")
+            raise typer.BadParameter(f"{text} is less than a nanosecond: give a longer time.")
         return found
 
     return parse
@@ -163,7 +163,7 @@ def moment(text: str) -> At:
         found, exact = _nanoseconds(text)
     except ValueError:
         raise typer.BadParameter(
-            f"'{text}' is no moment: give seconds since the start, such as 12.5, or a stamp, "
+            f"'{text}' is not a moment: give seconds since the start, such as 12.5, or a stamp, "
             "such as 1663952504.7 or 2022-09-23T17:01:44.7Z."
         ) from None
     return At(found, exact >= FIRST_STAMP * NANOSECONDS and not text.startswith("+"))
@@ -175,13 +175,13 @@ def _date(text: str) -> At:
     try:
         found = datetime.fromisoformat(_FRACTION.sub("", text, count=1))
     except ValueError as error:
-        raise typer.BadParameter(f"'{text}' is no date and time: {error}.") from None
+        raise typer.BadParameter(f"'{text}' is not a date and time: {error}.") from None
     if found.tzinfo is None:
         found = found.replace(tzinfo=UTC)
     whole = round((found - datetime(1970, 1, 1, tzinfo=UTC)).total_seconds()) * NANOSECONDS
     digits = fraction[1][:9].ljust(9, "0") if fraction else "0"
     if whole <= 0:
-        raise typer.BadParameter(f"'{text}' lies before 1970.")
+        raise typer.BadParameter(f"'{text}' is before 1970: give a later time.")
     return At(whole + int(digits), is_stamp=True)
 
 
@@ -290,9 +290,9 @@ From = Annotated[
     str | None,
     typer.Argument(
         metavar="[FROM]",
-        help="Whose frames: a scenario (name or file), a recording (file, folder, glob), a robot "
-        "description, or a robot's Foxglove server (ws://robot:8765); if not said, the session "
-        "that runs, else the turtles.",
+        help="Source of the frames: a scenario (name or file), a recording (file, folder, glob), "
+        "a robot description, or a robot's Foxglove server (ws://robot:8765); if not given, "
+        "the session that runs, else the turtles.",
         show_default=False,
     ),
 ]
@@ -318,25 +318,37 @@ FromOption = Annotated[
 ]
 
 ToOption = Annotated[
-    At | None, moment_option("Leave out everything after; likewise.", "--to", default=...)
+    At | None,
+    moment_option(
+        "Leave out everything after: seconds since the start of FROM, or a stamp.",
+        "--to",
+        default=...,
+    ),
 ]
 
 Every = Annotated[
     Duration | None,
     seconds_option(
-        "Ask so often, in place of the stamps of the fastest link.", "--every", default=...
+        "Time between two moments; if not given, the stamps of the fastest link are used.",
+        "--every",
+        default=...,
     ),
 ]
 
 Pairs = Annotated[
     list[str] | None,
-    option("A pair of frames. Again for more.", "--pair", metavar="TARGET:SOURCE", default=...),
+    option(
+        "A pair of frames. Repeat the option for more pairs.",
+        "--pair",
+        metavar="TARGET:SOURCE",
+        default=...,
+    ),
 ]
 
 StampsOf = Annotated[
     str | None,
     option(
-        "Ask at the stamps of a recorded topic's messages.",
+        "Use the stamps of the messages of this recorded topic as moments.",
         "--at-stamps-of",
         metavar="TOPIC",
         panel=WHEN,
@@ -352,27 +364,36 @@ Rate = Annotated[
         metavar="HZ",
         rich_help_panel=WHEN,
         callback=within(0.001, 1000),
-        help="The same as a frequency.",
+        help="Moments per second, in place of --every.",
     ),
 ]
 
 CacheTime = Annotated[
     Duration | None,
     seconds_option(
-        "How far back the buffer remembers; 10 unless the scenario says otherwise.", default=...
+        "Time for which the buffer keeps transforms; if not given, that of the scenario, else 10 "
+        "s.",
+        default=...,
     ),
 ]
 
-RunFor = Annotated[Duration | None, seconds_option("Stop after so long.", "--for", default=...)]
+RunFor = Annotated[Duration | None, seconds_option("Stop after SECONDS.", "--for", default=...)]
 
 SkippedFolders = Annotated[
-    bool, option("Say which folders are skipped.", "--verbose", "-v", default=...)
+    bool, option("Print which folders are skipped.", "--verbose", "-v", default=...)
 ]
 
-RosFree = Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free", default=...)]
+RosFree = Annotated[
+    bool, option("Run without ROS even if a real ROS 2 is sourced.", "--ros-free", default=...)
+]
 
 Simulated = Annotated[
-    bool, option("On simulated time: at once, the same every time.", "--simulated", default=...)
+    bool,
+    option(
+        "Use simulated time: the run ends at once, with the same result every time.",
+        "--simulated",
+        default=...,
+    ),
 ]
 
 Junit = Annotated[
@@ -390,7 +411,8 @@ Meshes = Annotated[
         rich_help_panel=ROBOT,
         file_okay=False,
         exists=True,
-        help="Where packages with meshes lie; again for more. Nothing outside is shown.",
+        help="Folder with the packages that contain the meshes. Repeat the option for more; files "
+        "outside are never shown.",
     ),
 ]
 
@@ -398,12 +420,16 @@ Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT, default=...
 
 Ascii = Annotated[
     bool,
-    option("Draw with plain characters, for fonts that have no others.", "--ascii", default=...),
+    option("Draw with ASCII characters only, for fonts without others.", "--ascii", default=...),
 ]
 
 Light = Annotated[
     bool,
-    option("For a terminal with a light ground; on a screen m changes it.", "--light", default=...),
+    option(
+        "Use colors for a terminal with a light background; in a screen, the key m switches.",
+        "--light",
+        default=...,
+    ),
 ]
 
 Rows = Annotated[
@@ -426,16 +452,22 @@ Jobs = Annotated[
         max=256,
         metavar="N",
         rich_help_panel=MANY,
-        help="Work on so many recordings at once.",
+        help="Number of recordings to process at the same time.",
     ),
 ]
 Resume = Annotated[
-    bool, option("Pass over what the file already holds.", "--resume", panel=MANY, default=...)
+    bool,
+    option(
+        "Skip the recordings whose rows are already in the file of -o.",
+        "--resume",
+        panel=MANY,
+        default=...,
+    ),
 ]
 Scheduler = Annotated[
     str,
     option(
-        "Let a cluster of Dask workers do it that you trust: tcp://HOST:8786.",
+        "Process the recordings on a cluster of Dask workers that you trust: tcp://HOST:8786.",
         metavar="ADDRESS",
         panel=MANY,
         default=...,

@@ -142,7 +142,7 @@ class PairWait:
         back = -self.pair.offset
         if back >= cache_time:
             notice(
-                f"--offset goes back {as_seconds(back):g} s, and the buffer remembers "
+                f"--offset goes back {as_seconds(back):g} s, but the buffer only keeps "
                 f"{as_seconds(cache_time):g} s: --cache-time {as_seconds(back) + 5:g} is enough."
             )
 

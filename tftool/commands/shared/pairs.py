@@ -90,8 +90,8 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
         path = Path(word)
         if (path.suffix and path.is_file()) or (path / METADATA).is_file():
             raise UsageError(
-                f"'{visible(word)}' is a file, and the words here are frames: write two of "
-                "them before it, TARGET SOURCE FROM."
+                f"'{visible(word)}' is a file, but a frame is expected here: write two frames "
+                "before the file, as TARGET SOURCE FROM."
             )
 
 
@@ -144,7 +144,9 @@ def is_chosen(options: SpanOptions) -> bool:
     """
     given = [one for one in (options.every, options.rate, options.stamps_of) if one is not None]
     if len(given) > 1:
-        raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
+        raise UsageError(
+            "--every, --rate and --at-stamps-of each choose the moments: leave out all but one."
+        )
     return bool(given)
 
 
@@ -162,7 +164,9 @@ def moments_of(options: SpanOptions, frames: Frames) -> "Moments":
     is_chosen(options)
     if options.stamps_of is not None:
         if frames.recording is None:
-            raise UsageError("--at-stamps-of goes with a recording.")
+            raise UsageError(
+                "--at-stamps-of is only allowed for a recording: leave it out, or name a recording."
+            )
         stamps = frames.recording.headers(options.stamps_of).stamps
         return Moments(*ends, stamps=stamps, words=f"at the stamps of '{options.stamps_of}'")
     return Moments(*ends, options.every if options.rate is None else seconds(1.0 / options.rate))

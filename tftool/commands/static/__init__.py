@@ -37,8 +37,13 @@ class StaticOptions(
     qy: Part = None
     qz: Part = None
     qw: Part = None
-    frame_id: str | None = option("Frame it is given in.", "--frame-id", metavar="PARENT")
-    child_frame_id: str | None = option("Frame it places.", "--child-frame-id", metavar="CHILD")
+    frame_id: str | None = option(
+        "Parent: frame in which the transform is given.", "--frame-id", metavar="PARENT"
+    )
+    child_frame_id: str | None = option(
+        "Child: frame that the transform places.", "--child-frame-id", metavar="CHILD"
+    )
     once: bool = flag(
-        "Publish, say what, and stop. Who is there keeps it; who comes later does not hear of it."
+        "Publish the transform, print it, and stop. Programs running now receive it; later ones "
+        "do not."
     )

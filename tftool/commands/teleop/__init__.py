@@ -15,9 +15,9 @@ class TeleopOptions(Command, hosts_turtles=True):
     tftool teleop --keys "up up left up"
     """
 
-    turtle: str = argument("Whom to drive.", default="turtle1", metavar="[TURTLE]")
+    turtle: str = argument("Turtle to drive.", default="turtle1", metavar="[TURTLE]")
     keys: str | None = option(
-        'Press these instead of reading any, one after the other: "up up left g".',
+        'Press these keys in turn, without reading the keyboard: "up up left g".',
         "--keys",
         metavar="KEYS",
     )

@@ -53,7 +53,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
     words = keys.replace(",", " ").split()
     for word in words:
         if word.lower() not in KEYS:
-            raise UsageError(f"{word!r} is no key of teleop; the keys are {', '.join(KEYS)}.")
+            raise UsageError(f"{word!r} is not a key of teleop; the keys are {', '.join(KEYS)}.")
     if not words:
         raise UsageError('--keys needs at least one key, such as --keys "up up left".')
     joined = join_session(connection, needs_turtles=True)

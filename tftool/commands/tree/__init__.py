@@ -48,19 +48,20 @@ class TreeOptions(Command, looks_only=True, recordings=True, descriptions=True, 
 
     place: From = None
     form: TreeFormat | None = option(
-        f"What to write: {', '.join(TreeFormat)}; if not said, what -o ends in.",
+        f"Format to write: {', '.join(TreeFormat)}; if not given, the suffix of -o decides.",
         "--format",
         "-f",
         metavar="FORMAT",
         panel=OUTPUT,
     )
-    output: Path | None = output_file("Where to write it; - is stdout.")
+    output: Path | None = output_file("File to write; - is stdout.")
     force: Force = False
     as_json: Json = False
     wide: bool = flag(
-        "All columns and whole names on a terminal too, however long the lines.", panel=OUTPUT
+        "Print all columns and full names on a terminal too, even if lines are longer than it.",
+        panel=OUTPUT,
     )
     at: AtOption = None
-    watch: bool = flag("Show it as it changes; keys scroll, sort and filter.", "--watch", "-w")
+    watch: bool = flag("Show the tree live; keys scroll, sort and filter.", "--watch", "-w")
     run_for: RunFor = None
     cache_time: CacheTime = None

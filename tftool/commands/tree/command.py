@@ -95,7 +95,9 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
     form = options.form
     if options.as_json:
         if form not in (None, TreeFormat.json):
-            raise UsageError(f"--json and --format {form.value} exclude each other.")
+            raise UsageError(
+                f"--json and --format {form.value} are two output formats: leave one out."
+            )
         form = TreeFormat.json
     form = form or _form_of(options.output)
     is_drawn_at_once = (
@@ -106,10 +108,10 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
             options.watch and is_drawn_at_once,
             "--watch draws on the terminal: leave out --format, --json, -o and --at.",
         ),
-        (options.force and options.output is None, "--force goes with -o FILE."),
+        (options.force and options.output is None, "--force is only allowed with -o FILE: add it."),
         (
             options.run_for is not None and not options.watch,
-            "--for goes with --watch; without it the tree is written once.",
+            "--for is only allowed with --watch: without --watch the tree is written once.",
         ),
     )
     if options.output is not None and options.output.is_file():

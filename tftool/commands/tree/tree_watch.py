@@ -54,7 +54,7 @@ def show_changes(
     """Show a live tree: on a full screen with keys if possible, else redrawn in place."""
     console = Console()
     if not console.is_terminal:
-        raise UsageError("--watch needs a terminal; without it the tree is written once.")
+        raise UsageError("--watch needs a terminal: leave --watch out to print the tree once.")
     session = open_session(connection, place, cache_time=cache_time)
     if screen_lacks():
         session.run(_redrawn(session.world, duration, console))

@@ -34,7 +34,7 @@ class ViewOptions(Command, looks_only=True, recordings=True, descriptions=True, 
 
     place: From = None
     port: int = option(
-        "Where to serve the page; the next free one if it is taken.",
+        "Port of the page; if it is taken, the next free port is used.",
         default=8765,
         metavar="PORT",
         min=0,
@@ -43,7 +43,12 @@ class ViewOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     open_browser: bool = flag("Open the page in your browser.", "--open")
     run_for: RunFor = None
     rate: float = option(
-        "Pictures a second.", "--rate", "-r", default=30.0, metavar="HZ", callback=within(0.1, 120)
+        "Updates of the page per second.",
+        "--rate",
+        "-r",
+        default=30.0,
+        metavar="HZ",
+        callback=within(0.1, 120),
     )
     cache_time: CacheTime = None
     meshes: Meshes = None

@@ -78,8 +78,8 @@ def _write(connection: Connection, options: ViewOptions, output: Path) -> ExitSt
     notice(visible(f"Wrote {output}, {short_size(size)}: it opens in any browser, from disk."))
     if page.is_rounded:
         notice(
-            "Its numbers are rounded to a micrometre, and to 1e-7 in quaternions, because all "
-            f"digits would not fit {MOST_BYTES / 1e6:g} MB."
+            "Lengths in the file are rounded to a micrometre and quaternions to 1e-7: with all "
+            f"digits the file would exceed {MOST_BYTES / 1e6:g} MB."
         )
     if size > MOST_BYTES:
         notice("For a smaller file, cut out a part with 'tftool edit --from --to'.")
@@ -201,7 +201,7 @@ async def _show(
     """
     async with page:
         if page.asked_port not in (0, page.port):
-            notice(f"Port {page.asked_port} is not free: taking {page.port}.")
+            notice(f"Port {page.asked_port} is not free: port {page.port} is used.")
         url = page.url
         said = f"The frames of {name} are at"
         # An address that is wrapped at the terminal's edge cannot be clicked.
@@ -259,7 +259,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
             raise UsageError("A file contains all transforms: leave out --cache-time.")
         return _write(connection, options, options.output)
     if options.force:
-        raise UsageError("--force goes with -o FILE.")
+        raise UsageError("--force is only allowed with -o FILE: add it.")
     # Imported here, because a file needs no server, and websockets is slow to import.
     from tftool.screens.browser.server import PageServer
 

@@ -30,21 +30,22 @@ class DdsReach(Reach):
         "dds": LinkOption(
             bool,
             "--dds",
-            "A ROS 2 robot over DDS, not zenoh: messages stay on this machine's loopback "
-            "(DDS receives on 0.0.0.0 all the same).",
+            "Join ROS 2 over DDS instead of zenoh, on this machine's loopback only (DDS still "
+            "receives on 0.0.0.0).",
         ),
         "dds_on": LinkOption(
             list[str] | None,
             "--dds-on",
-            "The same on an interface (eth0), or with a machine (192.168.1.5); again for "
-            "more. DDS here has no TLS: all of that network can read and write.",
+            "Join ROS 2 over DDS on an interface (eth0), or with a machine (192.168.1.5). Repeat "
+            "the option for more. DDS here has no TLS: everyone in that network can read and "
+            "write.",
             "PLACE",
         ),
     }
     FLAGS: ClassVar[tuple[str, ...]] = ("--dds",)
     ALONE: ClassVar[str] = (
-        "--dds goes by DDS: leave out --listen, --connect, --zenoh-config and --tls-*, which "
-        "are zenoh's."
+        "--dds uses DDS: leave out --listen, --connect, --zenoh-config and --tls-*, which only "
+        "apply to zenoh."
     )
     is_robots: ClassVar[bool] = True
 

@@ -51,7 +51,7 @@ class Certificates:
             file = self.authority
             ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(file)
         except ssl.SSLError as error:
-            raise InputError(f"'{file}' holds no certificate in PEM.") from error
+            raise InputError(f"'{file}' contains no certificate in PEM format.") from error
         except OSError as error:
             raise InputError(f"'{file}' cannot be read: {error.strerror}.") from error
         try:
@@ -87,23 +87,28 @@ class ZenohReach(Reach):
         "listen": LinkOption(
             list[str] | None,
             "--listen",
-            "Let other machines in, at tcp/0.0.0.0:7448 for example. All who reach "
-            "that port can see and drive everything: use tls/ in a network you share.",
+            "Accept connections from other machines, at tcp/0.0.0.0:7448 for example. Everyone "
+            "who reaches that port can see and drive everything: use tls/ in a shared network.",
             "ENDPOINT",
         ),
         "connect": LinkOption(
             list[str] | None,
             "--connect",
-            "Join another machine's session, or ROS 2's zenoh router: tcp/localhost:7447.",
+            "Join the session of another machine, or a zenoh router of ROS 2: tcp/localhost:7447.",
             "ENDPOINT",
         ),
-        "tls_cert": LinkOption(Path | None, "--tls-cert", "Our certificate, for tls/.", "FILE"),
-        "tls_key": LinkOption(Path | None, "--tls-key", "Its private key.", "FILE"),
+        "tls_cert": LinkOption(
+            Path | None, "--tls-cert", "Certificate of this machine, for tls/ endpoints.", "FILE"
+        ),
+        "tls_key": LinkOption(Path | None, "--tls-key", "Private key of --tls-cert.", "FILE"),
         "tls_ca": LinkOption(
-            Path | None, "--tls-ca", "Who signed the other side's certificate.", "FILE"
+            Path | None,
+            "--tls-ca",
+            "Certificate of the authority that signed the certificate of the other machine.",
+            "FILE",
         ),
         "zenoh_config": LinkOption(
-            Path | None, "--zenoh-config", "A zenoh configuration, as it is.", "FILE"
+            Path | None, "--zenoh-config", "Configuration file of zenoh, used unchanged.", "FILE"
         ),
     }
     FLAGS: ClassVar[tuple[str, ...]] = ("--listen", "--connect", "--zenoh-config")
@@ -119,7 +124,10 @@ class ZenohReach(Reach):
         listen, connect = tuple(given.get("listen") or ()), tuple(given.get("connect") or ())
         config: Path | None = given.get("zenoh_config")
         if config is not None and (listen or connect):
-            raise UsageError("--zenoh-config sets all endpoints: leave out --listen and --connect.")
+            raise UsageError(
+                "--zenoh-config already sets all endpoints: leave out --listen and --connect, or "
+                "--zenoh-config."
+            )
         files = [given.get(name) for name in ("tls_cert", "tls_key", "tls_ca")]
         for file in (*files, config):
             if file is not None and not file.is_file():
@@ -182,7 +190,8 @@ def _tls(cert: Path | None, key: Path | None, ca: Path | None) -> Certificates |
     if cert is None or key is None or ca is None:
         if cert or key or ca:
             raise UsageError(
-                "TLS here is mutual: give --tls-cert, --tls-key and --tls-ca together."
+                "TLS needs certificates of both sides: give --tls-cert, --tls-key and --tls-ca "
+                "together."
             )
         return None
     files = Certificates(cert, key, ca)
@@ -194,8 +203,8 @@ def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
     protocol, slash, address = endpoint.partition("/")
     if not slash or not address or protocol not in PROTOCOLS:
         raise UsageError(
-            f"'{endpoint}' is no endpoint: write PROTOCOL/ADDRESS, such as tcp/192.168.1.5:7448, "
-            f"with one of {', '.join(PROTOCOLS)}."
+            f"'{endpoint}' is not an endpoint: write PROTOCOL/ADDRESS, such as "
+            f"tcp/192.168.1.5:7448, with one of {', '.join(PROTOCOLS)}."
         )
     if not has_port(endpoint):
         raise UsageError(
