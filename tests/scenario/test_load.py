@@ -52,13 +52,13 @@ ten.yaml has 10 mistakes:
 ten.yaml:2:1: a scenario has no key 'duraton'; did you mean 'duration'?
      2 | duraton: 30 s
        | ^^^^^^^
-ten.yaml:6:5: there is no node 'brodcaster'; did you mean 'broadcaster'?
+ten.yaml:6:5: there is no kind of node 'brodcaster'; did you mean 'broadcaster'?
      6 |   - brodcaster: {turtle: turtle1}
        |     ^^^^^^^^^^
 ten.yaml:7:24: unknown argument '$sorce_frame'; did you mean 'source_frame'?
      7 |   - follower: {leader: $sorce_frame, period: 1 parsec, period: 2 s}
        |                        ^^^^^^^^^^^^
-ten.yaml:7:46: '1 parsec' is not a duration: 'parsec' is no unit of it; its unit may be \
+ten.yaml:7:46: '1 parsec' is not a duration: 'parsec' is not a unit of it; its unit may be \
 s, ms, us, µs, ns, min, h
      7 |   - follower: {leader: $sorce_frame, period: 1 parsec, period: 2 s}
        |                                              ^^^^^^^^
@@ -68,7 +68,7 @@ ten.yaml:7:56: the key 'period' is given twice, first in line 7
 ten.yaml:9:21: 'lefft' is not a key; did you mean 'left'?
      9 |   - {at: 1 s, keys: "up up lefft up"}
        |                     ^^^^^^^^^^^^^^^^
-ten.yaml:10:10: '6 m' is not a duration: m makes it a length; its unit may be \
+ten.yaml:10:10: '6 m' is not a duration: m is the unit of a length; its unit may be \
 s, ms, us, µs, ns, min, h (minutes are min)
     10 |   - {at: 6 m, drive: {turtle: turtle1, linear: fast}, for: 4 s}
        |          ^^^
@@ -182,10 +182,14 @@ def test_a_duration_is_exact_in_any_unit(written, nanoseconds):
 @pytest.mark.parametrize(
     ("written", "wrong"),
     [
-        ("5 m", "m makes it a length; its unit may be s, ms, us, µs, ns, min, h (minutes are min)"),
-        ("90 deg", "deg makes it an angle; its unit may be s, ms, us, µs, ns, min, h"),
-        ("10 hz", "'hz' is no unit of it; its unit may be s, ms, us, µs, ns, min, h"),
-        ("10 MS", "'MS' is no unit of it; did you mean 'ms'?"),
+        (
+            "5 m",
+            "m is the unit of a length; its unit may be "
+            "s, ms, us, µs, ns, min, h (minutes are min)",
+        ),
+        ("90 deg", "deg is the unit of an angle; its unit may be s, ms, us, µs, ns, min, h"),
+        ("10 hz", "'hz' is not a unit of it; its unit may be s, ms, us, µs, ns, min, h"),
+        ("10 MS", "'MS' is not a unit of it; did you mean 'ms'?"),
     ],
 )
 def test_a_number_with_a_wrong_unit_is_told_which_there_are(written, wrong):
@@ -204,7 +208,7 @@ def test_what_is_no_number_is_refused(written):
 @pytest.mark.parametrize(
     ("written", "wrong"),
     [
-        ("1e999999999 s", "'1e999999999 s' is too large: more than 1e+09"),
+        ("1e999999999 s", "'1e999999999 s' is too large: write at most 1e+09"),
         ("-1 s", "-1 s is not a duration from 0.001 to 86400 s"),
         ("25 h", "90000 s is not a duration from 0.001 to 86400 s"),
         ("1e-999999999", "0 s is not a duration from 0.001 to 86400 s"),
@@ -310,7 +314,7 @@ def test_an_alias_bomb_is_refused():
 
 def test_an_alias_to_what_holds_it_is_refused():
     assert told("nodes: &n [*n]") == ["*n is used inside its own definition"]
-    assert told("nodes: [*n, &n x]") == ["*n is no anchor defined before"]
+    assert told("nodes: [*n, &n x]") == ["*n is not an anchor that was defined before"]
 
 
 def test_deep_nesting_is_refused():
@@ -323,12 +327,17 @@ def test_a_text_that_is_too_long_is_refused():
 
 def test_a_second_document_is_refused():
     assert mistakes("duration: 1 s\n---\nduration: 2 s\n") == [
-        (2, 1, "a second document starts here; one file is one scenario")
+        (
+            2,
+            1,
+            "a second YAML document starts here, but a file contains one scenario: "
+            "remove the line '---'",
+        )
     ]
 
 
 def test_a_key_that_is_no_word_is_refused():
-    assert told("[a, b]: c") == ["a key is one word, not a list or a mapping"]
+    assert told("[a, b]: c") == ["a key must be one word, not a list or a mapping"]
 
 
 @pytest.mark.parametrize("text", ["", "# nothing but a comment\n", "\ufeff"])
@@ -350,14 +359,16 @@ def test_a_control_character_is_told_where():
 
 
 def test_an_escape_that_names_no_character_is_refused():
-    assert told('about: "\\UFFFFFFFF"') == ["an escape in quotes names no character"]
+    assert told('about: "\\UFFFFFFFF"') == [
+        "an escape such as \\x in quotes is not valid: correct it, or use single quotes"
+    ]
 
 
 def test_a_name_that_would_act_on_a_terminal_is_refused():
     (sentence,) = told(SMALLEST + 'nodes: [static: {parent: "\\e[31m", child: b}]')
 
     assert "\x1b" not in sentence
-    assert sentence.endswith("holds characters that cannot be printed")
+    assert sentence.endswith("contains characters that cannot be printed")
 
 
 def test_the_shown_line_is_safe_and_the_caret_stands_right():
@@ -418,7 +429,7 @@ def test_an_unknown_argument_is_told_which_there_are():
 
 def test_arguments_are_named_by_a_word_and_single_values():
     assert told(SMALLEST + "arguments: {a b: 1, c: [1], d: $e}") == [
-        "'a b' names no argument: letters, digits and _ only",
+        "'a b' is not a valid name of an argument: use only letters, digits and _",
         "expected a text, not a list",
         "unknown argument '$e'; declare it under 'arguments'",
     ]
@@ -439,22 +450,28 @@ def test_a_value_from_outside_is_checked_where_it_is_used():
     [
         ("turtlesim", "expected a list (one node an item); begin each item with '- '"),
         ("[[]]", "expected a mapping (a node's kind), not a list"),
-        ("[~]", "a node is missing here; there are turtlesim, broadcaster, "),
-        ("[wheel]", "there is no node 'wheel'; there are turtlesim, broadcaster, "),
+        ("[~]", "no kind of node is given here: write one of turtlesim, broadcaster, "),
+        ("[wheel]", "there is no kind of node 'wheel'; there are turtlesim, broadcaster, "),
         (
             "[{broadcaster: ~, turtle: turtle1}]",
-            "'turtle' is beside 'broadcaster', not in it; "
+            "'turtle' is at the same level as 'broadcaster', not below it: "
             "write 'broadcaster: {turtle: ...}', or indent it further",
         ),
         (
             "[{turtlesim: ~, teleop: ~}]",
-            "'teleop' is beside 'turtlesim', not in it; begin each node with '- '",
+            "'teleop' is at the same level as 'turtlesim', not below it: begin each node with '- '",
         ),
         ("[broadcaster]", "a broadcaster needs the key 'turtle'"),
-        ("[{broadcaster: {turtle: 1a}}]", "'1a' names no turtle: letters, digits and _ only"),
+        ("[{broadcaster: {turtle: 1a}}]", "'1a' is not a valid name of a turtle: use only letters"),
         ("[{turtlesim: {colour: 1}}]", "a turtlesim has no key 'colour'; it may have holonomic, "),
-        ("[{turtlesim: {background: {r: 256, g: 0, b: 0}}}]", "a whole number from 0 to 255"),
-        ("[{turtlesim: {background: {r: 1.5, g: 0, b: 0}}}]", "a whole number from 0 to 255"),
+        (
+            "[{turtlesim: {background: {r: 256, g: 0, b: 0}}}]",
+            "expected a whole number from 0 to 255",
+        ),
+        (
+            "[{turtlesim: {background: {r: 1.5, g: 0, b: 0}}}]",
+            "expected a whole number from 0 to 255",
+        ),
         ("[{follower: {period: 0 s}}]", "0 s is not a duration from 0.001 to 86400 s"),
         ("[{follower: {speed_limit: -1}}]", "-1 m/s is not a speed of 0 m/s or more"),
         ("[{follower: {leader: turtle2}}]", "'turtle2' cannot follow itself"),
@@ -468,7 +485,9 @@ def test_a_wrong_node_is_told_what_is_wrong(nodes, wrong):
 def test_two_nodes_of_one_name_are_refused():
     text = SMALLEST + "nodes:\n  - turtlesim: {name: a}\n  - teleop: {name: a}\n"
 
-    assert mistakes(text) == [(4, 5, "the node of line 3 is named 'a' too")]
+    assert mistakes(text) == [
+        (4, 5, "the node of line 3 is also named 'a': give one of them another name")
+    ]
 
 
 @pytest.mark.parametrize("name", ["script", "expectations", "teleop"])
@@ -494,7 +513,10 @@ def test_none_may_come_from_an_argument():
     [
         ("{at: 1 s}", "an action needs one of keys, drive, spawn, kill, "),
         ("{at: 1 s, flyy: 1}", "unknown key 'flyy'; an action is one of keys, drive, "),
-        ("{at: 1 s, kill: a, reset: ~}", "an action has one subject; write kill, reset separately"),
+        (
+            "{at: 1 s, kill: a, reset: ~}",
+            "an action can have only one subject: write kill, reset as",
+        ),
         ("{kill: turtle1}", "an action (kill) needs the key 'at'"),
         ("{at: 3 s, kill: a}", "3 s is after the end of the scenario, which lasts 1 s"),
         ("{at: 1 s, drive: {}}", "an action (drive) needs the key 'for'"),
@@ -522,30 +544,45 @@ LOOKUP = "lookup: {target: a, source: b}"
     [
         ("{trees: 1}", "when must it hold?; say one of at: 2 s, by: 20 s, "),
         ("{at: 1 s, by: 1 s, trees: 1}", "at, by exclude each other; say one of at: 2 s, "),
-        ("{at: 1 s, every: 1 s, trees: 1}", "'every' goes with by, during or always"),
+        (
+            "{at: 1 s, every: 1 s, trees: 1}",
+            "'every' is only allowed together with 'by', 'during' or 'always'",
+        ),
         ("{at: [], trees: 1}", "the list of moments is empty"),
-        ("{always: false, trees: 1}", "always: false tests nothing; leave the expectation out"),
-        ("{during: [1 s, 0 s], trees: 1}", "during: the first moment is after the last one"),
+        ("{always: false, trees: 1}", "'always: false' tests nothing: leave the expectation out"),
+        ("{during: [1 s, 0 s], trees: 1}", "the first moment of 'during' is after the last one"),
         ("{during: [1 s], trees: 1}", "first and last moment takes 2 values, not 1"),
         ("{at: 2 s, trees: 1}", "2 s is after the end of the scenario, which lasts 1 s"),
-        ("{at: 1 s, trees: 1.5}", "a whole number from 0 to 100000 is wanted here, not 1.5"),
+        ("{at: 1 s, trees: 1.5}", "expected a whole number from 0 to 100000, not 1.5"),
         ("{at: 1 s, roots: world}", "expected a list (frames); begin each item with '- '"),
-        ("{at: 1 s, rate: a, between: [2, 1]}", "between 2 and 1 is nothing"),
-        ("{at: 1 s, rate: a, above: 1, tolerance: 1}", "a tolerance goes with 'is'"),
+        (
+            "{at: 1 s, rate: a, between: [2, 1]}",
+            "no number is between 2 and 1: write the smaller number first",
+        ),
+        (
+            "{at: 1 s, rate: a, above: 1, tolerance: 1}",
+            "'tolerance' is only allowed together with 'is'",
+        ),
         (
             "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 cm}",
-            "a tolerance for metres and radians together has no unit; write {position: 5 cm}",
+            "a tolerance with a unit must name its part: write {position: 5 cm}",
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 deg}",
-            "a tolerance for metres and radians together has no unit; write {angle: 5 deg}",
+            "a tolerance with a unit must name its part: write {angle: 5 deg}",
         ),
-        ("{at: 1 s, frame: a, exists: no, parent: b}", "a missing frame has no"),
-        ("{at: 1 s, pose: turtle1, value: {}}", "a value needs one of x, y, theta, linear, "),
-        (f"{{at: 1 s, {LOOKUP}, says: x}}", "'says' goes with 'raises'"),
+        (
+            "{at: 1 s, frame: a, exists: no, parent: b}",
+            "with 'exists: false' no other property of the frame",
+        ),
+        (
+            "{at: 1 s, pose: turtle1, value: {}}",
+            "'value' is empty: write at least one of x, y, theta, linear, ",
+        ),
+        (f"{{at: 1 s, {LOOKUP}, says: x}}", "'says' is only allowed together with 'raises'"),
         (
             f"{{at: 1 s, {LOOKUP}, raises: LookupException, value: {{x: 1}}}}",
-            "a lookup that raises has no value: leave one out",
+            "'raises' and 'value' exclude each other: leave one out",
         ),
         (
             f"{{at: 1 s, {LOOKUP}, value: {{rotation: [0, 0, 0, 1], yaw: 1}}}}",
@@ -553,7 +590,7 @@ LOOKUP = "lookup: {target: a, source: b}"
         ),
         (
             f"{{at: 1 s, {LOOKUP}, value: {{rotation: [0, 0, 1, 1]}}}}",
-            "a rotation has length 1, not 1.41421",
+            "the quaternion of a rotation must have length 1, not 1.41421",
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b, source_time: now}}",
@@ -587,7 +624,9 @@ def test_a_wrong_expectation_is_told_what_is_wrong(entry, wrong):
 def test_expectations_that_would_look_for_ever_are_refused():
     text = "duration: 24 h\nexpect:\n  - {always: true, every: 1 ms, trees: 1}\n"
 
-    assert told(text) == ["that is more than 1,000,000 checks; give 'every' a longer time"]
+    assert told(text) == [
+        "the scenario makes more than 1,000,000 checks: give 'every' a longer time"
+    ]
 
 
 # Files.

@@ -277,7 +277,7 @@ def test_a_service_that_never_answers_fails_its_step_unless_the_end_came_too_soo
     assert played.verdict().ok is ok
     if not ok:
         (outcome,) = played.verdict().outcomes
-        assert outcome.found == "refused: 'spawn' has not answered for 4 s, up to the end"
+        assert outcome.found == "refused: 'spawn' did not answer in the last 4 s of the scenario"
 
 
 def test_a_step_that_is_to_fail_and_does_not_fails_the_scenario():
@@ -353,7 +353,7 @@ def test_a_node_is_stopped_once():
 
     assert logged(played)[-1] == (
         "script",
-        "No node is named 'turtlesim' (any more); nothing is stopped",
+        "No node is named 'turtlesim' now, so no node was stopped",
     )
 
 

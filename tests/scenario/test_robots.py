@@ -84,7 +84,7 @@ def test_a_robot_repeats_a_recording(scenario, tmp_path):
         ("{file: crane.urdf, joints: [1]}", "a mapping"),
         ("{file: crane.urdf, motion: dance}", "dance"),
         ("{file: broken.urdf}", "broken.urdf:1:"),
-        ("{file: some.xacro}", "contains xacro, which a scenario does not run"),
+        ("{file: some.xacro}", "contains xacro, which scenarios do not expand"),
     ],
 )
 def test_mistakes_are_told_with_their_place(scenario, tmp_path, robot, told):

@@ -138,10 +138,14 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
                 place, "the limit is missing: write below, above, between: [low, high], or is"
             )
         if given["tolerance"] is not None and given["is"] is None:
-            raise reading.refuse(place, "a tolerance goes with 'is'")
+            raise reading.refuse(place, "'tolerance' is only allowed together with 'is'")
         between = given["between"]
         if between is not None and between[0] > between[1]:
-            raise reading.refuse(place, f"between {between[0]:g} and {between[1]:g} is nothing")
+            raise reading.refuse(
+                place,
+                f"no number is between {between[0]:g} and {between[1]:g}: write the smaller "
+                "number first",
+            )
         near = tolerance if given["tolerance"] is None else given["tolerance"]
         return RangeCheck(unit, given["below"], given["above"], between, given["is"], near)
 
@@ -223,7 +227,10 @@ _FRAME_FACTS: Mapping[str, Key] = {
 def _frame_check(given: Mapping[str, Any], reading: Reading, place: TextPlace) -> FrameCheck:
     facts = FrameFacts(**{key: given[key] for key in _FRAME_FACTS})
     if not facts.exists and facts != FrameFacts(False):
-        raise reading.refuse(place, "a missing frame has no other property")
+        raise reading.refuse(
+            place,
+            "with 'exists: false' no other property of the frame is allowed: leave the others out",
+        )
     return FrameCheck(given["name"], facts)
 
 
@@ -302,8 +309,8 @@ def _tolerance(node: Node, reading: Reading) -> Tolerance:
             if len(text) <= SHORT and text.endswith(tuple(unit.factors)):
                 raise reading.refuse(
                     node,
-                    "a tolerance for metres and radians together has no unit; "
-                    f"write {{{part}: {visible(text)}}}",
+                    f"a tolerance with a unit must name its part: write {{{part}: "
+                    f"{visible(text)}}}",
                 )
         both = values.quantity(values.NUMBER, least=0.0)(node, reading)
         return Tolerance(both, both)
@@ -411,10 +418,10 @@ def _pose_check(given: Mapping[str, Any], reading: Reading, place: TextPlace) ->
     value = given["value"]
     if given["raises"] is not None:
         if value is not None:
-            raise reading.refuse(place, "a lookup that raises has no value: leave one out")
+            raise reading.refuse(place, "'raises' and 'value' exclude each other: leave one out")
         return RefusalCheck(given["raises"], given["says"])
     if given["says"] is not None:
-        raise reading.refuse(place, "'says' goes with 'raises'")
+        raise reading.refuse(place, "'says' is only allowed together with 'raises'")
     if value is None:
         return PoseCheck({}, Tolerance())
     place, parts = value
@@ -446,7 +453,9 @@ def _rotation(
             raise reading.refuse(place, "give a rotation or roll, pitch, yaw, not both")
         norm = math.hypot(*given)
         if abs(norm - 1.0) > 1e-3:
-            raise reading.refuse(place, f"a rotation has length 1, not {norm:.6g}")
+            raise reading.refuse(
+                place, f"the quaternion of a rotation must have length 1, not {norm:.6g}"
+            )
         unit = Quaternion(*(part / norm for part in given))
         return unit, f"rotation ({', '.join(f'{part:.6g}' for part in given)})"
     if not angles:
@@ -490,7 +499,9 @@ def _turtle_pose_check(
 ) -> TurtlePoseCheck:
     wanted = {key: want for key, want in given["value"].items() if want is not None}
     if not wanted:
-        raise reading.refuse(place, f"a value needs one of {listed(_TURTLE_PARTS)}")
+        raise reading.refuse(
+            place, f"'value' is empty: write at least one of {listed(_TURTLE_PARTS)}"
+        )
     return TurtlePoseCheck(wanted, given["tolerance"])
 
 

@@ -29,7 +29,7 @@ def shipped(name: str, mark: str) -> Path:
     for place in (PACKAGE / name, PACKAGE.parent / name):
         if (place / mark).exists():
             return place
-    raise InputError(f"the built-in {name} are missing beside {PACKAGE}; install tftool again")
+    raise InputError(f"the built-in {name} are missing beside {PACKAGE}: install tftool again")
 
 
 def names() -> list[str]:

@@ -117,7 +117,11 @@ class Document:
             self.refuse(place, f"this is not YAML: {showable(said)}", error)
         except (ValueError, OverflowError) as error:
             # "\\UFFFFFFFF" in quotes names a character that does not exist.
-            self.refuse(TextPlace(0, 0), "an escape in quotes names no character", error)
+            self.refuse(
+                TextPlace(0, 0),
+                "an escape such as \\x in quotes is not valid: correct it, or use single quotes",
+                error,
+            )
         return root
 
     def refuse(self, place: TextPlace, text: str, cause: Exception | None = None) -> NoReturn:
@@ -140,7 +144,11 @@ class _TreeReader:
         for event in self.events:
             if isinstance(event, yaml.DocumentStartEvent):
                 if root is not None:
-                    self.refuse(event, "a second document starts here; one file is one scenario")
+                    self.refuse(
+                        event,
+                        "a second YAML document starts here, but a file contains one scenario: "
+                        "remove the line '---'",
+                    )
             elif isinstance(event, yaml.NodeEvent):
                 root = self.node(event)
         if root is None:
@@ -170,7 +178,7 @@ class _TreeReader:
             while not isinstance(key_event := next(self.events), yaml.MappingEndEvent):
                 key = self.node(key_event)
                 if not isinstance(key, Scalar):
-                    self.refuse(key_event, "a key is one word, not a list or a mapping")
+                    self.refuse(key_event, "a key must be one word, not a list or a mapping")
                 entries.append((key, self.node(next(self.events))))
             node = Mapping(place, tuple(entries))
         if event.anchor is not None:
@@ -181,7 +189,7 @@ class _TreeReader:
         anchor = event.anchor or ""
         known = self.anchors.get(anchor)
         if known is None:
-            self.refuse(event, f"*{showable(anchor)} is no anchor defined before")
+            self.refuse(event, f"*{showable(anchor)} is not an anchor that was defined before")
         return known
 
     def refuse(self, event: yaml.Event, text: str) -> NoReturn:

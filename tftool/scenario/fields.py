@@ -348,7 +348,9 @@ def _tag(
     reading.try_read(lambda n, r: r.values(n.place, rest, common, what), node)
     if tags:
         second, _ = entries[tags[1]]
-        raise reading.refuse(second, f"{what} has one subject; write {listed(tags)} separately")
+        raise reading.refuse(
+            second, f"{what} can have only one subject: write {listed(tags)} as separate items"
+        )
     anywhere = set(common)
     for name, kind in kinds.items():
         anywhere |= {key for key, (_, aside) in parts_of(kind).items() if aside}

@@ -156,7 +156,11 @@ class _ScenarioReader:
         for name, (key, value) in entries.items():
             if _WORD.fullmatch(name) is None:
                 whole = False
-                reading.note(key, f"{quoted(name)} names no argument: letters, digits and _ only")
+                reading.note(
+                    key,
+                    f"{quoted(name)} is not a valid name of an argument: use only letters, digits "
+                    "and _",
+                )
                 continue
             # A default is read as text; each use of the argument parses it.
             default = reading.try_read(values.text, value)
@@ -215,7 +219,11 @@ class _ScenarioReader:
                 reading.note(item, f"the name '{name}' is reserved; choose another name")
             if name in taken:
                 whole = False
-                reading.note(item, f"the node of line {taken[name]} is named {quoted(name)} too")
+                reading.note(
+                    item,
+                    f"the node of line {taken[name]} is also named {quoted(name)}: give one of "
+                    "them another name",
+                )
             taken.setdefault(name, item.place.line + 1)
             if kind == "" or parameters is UNREAD:
                 whole = False
@@ -268,12 +276,12 @@ class _ScenarioReader:
                 return "", "", UNREAD
             entries = read
         if not entries:
-            reading.note(item, f"a node is missing here; there are {listed(KINDS)}")
+            reading.note(item, f"no kind of node is given here: write one of {listed(KINDS)}")
             return "", "", UNREAD
         (kind, (key, value)), *more = entries.items()
         if kind not in KINDS:
             near = suggest(kind, KINDS) or f"; there are {listed(KINDS)}"
-            reading.note(key, f"there is no node {quoted(kind)}{near}")
+            reading.note(key, f"there is no kind of node {quoted(kind)}{near}")
             return "", "", UNREAD
         for word, (other, _) in more:
             hint = (
@@ -281,7 +289,9 @@ class _ScenarioReader:
                 if word in KINDS[kind].fields or word == "name"
                 else "begin each node with '- '"
             )
-            reading.note(other, f"{quoted(word)} is beside '{kind}', not in it; {hint}")
+            reading.note(
+                other, f"{quoted(word)} is at the same level as '{kind}', not below it: {hint}"
+            )
         known = {**KINDS[kind].fields, "name": Key(values.name("a node"), "")}
         parameters = reading.try_read(lambda node, r: r.record(node, known, f"a {kind}"), value)
         if parameters is UNREAD:
@@ -363,7 +373,9 @@ class _ScenarioReader:
         if isinstance(node, document.Sequence):
             found: tuple[Duration, ...] = values.several(self.moment, "moments")(node, reading)
             if not found:
-                raise reading.refuse(node, "the list of moments is empty")
+                raise reading.refuse(
+                    node, "the list of moments is empty: write at least one, such as 2 s"
+                )
             return found
         return (self.moment(node, reading),)
 
@@ -377,21 +389,26 @@ class _ScenarioReader:
         every = LOOK_EVERY if given["every"] is None else given["every"]
         if said == ["at"]:
             if given["every"] is not None:
-                raise reading.refuse(place, "'every' goes with by, during or always")
+                raise reading.refuse(
+                    place, "'every' is only allowed together with 'by', 'during' or 'always'"
+                )
             return tuple(When("at", at, at, every) for at in given["at"])
         end = self.duration or 0
         if said == ["always"] and not given["always"]:
-            raise reading.refuse(place, "always: false tests nothing; leave the expectation out")
+            raise reading.refuse(place, "'always: false' tests nothing: leave the expectation out")
         first, last = {
             "by": (0, given["by"]),
             "during": given["during"],
             "always": (0, end),
         }[said[0]]
         if first > last:
-            raise reading.refuse(place, "during: the first moment is after the last one")
+            raise reading.refuse(
+                place, "the first moment of 'during' is after the last one: exchange the two"
+            )
         self.looks += (last - first) // every
         if self.looks > MOST_LOOKS:
             raise reading.refuse(
-                place, f"that is more than {MOST_LOOKS:,} checks; give 'every' a longer time"
+                place,
+                f"the scenario makes more than {MOST_LOOKS:,} checks: give 'every' a longer time",
             )
         return (When("by" if said == ["by"] else "during", first, last, every),)

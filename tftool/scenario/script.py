@@ -98,7 +98,7 @@ class Script(Node):
             if silent < SILENCE:
                 raise
             raise StepFailed(
-                f"'{service}' has not answered for {as_seconds(silent):g} s, up to the end"
+                f"'{service}' did not answer in the last {as_seconds(silent):g} s of the scenario"
             ) from None
 
     async def wait_until(self, stamp: Stamp) -> None:
@@ -355,7 +355,7 @@ class StopNode(Action):
             # such programs is imported only if there are any.
             script.world.remove(getattr(node, "program", node))
         if not gone:
-            script.warn(f"No node is named '{self.node}' (any more); nothing is stopped")
+            script.warn(f"No node is named '{self.node}' now, so no node was stopped")
 
 
 @declare(ACTIONS, "say", short="text")

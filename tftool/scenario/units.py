@@ -64,22 +64,22 @@ def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
         raise reading.refuse(node, f"{quoted(text)} is not {unit.kind}: {_about(written, unit)}")
     # Compared as a float, because 1e999999999 as a Decimal would be written out.
     if not abs(float(digits)) <= FARTHEST:
-        raise reading.refuse(node, f"{quoted(text)} is too large: more than {FARTHEST:.0e}")
+        raise reading.refuse(node, f"{quoted(text)} is too large: write at most {FARTHEST:.0e}")
     return digits, written or unit.name
 
 
 def _about(written: str, unit: Unit) -> str:
     if not unit.factors:
-        return f"it has no unit, so no {quoted(written)}"
+        return f"it must have no unit: leave out {quoted(written)}"
     may = f"its unit may be {', '.join(unit.factors)}"
     for other in _UNITS:
         if written in other.factors:
             minutes = " (minutes are min)" if (written, unit) == ("m", DURATION) else ""
-            return f"{written} makes it {other.kind}; {may}{minutes}"
+            return f"{written} is the unit of {other.kind}; {may}{minutes}"
     for known in unit.factors:
         if known.lower() == written.lower():
-            return f"{quoted(written)} is no unit of it; did you mean '{known}'?"
-    return f"{quoted(written)} is no unit of it; {may}"
+            return f"{quoted(written)} is not a unit of it; did you mean '{known}'?"
+    return f"{quoted(written)} is not a unit of it; {may}"
 
 
 def quantity(unit: Unit, *, least: float = -math.inf) -> Reader:
@@ -139,7 +139,7 @@ def whole(least: int, most: int) -> Reader:
         value = quantity(NUMBER)(node, reading)
         if not (value.is_integer() and least <= value <= most):
             raise reading.refuse(
-                node, f"a whole number from {least} to {most} is wanted here, not {value:g}"
+                node, f"expected a whole number from {least} to {most}, not {value:g}"
             )
         return int(value)
 
@@ -154,7 +154,9 @@ def name(what: str = "a name") -> Reader:
         if not value.strip():
             raise reading.refuse(node, f"expected {what}, not blanks")
         if not value.isprintable():
-            raise reading.refuse(node, f"{quoted(value)} holds characters that cannot be printed")
+            raise reading.refuse(
+                node, f"{quoted(value)} contains characters that cannot be printed"
+            )
         return value
 
     return read
@@ -170,7 +172,9 @@ def turtle(node: Node, reading: Reading) -> str:
     value: str = name("a turtle")(node, reading)
     if _TOPIC.fullmatch(value) is None:
         raise reading.refuse(
-            node, f"{quoted(value)} names no turtle: letters, digits and _ only, no digit first"
+            node,
+            f"{quoted(value)} is not a valid name of a turtle: use only letters, digits and "
+            "_, and no digit first",
         )
     return value
 
