@@ -38,7 +38,7 @@ def test_a_node_that_is_never_spun_is_told_of(ros_runtime, tmp_path):
     assert program.status == 0
     assert ros_runtime.log(program.name) == [
         "node 'still' has ended without being spun, so none of its 2 callbacks was called: "
-        "rclpy.spin(node) serves them"
+        "call rclpy.spin(node)"
     ]
 
 

@@ -95,7 +95,7 @@ def test_a_file_is_launched_or_refused(case):
         ("<push_ros_namespace namespace='1a'/>", "a part must not start with a number"),
         ("<include file='nothing.xml'/>", ":2: cannot read 'nothing.xml'"),
         ("<set_remap from='a b' to='c'/><node pkg='turtlesim' exec='turtlesim_node'/>",
-         "'a b:=c' renames nothing: in 'a b' it must not contain characters other than letters"),
+         "'a b:=c' is not a valid remapping, because of the name 'a b': it must not contain"),
         ("<node pkg='turtlesim' exec='turtlesim_node'><param name='background_r' value='red'/>"
          "</node>", "'background_r' is a whole number from 0 to 255, not 'red'"),
         ("<node pkg='turtlesim' exec='turtlesim_node'><param name='holonomic' value='2'/></node>",

@@ -77,7 +77,7 @@ def test_a_slip_in_what_begins_ros_2s_arguments_is_told(slip):
 
 @pytest.mark.parametrize("level", ["bogus", "me:=wran", "me:="])
 def test_a_log_level_that_is_none_is_told(level):
-    with pytest.raises(UsageError, match=f"'{level}' is no log level; there are debug, info"):
+    with pytest.raises(UsageError, match=f"'{level}' is not a log level: write debug, info"):
         names.parse(["--ros-args", "--log-level", level])
 
 
@@ -114,7 +114,7 @@ def test_a_parameter_file_names_nodes_by_patterns(tmp_path, pattern, fits):
     ("text", "told"),
     [
         ("a: [", r"p\.yaml:\d+:\d+: "),
-        ("node: {a: 1}", "it has no parameters; the layout is"),
+        ("node: {a: 1}", "the file contains no parameters: write 'node_name:'"),
         ("\xff", "it is not UTF-8 text"),
     ],
 )

@@ -202,7 +202,7 @@ def test_parameters_are_set_one_after_the_other_until_one_is_not_declared(node):
         node.set_parameters([Parameter("first", value=2), Parameter("nowhere", value=3)])
 
     assert node.get_parameter("first").value == 2
-    with pytest.raises(TypeError, match="42 is no Parameter"):
+    with pytest.raises(TypeError, match="42 is not a Parameter"):
         node.set_parameters([42])
 
 
@@ -261,7 +261,7 @@ def test_a_parameter_without_a_value_gives_way_to_an_alternative(node):
     assert node.has_parameter("start_type_description_service")
     with pytest.raises(ValueError, match="do not agree"):
         Parameter("x", Parameter.Type.NOT_SET, 42)
-    with pytest.raises(ValueError, match="ParameterValue declares nothing"):
+    with pytest.raises(ValueError, match="ParameterValue is not a default value"):
         node.declare_parameter("x", ParameterValue())
     assert get_parameter_value("null").string_value == "null"
     with pytest.raises(RuntimeError, match="42"):

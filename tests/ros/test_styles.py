@@ -273,6 +273,6 @@ def test_a_file_that_makes_no_node_says_so(ros_runtime, tmp_path):
     ros_runtime.sleep(1.0)
 
     assert ros_runtime.log(program.name) == [
-        "'nothing.py' has ended without rclpy.init(), and so without a node"
+        "'nothing.py' has ended without calling rclpy.init(), so it ran no node"
     ]
     assert program.status == 0

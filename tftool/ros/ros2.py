@@ -162,7 +162,7 @@ def _type_of_topic(node: Node, topic: str) -> str:
     if not found():
         raise UsageError(
             f"There is no topic '{_full(topic)}' after {PATIENCE:g} s: 'tftool ros2 topic list' "
-            "lists them."
+            "lists the topics that exist."
         )
     return found()
 
@@ -465,7 +465,10 @@ def _parameters(node: Node, name: str) -> AsyncParameterClient:
     """
     client = AsyncParameterClient(node, _full(name))
     if not client.wait_for_services(PATIENCE):
-        raise UsageError(f"Node '{_full(name)}' is not there, or has no parameters.")
+        raise UsageError(
+            f"Node '{_full(name)}' does not exist, or has no parameters: 'tftool ros2 node list' "
+            "lists the nodes."
+        )
     return client
 
 
@@ -591,7 +594,10 @@ def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
     except OSError as error:
         raise UsageError(str(error)) from None
     if not given:
-        raise UsageError(f"'{asked.file}' sets no parameters of {_full(asked.node)}")
+        raise UsageError(
+            f"'{asked.file}' contains no parameters of {_full(asked.node)}: write them below the "
+            "name of the node"
+        )
     results = _answer(node, client.set_parameters(list(given.values()))).results
     for name, result in zip(given, results, strict=True):
         outcome = "successful" if result.successful else f"failed: {result.reason}"
@@ -613,7 +619,7 @@ def _node_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
 def _node_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
     full = _full(asked.node)
     if not node.wait_for_node(full, PATIENCE):
-        raise UsageError(f"There is no node '{full}': 'tftool ros2 node list' lists them.")
+        raise UsageError(f"There is no node '{full}': 'tftool ros2 node list' lists the nodes.")
     namespace, _, name = full.rpartition("/")
     of = (name, namespace or "/")
     show(full)

@@ -54,7 +54,9 @@ def _need_executable(workspace: Workspace, target: str, rest: Sequence[str]) -> 
         raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
     known = ", ".join(sorted(found.scripts)) if found is not None else ""
     hint = f" ({known})" if known else ""
-    raise UsageError(f"which executable of package '{target}'?{hint} For a file, give its path")
+    raise UsageError(
+        f"name an executable of package '{target}'.{hint} To run a file, give its path"
+    )
 
 
 def start_program(
@@ -146,7 +148,8 @@ def driven_turtle(words: Sequence[str]) -> str:
     turtle, _, last = topic.strip("/").rpartition("/")
     if last != "cmd_vel" or not turtle:
         raise UsageError(
-            f"'{topic}' is not a topic of a turtle: give --remap turtle1/cmd_vel:=turtle2/cmd_vel"
+            f"'{topic}' is not the cmd_vel topic of a turtle: write --remap "
+            "turtle1/cmd_vel:=turtle2/cmd_vel"
         )
     return turtle
 

@@ -290,7 +290,7 @@ class Fiber:
         """Abandon a fiber whose code ignored the interruption; its thread ends with the process."""
         self.ended = True
         self.error = StuckError(
-            f"'{self.name}' still runs after the end of the run: "
+            f"'{self.name}' did not stop at the end of the run. It is at: "
             f"{self.place() or 'no line of yours is running'}"
         )
 
@@ -340,8 +340,9 @@ class Fiber:
         self._rest.acquire(timeout=1.0)
         self.ended = True
         raise StuckError(
-            f"'{self.name}' has not waited for anything for {self._give_up:g} s, and "
-            f"simulated time waits for it: {place or 'no line of yours is running'}"
+            f"'{self.name}' has computed for {self._give_up:g} s without waiting, and simulated "
+            "time cannot advance meanwhile: let it wait with a timer or time.sleep. It is at: "
+            f"{place or 'no line of yours is running'}"
         )
 
     def _rests_within(self, limit: float) -> bool:

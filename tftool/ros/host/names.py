@@ -216,7 +216,7 @@ def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:
             inside = True
         elif not inside:
             if near_names(word, ["--ros-args"], alike=0.85):
-                raise UsageError(f"'{word}' is unknown; did you mean '--ros-args'?")
+                raise UsageError(f"'{word}' is not a known option; did you mean '--ros-args'?")
             own.append(word)
         elif word == "--":
             inside = False
@@ -253,10 +253,10 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
             add_remap(options, word)
             return
         hint = did_you_mean(word, _OPTIONS)
-        raise UsageError(f"'{word}' is no option after --ros-args{hint}")
+        raise UsageError(f"'{word}' is not an option after --ros-args{hint}")
     value = next(iter(words), None)
     if value is None:
-        raise UsageError(f"'{word}' after --ros-args needs a value")
+        raise UsageError(f"'{word}' after --ros-args needs a value: write one after it")
     if known == "--param":
         add_parameter(options, value)
     elif known == "--remap":
@@ -268,8 +268,8 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
         level = (rest if found else logger).upper()
         if level not in _LEVELS:
             raise UsageError(
-                f"'{value}' is no log level; there are debug, info, warn, error and fatal, "
-                "and LOGGER:=LEVEL for one logger"
+                f"'{value}' is not a log level: write debug, info, warn, error or fatal, or "
+                "LOGGER:=LEVEL for one logger"
             )
         options.levels[logger if found else ""] = level
 
@@ -278,7 +278,7 @@ def add_parameter(options: RosOptions, text: str) -> None:
     """Add a parameter, given as `name:=value` or `node:name:=value`, to the options."""
     name, found, value = text.partition(":=")
     if not found or not name:
-        raise UsageError(f"'{text}' sets no parameter: write name:=value")
+        raise UsageError(f"'{text}' is not a valid parameter assignment: write name:=value")
     node, found, rest = name.rpartition(":")
     options.parameters.append((node if found else "", rest, yaml_value(value)))
 
@@ -287,7 +287,7 @@ def add_remap(options: RosOptions, text: str) -> None:
     """Add a rule `old:=new` or `node:old:=new`; the rules `__node` and `__ns` rename the node."""
     old, found, new = text.partition(":=")
     if not found or not old or not new:
-        raise UsageError(f"'{text}' renames nothing: write old:=new")
+        raise UsageError(f"'{text}' is not a valid remapping: write old:=new")
     node, found, rest = old.rpartition(":")
     if rest in ("__node", "__name"):
         check_node_name(new)
@@ -300,7 +300,10 @@ def add_remap(options: RosOptions, text: str) -> None:
         for name in (rule.old, rule.new):
             fault = topic_name_fault(name)
             if fault is not None:
-                raise UsageError(f"'{text}' renames nothing: in '{name}' {fault.reason}")
+                raise UsageError(
+                    f"'{text}' is not a valid remapping, because of the name '{name}': "
+                    f"{fault.reason}"
+                )
         options.remaps.append(rule)
 
 
@@ -386,8 +389,8 @@ def read_parameters(
         raise InputError(f"{path}{where}: {problem}") from None
     if not found and tree is not None:
         raise InputError(
-            f"{path}: it has no parameters; the layout is 'node_name:', below it "
-            "'ros__parameters:', below that 'name: value'"
+            f"{path}: the file contains no parameters: write 'node_name:', indented below it "
+            "'ros__parameters:', and indented below that 'name: value'"
         )
     return found
 

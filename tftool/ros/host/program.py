@@ -247,7 +247,8 @@ class Program(Node):
         if inspect.isawaitable(value):
             fibers.discard(value)
             raise TftoolError(
-                "on simulated time a thread of a pool cannot wait: use threading.Thread"
+                "on simulated time a thread of a pool cannot wait: use threading.Thread instead "
+                "of the pool"
             )
         return value
 
@@ -324,8 +325,9 @@ class Program(Node):
         self.say(
             "WARN",
             self.name,
-            f"'{self.name}' has polled for {fibers.GIVE_UP:g} s, and simulated time moves on by "
-            f"only {TICK / NANOSECONDS:g} s at a time: wait with time.sleep or a timer: {where}",
+            f"'{self.name}' has polled for {fibers.GIVE_UP:g} s, which makes simulated time slow, "
+            f"with steps of only {TICK / NANOSECONDS:g} s: wait with time.sleep or a timer "
+            f"instead, at {where}",
         )
 
 
@@ -375,7 +377,8 @@ def current() -> Program:
     owner = running()
     if owner is None:
         raise TftoolError(
-            "this rclpy is part of tftool: start the file with 'tftool run' or 'tftool launch', "
-            "or use the pytest fixture 'ros_runtime'"
+            "this rclpy is part of tftool and only works in a program that tftool runs: start "
+            "the file with 'tftool run' or 'tftool launch', or use the pytest fixture "
+            "'ros_runtime'"
         )
     return owner

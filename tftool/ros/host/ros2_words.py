@@ -63,13 +63,13 @@ def _rate(text: str) -> float:
     with suppress(ValueError):
         if 0.0 < (rate := float(text)) < math.inf:
             return rate
-    raise argparse.ArgumentTypeError(f"{text} is no number of Hz above 0")
+    raise argparse.ArgumentTypeError(f"{text} is not a rate: write a number of Hz above 0")
 
 
 def _count(text: str) -> int:
     if text.isdecimal() and int(text) > 0:
         return int(text)
-    raise argparse.ArgumentTypeError(f"{text} is no whole number above 0")
+    raise argparse.ArgumentTypeError(f"{text} is not a count: write a whole number above 0")
 
 
 def _expression(text: str) -> Callable[[Any], bool]:
@@ -77,7 +77,9 @@ def _expression(text: str) -> Callable[[Any], bool]:
     try:
         code = compile(text, "--filter", "eval")
     except SyntaxError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no expression: {error.msg}") from None
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is not a Python expression: {error.msg}"
+        ) from None
     # As in ROS 2, the person who types it runs their own code.
     return lambda message: bool(eval(code, {"m": message}))
 

@@ -90,7 +90,7 @@ def fill(message: Any, values: Any, where: str = "") -> None:
         return
     if not isinstance(values, Mapping):
         what = f"'{where}'" if where else type(message).__name__
-        raise UsageError(f"{what} takes fields, '{{name: value}}', not {values!r}: {known}")
+        raise UsageError(f"{what} needs fields, '{{name: value}}', not {values!r}: {known}")
     fields = {field.name: field for field in message.fields__}
     for name, value in values.items():
         path = f"{where}.{name}" if where else str(name)
@@ -114,7 +114,7 @@ def fill(message: Any, values: Any, where: str = "") -> None:
 def _fitting(field: Any, value: Any, path: str) -> Any:
     if field.size is not None and not isinstance(field.kind, str):
         if not isinstance(value, list):
-            raise TypeError("it takes a list")
+            raise TypeError("a list is needed")
         made = []
         for number, one in enumerate(value):
             element = field.kind()

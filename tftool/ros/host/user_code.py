@@ -32,7 +32,10 @@ def file_body(path: Path) -> Callable[[], None]:
             return
         main = module.__dict__.get("main")
         if not inspect.isfunction(main) or main.__module__ != "__main__" or _reads(code, "main"):
-            owner.warn(f"'{path.name}' has ended without rclpy.init(), and so without a node")
+            owner.warn(
+                f"'{path.name}' has ended without calling rclpy.init(), so it ran no node: call "
+                "rclpy.init() and spin a node"
+            )
         else:
             _end_with(main())
 
@@ -91,7 +94,7 @@ def compile_file(path: Path) -> CodeType:
         return code
     except SyntaxError as error:
         if error.filename is None:
-            raise InputError(f"'{path}' is no Python text: {error.msg}") from None
+            raise InputError(f"'{path}' is not valid Python: {error.msg}") from None
         raise InputError(syntax_sentence(error)) from None
     except ValueError as error:
         raise InputError(f"'{path}' is no Python text: {error}") from None
@@ -135,9 +138,9 @@ def _warn_of_unserved(owner: program.Program) -> None:
     for name, count in () if owner.interrupted else waiting:
         if count and not name.startswith("_"):
             told = (
-                "its callback was not called: rclpy.spin(node) serves it"
+                "its callback was never called: call rclpy.spin(node)"
                 if count == 1
-                else f"none of its {count} callbacks was called: rclpy.spin(node) serves them"
+                else f"none of its {count} callbacks was called: call rclpy.spin(node)"
             )
             owner.warn(f"node '{name}' has ended without being spun, so {told}")
 

@@ -276,7 +276,9 @@ def _is_folder(entry: "os.DirEntry[str]") -> bool:
 def _add_interfaces(package: Package) -> None:
     if package.name in TAKEN:
         if any((package.path / kind).is_dir() for kind in _KINDS):
-            raise InputError(f"a package of interfaces cannot be named '{package.name}' as well")
+            raise InputError(
+                f"two packages of interfaces cannot share the name '{package.name}' as well"
+            )
         return
     texts = {
         (kind, file.stem): read_text(file)

@@ -241,7 +241,9 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
     try:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
-        raise RuntimeError(f"'{log_severity}' is no severity of logging") from None
+        raise RuntimeError(
+            f"'{log_severity}' is not a severity of logging: use LoggingSeverity.INFO, for example"
+        ) from None
 
 
 def clear_config() -> None:

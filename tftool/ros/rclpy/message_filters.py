@@ -63,8 +63,8 @@ def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
     if allow_headerless:
         return ROSClock().now()
     get_logger(who).warning(
-        f"{type(msg).__name__} has no header with a stamp and is left out; "
-        "allow_headerless=True gives it the time it comes in"
+        f"{type(msg).__name__} has no header with a stamp, so the message is ignored: "
+        "allow_headerless=True uses the time of its arrival instead"
     )
     return None
 

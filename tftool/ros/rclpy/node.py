@@ -255,8 +255,8 @@ class Node(NodeGraph, NodeParameters):
         # rclpy takes None too, for a timer that is only waited for; a student's calls nothing.
         if place is not None:
             self.get_logger().warning(
-                f"this timer has no callback and calls nothing; write self.callback, not "
-                f"self.callback(): {place}"
+                "the callback of this timer is None, so it calls nothing: write self.callback, "
+                f"not self.callback(), at {place}"
             )
 
     def create_client(

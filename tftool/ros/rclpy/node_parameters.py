@@ -428,7 +428,7 @@ class NodeParameters:
     def __settable(self, parameters: Iterable[Parameter]) -> None:
         for one in parameters:
             if not isinstance(one, Parameter):
-                raise TypeError(f"{one!r} is no Parameter")
+                raise TypeError(f"{one!r} is not a Parameter")
             if not self._allow_undeclared_parameters:
                 self.__known(one.name)
 
@@ -600,7 +600,8 @@ def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, An
     if isinstance(declared, INTERFACES.message("rcl_interfaces/ParameterValue")):
         if not descriptor.dynamic_typing:
             raise ValueError(
-                "a ParameterValue declares nothing: give its value, or a Parameter.Type"
+                "a ParameterValue is not a default value: give the value itself, or a "
+                "Parameter.Type"
             )
         declared = value_of(declared)
     if isinstance(declared, Type):
@@ -611,7 +612,7 @@ def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, An
             )
         if descriptor.dynamic_typing:
             raise ValueError(
-                f"parameter '{name}' is given a type and dynamic_typing=True: leave one of them out"
+                f"parameter '{name}' has both a type and dynamic_typing=True: leave one of them out"
             )
         return declared, None
     if isinstance(declared, Parameter):

@@ -347,7 +347,9 @@ def declare_qos_parameters(
             else:
                 setattr(qos, field, type(before)[str(value).upper()])
         except (KeyError, TypeError, ValueError) as error:
-            raise InvalidQosOverridesError(f"'{value}' is no value of {name}: {error}") from error
+            raise InvalidQosOverridesError(
+                f"'{value}' is not a value of {name}: {error}"
+            ) from error
     if options.callback is not None:
         result = options.callback(qos)
         if not result.successful:

@@ -114,7 +114,10 @@ class NodeSeat:
             InvalidHandle: If the node is destroyed.
         """
         if self._destroyed:
-            raise InvalidHandle(f"node '{self.name}' is destroyed: it can have nothing new")
+            raise InvalidHandle(
+                f"node '{self.name}' is destroyed, so nothing can be created on it: create it "
+                "before destroy_node()"
+            )
 
     def keep(self, make: Callable[..., T], *args: Any) -> T:
         """Create an entity by `make(*args)` in the event loop's thread, and add it to the node.
@@ -222,7 +225,7 @@ def seat_of(node: Any) -> NodeSeat:
     seat = getattr(node, "_tftool", None)
     if not isinstance(seat, NodeSeat):
         raise TypeError(
-            f"expected a node, got {type(node).__name__}: a class derived from Node calls "
-            "super().__init__('its_name') first"
+            f"expected a node, got {type(node).__name__}: in a class derived from Node, first "
+            "call super().__init__('its_name')"
         )
     return seat

@@ -133,7 +133,7 @@ class Service(_Introspected, WorkQueue):
         if self.is_full:
             raise TftoolError(
                 f"service '{self.full}' has {MOST_WAITING} requests waiting, which its node "
-                f"'{self.seat.authority}' does not process (does it spin?)"
+                f"'{self.seat.authority}' does not process: check that the node spins"
             )
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         self._open.add(answer)

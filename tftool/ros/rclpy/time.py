@@ -442,7 +442,7 @@ class Rate:
             RuntimeError: If the rate is destroyed.
         """
         if self._over:
-            raise RuntimeError("a rate that is destroyed cannot sleep")
+            raise RuntimeError("the rate is destroyed, so it cannot sleep: create a new one")
         self._require_context()
         now = self._program.clock.now()
         if self._due < now:

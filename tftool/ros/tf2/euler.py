@@ -159,7 +159,9 @@ def compose_matrix(
 ) -> Any:
     """Return the 4×4 matrix of a rotation (roll, pitch, yaw in radians) and a translation."""
     if scale is not None or shear is not None or perspective is not None:
-        raise NotImplementedError("compose_matrix takes angles and translate here")
+        raise NotImplementedError(
+            "compose_matrix supports only the arguments angles and translate here"
+        )
     matrix = np.identity(4) if angles is None else euler_matrix(*angles)
     if translate is not None:
         matrix[:3, 3] = translate

@@ -41,7 +41,10 @@ def dtype_from_fields(
     """
     fields = list(fields)
     if point_step is not None and sum(field.count for field in fields) > point_step:
-        raise ValueError(f"the fields do not fit a point of {point_step} bytes")
+        raise ValueError(
+            f"the fields need more than the {point_step} bytes of a point: correct point_step or "
+            "the offsets"
+        )
     order = ">" if is_bigendian else "<"
     names, formats, offsets = [], [], []
     for name, (field, element) in _named(fields):
