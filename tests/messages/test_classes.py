@@ -215,7 +215,7 @@ def test_a_message_that_contains_itself_is_refused_with_the_fields_that_lead_the
 
     assert str(refused.value) == (
         "pkg/msg/Shop: field 'stock': pkg/msg/Tree: field 'b': pkg/msg/Branch: field 't': "
-        "pkg/msg/Tree contains itself, so that no message of it can exist"
+        "pkg/msg/Tree contains itself, so no message of this type can exist"
     )
 
 

@@ -194,7 +194,7 @@ def made(text):
     [
         ("string data", b"", "4 bytes are announced and 0 have arrived"),
         ("string data", struct.pack("<I", 5), "5 bytes are announced and 0 have arrived"),
-        ("string data", struct.pack("<I", 2) + b"ab", "does not end with its zero byte"),
+        ("string data", struct.pack("<I", 2) + b"ab", "does not end with a zero byte"),
         ("string data", struct.pack("<I", 2) + b"\xff\x00", "not UTF-8"),
         ("string data", struct.pack("<I", 4) + b"a\x00b\x00", "continues after its zero byte"),
         ("string<=2 data", struct.pack("<I", 4) + b"abc\x00", "longer than 2 characters"),
@@ -211,7 +211,7 @@ def made(text):
             "announces 100 items, but only 99 bytes",
         ),
         ("std_msgs/Header[] d", struct.pack("<I", 9) + bytes(99), "announces 9 items, but only 99"),
-        ("uint8 data", b"\x01" + bytes(8), "8 bytes are left over"),
+        ("uint8 data", b"\x01" + bytes(8), "8 bytes follow after its end"),
         ("uint8[36] data", bytes(35), "36 bytes are announced and 35 have arrived"),
     ],
 )
@@ -224,7 +224,7 @@ def test_bytes_that_are_no_such_message_are_refused_with_the_reason(text, body, 
     ("payload", "told"),
     [
         (b"", "0 bytes are too few for a header"),
-        (b"\x00\x07\x00\x00" + bytes(8), "header 0007 is not that of plain CDR"),
+        (b"\x00\x07\x00\x00" + bytes(8), "header 0007 is not a header of plain CDR"),
     ],
 )
 def test_a_header_of_another_encoding_is_refused(payload, told):

@@ -159,13 +159,13 @@ def test_a_services_event_is_read_from_the_definition_of_the_service():
 @pytest.mark.parametrize(
     ("name", "text", "told"),
     [
-        ("pkg", "int8 x", "'pkg' is not a name of an interface; write 'package/Name'"),
-        ("pkg/foo/A", "int8 x", "not a name of an interface"),
-        ("pkg/msg/../A", "int8 x", "not a name of an interface"),
-        ("pkg/A\0", "int8 x", "not a name of an interface"),
+        ("pkg", "int8 x", "'pkg' is not the name of an interface: write 'package/Name'"),
+        ("pkg/foo/A", "int8 x", "not the name of an interface"),
+        ("pkg/msg/../A", "int8 x", "not the name of an interface"),
+        ("pkg/A\0", "int8 x", "not the name of an interface"),
         ("pkg/A", "a b c d", "pkg/msg/A: field 'b': there is no interface pkg/msg/a"),
         ("pkg/A", "int8", "pkg/msg/A: 'int8' is not a field"),
-        ("pkg/A", "no/such/Type x", "'no/such/Type' is not a name of an interface"),
+        ("pkg/A", "no/such/Type x", "'no/such/Type' is not the name of an interface"),
         ("pkg/A", f"int8 x\n{RULE}\nint8 y", "does not begin with 'MSG: name'"),
         (
             "pkg/A",
@@ -175,8 +175,8 @@ def test_a_services_event_is_read_from_the_definition_of_the_service():
         ("pkg/A", "int8 X=three", "pkg/msg/A: 'X': 'three' is not a value of type int8"),
         ("pkg/A", "int8 x three", "pkg/msg/A: 'x': 'three' is not a value of type int8"),
         ("pkg/A", f"int8 x {'9' * 5000}", "is not a value of type int8"),
-        ("pkg/A", f"int8[{'9' * 5000}] x", "is not a size of an array"),
-        ("pkg/A", "int8[<=] x", "is not a size of an array"),
+        ("pkg/A", f"int8[{'9' * 5000}] x", "is not a valid size of an array"),
+        ("pkg/A", "int8[<=] x", "is not a valid size of an array"),
         ("pkg/A", "A a", "contains itself"),
         ("pkg/A", "\n".join(f"int8 x{n}" for n in range(10_001)), "more than 10000 fields"),
         (

@@ -109,11 +109,11 @@ ONE = encode_transforms(transforms(random.Random(1), 1))
         (b"", "0 bytes are too few for a header"),
         (b"\x00\x01\x00\x00", "ends before its number of transforms"),
         (b"\x00\x00\x00\x00" + ONE[4:], "only little-endian"),
-        (b"\x00\x07\x00\x00" + ONE[4:], "header 0007 is not that of plain CDR"),
+        (b"\x00\x07\x00\x00" + ONE[4:], "header 0007 is not a header of plain CDR"),
         (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms, with room"),
         (ONE[:16] + b"\xff\xff\xff\xff" + ONE[20:], "a text has the length 4294967295 bytes"),
         (ONE[:-9], "ends within transform 1 of 1|with room for 0"),
-        (ONE + bytes(8), "8 bytes are left over"),
+        (ONE + bytes(8), "8 bytes follow after its end"),
     ],
 )
 @pytest.mark.parametrize("decode", [decode_transforms, decode_columns])
@@ -131,7 +131,7 @@ def one_named(raw):
 @pytest.mark.parametrize(
     ("raw", "told"),
     [
-        (b"abcd", "does not end with its zero byte"),
+        (b"abcd", "does not end with a zero byte"),
         (b"\xff\xfe\x00", "not UTF-8"),
         (b"a\x00b\x00", "continues after its zero byte"),
     ],

@@ -406,7 +406,7 @@ def test_topics_of_a_closed_database_are_refused_and_not_counted_as_empty(tmp_pa
     with open_recording(path) as recording:
         pass
 
-    with pytest.raises(UsageError, match="is closed: read it while"):
+    with pytest.raises(UsageError, match="is closed: read it inside"):
         _ = recording.topics
     assert recording.damage == ()
 
@@ -414,6 +414,6 @@ def test_topics_of_a_closed_database_are_refused_and_not_counted_as_empty(tmp_pa
 def test_a_recording_cannot_be_sent_to_another_process_and_says_what_to_do(tmp_path):
     with (
         open_recording(write_mcap(tmp_path / "run.mcap", SENT)) as recording,
-        pytest.raises(UsageError, match="call open_recording there"),
+        pytest.raises(UsageError, match="call open_recording in that process"),
     ):
         pickle.dumps(recording)

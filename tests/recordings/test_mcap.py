@@ -159,7 +159,7 @@ def test_an_existing_recording_is_replaced_only_when_asked_to(tmp_path):
     write(path, 2)
     before = path.read_bytes()
 
-    with pytest.raises(UsageError, match="exists: --force replaces it"):
+    with pytest.raises(UsageError, match="exists: add --force to replace it"):
         tftool.write_recording(path)
     assert path.read_bytes() == before
 
@@ -173,7 +173,7 @@ def test_a_place_that_cannot_be_written_is_refused_with_a_sentence(tmp_path):
         tftool.write_recording(tmp_path / "missing" / "a.mcap")
     with pytest.raises(UsageError, match="not a compression of MCAP"):
         tftool.write_recording(tmp_path / "a.mcap", compression="rar")
-    with pytest.raises(UsageError, match="has no suffix of a recording"):
+    with pytest.raises(UsageError, match="does not end in the suffix of a recording"):
         tftool.write_recording(tmp_path / "a.txt")
 
     assert os.listdir(tmp_path) == []

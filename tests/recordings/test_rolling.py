@@ -216,6 +216,6 @@ def test_names_that_cannot_hold_it_are_refused(tmp_path):
 
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "notes.txt").write_text("precious")
-    with pytest.raises(UsageError, match="a folder is not replaced"):
+    with pytest.raises(UsageError, match="does not replace folders"):
         RollingRecording(tmp_path / "mine", force=True)
     assert (tmp_path / "mine" / "notes.txt").read_text() == "precious"

@@ -81,7 +81,7 @@ def test_rosbags_reads_it(tmp_path, name, options):
 
 
 def test_what_cannot_be_written_leaves_nothing(tmp_path):
-    with pytest.raises(UsageError, match="has no suffix of a recording"):
+    with pytest.raises(UsageError, match="does not end in the suffix of a recording"):
         tftool.write_recording(tmp_path / "a.txt")
     with pytest.raises(UsageError, match="not a compression of ROS 1 bags"):
         tftool.write_recording(tmp_path / "a.bag", compression="zstd")

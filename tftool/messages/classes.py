@@ -327,7 +327,7 @@ class Interfaces(Schema):
         made = self._made.get(full)
         if made is None:
             if full in within:
-                raise InputError(f"{full} contains itself, so that no message of it can exist")
+                raise InputError(f"{full} contains itself, so no message of this type can exist")
             if len(within) >= MOST_NESTED:
                 raise InputError(f"more than {MOST_NESTED} levels of nested messages")
             made = self._made[full] = self._class(self.structure(full), (*within, full))

@@ -84,7 +84,7 @@ class Layout:
         order = self.headers.get(bytes(payload[:2]))
         if order is None:
             raise MalformedMessage(
-                kind, f"its header {bytes(payload[:2]).hex()} is not that of plain CDR"
+                kind, f"its header {bytes(payload[:2]).hex()} is not a header of plain CDR"
             )
         return order
 
@@ -133,7 +133,7 @@ def check_rest(kind: str, rest: int) -> None:
     """
     # Some writers pad a message to a multiple of 8 bytes.
     if rest > 7:
-        raise MalformedMessage(kind, f"{rest} bytes are left over after it")
+        raise MalformedMessage(kind, f"{rest} bytes follow after its end")
 
 
 def text_bytes(text: str) -> bytes:
@@ -155,7 +155,7 @@ def read_text(raw: bytes) -> str:
         MalformedMessage: If the bytes are not a CDR string.
     """
     if raw and raw[-1] != 0:
-        raise MalformedMessage("string", "a text does not end with its zero byte")
+        raise MalformedMessage("string", "a text does not end with a zero byte")
     text = _decoded(raw[:-1])
     if "\x00" in text:
         raise MalformedMessage("string", "a text continues after its zero byte")

@@ -106,7 +106,7 @@ def full_name(name: str) -> str:
     """
     found = _NAME.fullmatch(name)
     if found is None:
-        raise InputError(f"{name[:200]!r} is not a name of an interface; write 'package/Name'")
+        raise InputError(f"{name[:200]!r} is not the name of an interface: write 'package/Name'")
     package, folder, own = found.groups()
     full = f"{package}/{folder or 'msg'}/{own}"
     return _ROS1_MOVED.get(full, full)
@@ -332,5 +332,5 @@ def _field(full: str, match: "re.Match[str]", recorded: Collection[str] | None) 
 
 def _size(full: str, digits: str) -> int:
     if not (digits.isascii() and digits.isdecimal() and len(digits) <= 10):
-        raise InputError(f"{full}: {digits[:20]} is not a size of an array or a text")
+        raise InputError(f"{full}: {digits[:20]} is not a valid size of an array or a text")
     return int(digits)

@@ -127,7 +127,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
         raise MalformedMessage(KIND, f"it ends within transform {len(places) + 1}") from error
     # Some writers pad a message to a multiple of 8 bytes.
     if size - position > (7 if is_cdr else 0):
-        raise MalformedMessage(KIND, f"{size - position} bytes are left over after it")
+        raise MalformedMessage(KIND, f"{size - position} bytes follow after its end")
     return Walked(order, tuple(places), tuple(fixed))
 
 
@@ -149,7 +149,7 @@ def _byte_order(payload: bytes) -> str:
         return "<"
     if head == _BIG:
         return ">"
-    raise MalformedMessage(KIND, f"its header {payload[:4].hex()} is not that of plain CDR")
+    raise MalformedMessage(KIND, f"its header {payload[:4].hex()} is not a header of plain CDR")
 
 
 def row_span(layout: Layout, length: int) -> tuple[int, int]:

@@ -33,7 +33,7 @@ def check_told(count: int) -> None:
     """
     if count > LARGEST_TOLD:
         raise InputError(
-            f"a record about a topic has {count} bytes; at most {LARGEST_TOLD} are read"
+            f"a record about a topic has {count} bytes; at most {LARGEST_TOLD} can be read"
         )
 
 

@@ -151,8 +151,8 @@ def container_of(path: Path) -> str:
             return one.name
     *others, last = (one.suffix for one in CONTAINERS)
     raise UsageError(
-        f"'{path.name}' has no suffix of a recording: use {', '.join(others)} or {last}, or "
-        "no suffix for a rosbag2 folder."
+        f"'{path.name}' does not end in the suffix of a recording: use {', '.join(others)} or "
+        f"{last}, or no suffix for a rosbag2 folder."
     )
 
 

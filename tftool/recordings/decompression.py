@@ -364,7 +364,7 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
         return lambda piece: bytes(
             frame.compress(piece, block_linked=False, content_checksum=True, store_size=False)
         )
-    raise UsageError(f"'{method}' is an unknown compression: use none, zstd, lz4 or bz2.")
+    raise UsageError(f"'{method}' is not a known compression: use none, zstd, lz4 or bz2.")
 
 
 def best_compression() -> str:

@@ -73,7 +73,7 @@ def listed(place: str) -> list[str]:
     with _failures_told(place):
         found = sorted(system.glob(path))
     if not found:
-        raise InputError(f"'{place}' names no file.")
+        raise InputError(f"'{place}' is not the address of a file.")
     return [system.unstrip_protocol(one) for one in found]
 
 
@@ -98,7 +98,9 @@ def _failures_told(place: str) -> Iterator[None]:
         raise InputError(f"There is nothing at '{place}'.") from error
     except ImportError as error:
         # fsspec's error names the missing packages.
-        raise UsageError(f"'{place}' needs more than the extra 'fleet': {error}") from error
+        raise UsageError(
+            f"'{place}' needs a package that the extra 'fleet' does not contain: {error}"
+        ) from error
     except Exception as error:
         said = " ".join(str(error).split()) or type(error).__name__
         raise InputError(f"'{place}' cannot be fetched: {said}") from error
@@ -301,7 +303,8 @@ def _prefixed(word: str, path: Path) -> Found:
     kind = _kind_with_options(word, path)
     if kind is not Kind.POSES:
         raise InputError(
-            f"'{word}' has a prefix, but is a {kind.value}: only pose files can have one."
+            f"'{word}' has a prefix, but is a {kind.value}: leave the prefix out, which only pose "
+            "files can have."
         )
     return Found(word, kind, (path,))
 
@@ -434,8 +437,8 @@ def _several(word: str, matches: list[str]) -> Found:
     paths, kinds, others = _recordings([Path(match) for match in matches])
     if not paths:
         raise InputError(
-            f"None of the {len(matches)} files that '{word}' names is a recording "
-            "(MCAP, rosbag2, ROS 1 bag)."
+            f"None of the {len(matches)} files that match '{word}' is a recording (MCAP, rosbag2, "
+            "ROS 1 bag)."
         )
     return Found(word, kinds.pop() if len(paths) == 1 else Kind.SEVERAL, paths, others)
 
@@ -450,7 +453,7 @@ def _recordings(
     """
     if len(entries) > MOST_FILES:
         raise InputError(
-            f"{len(entries)} files are more than are opened at once ({MOST_FILES}): name fewer."
+            f"{len(entries)} files are too many to open at once (at most {MOST_FILES}): name fewer."
         )
     found, kinds, others = [], set(), []
     refused: PermissionError | None = None

@@ -124,9 +124,11 @@ def _json(payload: bytes, several: bool) -> list[Shaped]:
         document = json.loads(payload)
         return [_of_json(one) for one in (document["transforms"] if several else [document])]
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as error:
-        raise MalformedMessage("foxglove.FrameTransform", f"not its JSON: {error}") from error
+        raise MalformedMessage(
+            "foxglove.FrameTransform", f"its data is not valid JSON: {error}"
+        ) from error
     except RecursionError as error:
-        raise MalformedMessage("foxglove.FrameTransform", "it is nested too deep") from error
+        raise MalformedMessage("foxglove.FrameTransform", "its JSON is nested too deep") from error
 
 
 def _of_json(one: dict[str, Any]) -> Shaped:
@@ -145,7 +147,9 @@ def _protobuf(payload: bytes, several: bool) -> list[Shaped]:
             return [_of_protobuf(payload)]
         return [_of_protobuf(value) for number, value in _fields(payload) if number == 1]
     except (IndexError, struct.error, TypeError, ValueError) as error:
-        raise MalformedMessage("foxglove.FrameTransform", f"not its protobuf: {error}") from error
+        raise MalformedMessage(
+            "foxglove.FrameTransform", f"its data is not valid protobuf: {error}"
+        ) from error
 
 
 def _of_protobuf(payload: bytes) -> Shaped:
@@ -163,7 +167,7 @@ def _of_protobuf(payload: bytes) -> Shaped:
                     nanoseconds = int(count)
         elif number in (2, 3):
             if not isinstance(value, bytes):
-                raise ValueError("a name is not text")
+                raise ValueError("a frame name is not UTF-8 text")
             names[number - 2] = value.decode("utf-8", "backslashreplace")
         elif number in (4, 5):
             target = place if number == 4 else turn
@@ -200,9 +204,9 @@ def _fields(payload: bytes) -> Iterator[tuple[int, Any]]:
         elif kind in (1, 5):
             length = 8 if kind == 1 else 4
         else:
-            raise ValueError(f"a field of kind {kind}")
+            raise ValueError(f"a field has the wire type {kind}, which is not supported")
         if position + length > size:
-            raise ValueError(f"a field has the length {length} bytes")
+            raise ValueError(f"a field announces {length} bytes, more than the message has")
         yield key >> 3, payload[position : position + length]
         position += length
 

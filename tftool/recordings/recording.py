@@ -127,8 +127,8 @@ class Recording:
 
     def __reduce__(self) -> str:
         raise UsageError(
-            f"Recording '{self.name}' has open files, and cannot be copied or sent to another "
-            "process: call open_recording there."
+            f"Recording '{self.name}' has open files, so it cannot be copied or sent to another "
+            "process: call open_recording in that process."
         )
 
     def close(self) -> None:
@@ -145,8 +145,8 @@ class Recording:
         # A closed database would look like an empty one.
         if self._closed:
             raise UsageError(
-                f"Recording '{self.name}' is closed: read it while it is open, inside its "
-                "with block."
+                f"Recording '{self.name}' is closed: read it inside the 'with' block that opened "
+                "it."
             )
 
     # Content
@@ -337,7 +337,10 @@ class Recording:
         self._topic(topic)
         found = self._readable.headers([topic], self._progress)
         if topic not in found:
-            raise InputError(f"The messages of '{topic}' do not begin with a header.")
+            raise InputError(
+                f"The messages of '{topic}' do not begin with a header, so they have no stamps: "
+                "choose another topic."
+            )
         return found[topic]
 
     def samples(self, frame: str) -> Samples:
@@ -396,8 +399,8 @@ class Recording:
         layout = {"cdr": CDR, "ros1": ROS1}.get(found.encoding)
         if layout is None:
             raise InputError(
-                f"The messages of '{topic}' are written as '{found.encoding}', which cannot "
-                "be decoded here: raw_messages returns their bytes."
+                f"The messages of '{topic}' have the encoding '{found.encoding}', which tftool "
+                "cannot decode: raw_messages() returns their bytes."
             )
         interfaces = Interfaces()
         if found.definition.strip():

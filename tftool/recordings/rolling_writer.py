@@ -98,7 +98,7 @@ class RollingRecording:
         self._is_folder = not path.suffix
         if path.suffix not in ("", RECORDED.suffix):
             raise UsageError(
-                f"'{path.name}' has a suffix that cannot be recorded: use '{RECORDED.suffix}'."
+                f"'{path.name}' has a suffix that cannot be recorded to: use '{RECORDED.suffix}'."
             )
         if self._limits.splits and not self._is_folder:
             raise UsageError(
@@ -135,14 +135,17 @@ class RollingRecording:
         if self._is_folder and os.path.lexists(self.path):
             # Replacing a folder would remove its files before there are new ones.
             raise UsageError(
-                f"'{self.path}' exists, and a folder is not replaced: choose another name."
+                f"'{self.path}' exists, and --force does not replace folders: choose another name."
             )
         refuse_existing(self.path, force=force)
         try:
             if self._is_folder:
                 self.path.mkdir()
             elif self.path.is_dir():
-                raise UsageError(f"'{self.path}' is a folder, which is not replaced.")
+                raise UsageError(
+                    f"'{self.path}' is a folder, which --force does not replace: choose another "
+                    "name."
+                )
             elif not os.access(self.path.parent, os.W_OK):
                 # The ring buffer is written at the end: check now that this is possible.
                 active.open("xb").close()

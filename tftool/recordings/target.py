@@ -27,7 +27,9 @@ def refuse_stdout(path: Path) -> None:
         UsageError: If the file name is `-`.
     """
     if str(path) == "-":
-        raise UsageError("'-' means stdout, to which this cannot be written: name a file.")
+        raise UsageError(
+            "'-' means stdout, but this output can only be written to a file: name a file."
+        )
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
@@ -38,7 +40,7 @@ def refuse_existing(path: Path, *, force: bool) -> None:
     """
     refuse_stdout(path)
     if not force and os.path.lexists(path):
-        raise UsageError(f"'{path}' exists: --force replaces it.")
+        raise UsageError(f"'{path}' exists: add --force to replace it, or choose another name.")
 
 
 class Target:
@@ -69,10 +71,11 @@ class Target:
         refuse_existing(path, force=force)
         if os.path.lexists(path):
             if path.exists() and not path.is_file() and not path.is_dir():
-                raise UsageError(f"'{path}' is a device or a pipe: name a file.")
+                raise UsageError(f"'{path}' is a device or a pipe: name a regular file.")
             if path.is_dir() and not _is_recording_folder(path):
                 raise UsageError(
-                    f"'{path}' is a folder with more than a recording, and is not replaced."
+                    f"'{path}' is a folder that contains more than a recording, which --force "
+                    "does not replace: choose another name."
                 )
         try:
             self._clear()

@@ -47,7 +47,8 @@ def read_mesh(name: str, content: bytes) -> list[Mesh]:
     suffix = PurePosixPath(name).suffix.lower()
     if suffix not in _READERS:
         raise MeshRefused(
-            f"'{name}' cannot be drawn on a terminal, only {', '.join(_READERS)}: use 'tftool view'"
+            f"'{name}' cannot be drawn on a terminal, which shows only {', '.join(_READERS)}: use "
+            "'tftool view'"
         )
     try:
         meshes = _READERS[suffix](content)
@@ -75,7 +76,7 @@ def _stl(content: bytes) -> list[Mesh]:
         rows = [line.split()[1:4] for line in content.splitlines() if b"vertex" in line]
         corners = np.array(rows, float).reshape(-1, 3)
         if not len(corners) or len(corners) % 3:
-            raise ValueError("neither a binary nor a text STL")
+            raise ValueError("it is neither a binary nor a text STL file")
     return [Mesh(corners.astype(float), np.arange(len(corners)).reshape(-1, 3))]
 
 
@@ -96,7 +97,7 @@ def _obj(content: bytes) -> list[Mesh]:
 
 def _dae(content: bytes) -> list[Mesh]:
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
-        raise ValueError("a document type is not supported")
+        raise ValueError("its document type (<!DOCTYPE>) is not supported")
     root = ElementTree.fromstring(content)
     for one in root.iter():
         one.tag = one.tag.rpartition("}")[2]
@@ -171,7 +172,7 @@ def _geometry(
         )
         numbers = ids[positions.attrib["source"][1:]].find("float_array")
         if numbers is None:
-            raise ValueError("a geometry without corners")
+            raise ValueError("a geometry has no corners")
         points = _numbers(numbers).reshape(-1, 3)
         offset = int(vertex.get("offset", 0))
         lists = [_indices(one)[offset::stride] for one in faces.findall("p")]

@@ -105,7 +105,7 @@ class MeshFolders:
         """
         match = re.fullmatch(r"/mesh/(\d{1,6})/(.+)", address)
         if match is None or int(match[1]) >= len(self.roots):
-            raise MeshRefused("There is no such mesh.")
+            raise MeshRefused("The page has no such mesh.")
         root = self.roots[int(match[1])]
         path = root / self._inside(root, unquote(match[2]))
         try:
@@ -127,11 +127,12 @@ class MeshFolders:
                 )
             return package, match[2]
         if _SCHEME.match(name):
-            raise MeshRefused(
-                f"'{name}' is not shown: only package:// and relative paths are allowed"
-            )
+            raise MeshRefused(f"'{name}' is not shown: use package:// or a relative path")
         if name.startswith(("/", "\\")):
-            raise MeshRefused(f"'{name}' is an absolute path, which is never shown")
+            raise MeshRefused(
+                f"'{name}' is not shown: absolute paths are not allowed, use package:// or a "
+                "relative path"
+            )
         for root in self._relative_roots():
             try:
                 self._inside(root, name)

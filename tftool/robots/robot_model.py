@@ -52,7 +52,7 @@ class JointStates:
         count = len(self.stamps) if self.stamps.ndim == 1 else -1
         if self.positions.shape != (count, len(self.names)):
             raise ValueError(
-                f"stamps has shape {self.stamps.shape} and positions {self.positions.shape}; "
+                f"stamps has shape {self.stamps.shape} and positions {self.positions.shape}, but "
                 f"{len(self.names)} joints need (n,) and (n, {len(self.names)})"
             )
         if len(set(self.names)) != len(self.names):
@@ -131,7 +131,9 @@ class Robot:
         for name, position in given.items():
             self._check_joint(name)
             if not math.isfinite(position):
-                raise UsageError(f"the position of joint '{name}' is {position}; give a number")
+                raise UsageError(
+                    f"the position of joint '{name}' is {position}: give a finite number"
+                )
         positions: dict[str, float] = {}
         for name, joint in self.joints.items():
             if joint.moves:

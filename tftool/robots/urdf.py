@@ -70,8 +70,8 @@ def load_description(
     if is_xacro(text):
         if plain:
             raise InputError(
-                f"'{path}' contains xacro, which a scenario does not run: expand it first "
-                "(xacro FILE -o robot.urdf)"
+                f"'{path}' contains xacro, which scenarios do not expand: expand it first (xacro "
+                "FILE -o robot.urdf)"
             )
         if Path(path).suffix != ".xacro":
             raise InputError(

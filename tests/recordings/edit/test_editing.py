@@ -673,5 +673,5 @@ def test_a_bag_keeps_its_encoding_in_an_mcap_file_unless_it_is_asked_for_ros_2(t
         with open_recording(tmp_path / f"{name}.mcap") as recording:
             assert {topic.encoding for topic in recording.topics} == {encoding}
         assert edges(tmp_path / f"{name}.mcap") == edges(bag)
-    with pytest.raises(UsageError, match=r"with --ros2 write 'b\.mcap'"):
+    with pytest.raises(UsageError, match=r"those of ROS 2: write 'b\.mcap'"):
         edit([str(bag)], tmp_path / "b.bag", Edits(), ros2=True)

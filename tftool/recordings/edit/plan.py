@@ -137,7 +137,9 @@ def open_input(name: str) -> EditedInput:
         refused: list[InputError] = []
         for path in paths:
             if path.is_dir():
-                raise InputError(f"'{path}' is a folder among files: name recordings one by one.")
+                raise InputError(
+                    f"'{path}' is a folder: with several inputs, name each recording itself."
+                )
             try:
                 opened.add(path)
                 continue
@@ -233,7 +235,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
     low = edits.start if edits.start is not None else 0
     high = edits.end if edits.end is not None else LAST_STAMP
     if high < low:
-        raise UsageError("--to is before --from.")
+        raise UsageError("--to is before --from: exchange the two.")
     moving = [(one, edge) for one in recordings for edge in one.edges if not edge.static]
     spans: dict[LinkName, tuple[Stamp, Stamp]] = {}
     offsets, logs = [], []
@@ -299,7 +301,10 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
     if not edits.reparent:
         return None
     if len(recordings) > 1:
-        raise UsageError("--reparent works on one recording: join them first.")
+        raise UsageError(
+            "--reparent works on one recording only: join the recordings first, then use it on "
+            "the result."
+        )
     recording = recordings[0]
     static = {edge.child: edge.parent for edge in recording.edges if edge.static}
     parents: dict[str, set[str]] = {}
@@ -310,7 +315,10 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
         if new not in frames:
             raise UsageError(_no_such_frame(new, frames))
         if child in _above(new, parents):
-            raise UsageError(f"'{new}' is below '{child}' and cannot become its parent.")
+            raise UsageError(
+                f"'{new}' is below '{child}' in the tree, so it cannot become its parent: choose "
+                "another frame."
+            )
         is_static = static.get(child) == parent
         if is_static and not _joined_by_statics(parent, new, static):
             raise UsageError(

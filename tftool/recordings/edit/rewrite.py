@@ -107,8 +107,8 @@ def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
         for path in {path.resolve() for path in one.paths}:
             if path in seen:
                 raise UsageError(
-                    f"'{one.name}' is already an input, as '{seen[path]}': a recording is not "
-                    "joined to itself."
+                    f"'{one.name}' is already an input, as '{seen[path]}': name each recording "
+                    "only once."
                 )
             seen[path] = one.name
 
@@ -125,7 +125,10 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
                 raise UsageError(f"'{output}' is the input: name another output.")
             part = output.with_name(output.name + PART)
             if part.exists() and path.exists() and part.samefile(path):
-                raise UsageError(f"'{path}' is where '{output}' would be written: rename it first.")
+                raise UsageError(
+                    f"'{path}' is an input, but '{output}' would be written there: choose another "
+                    "output."
+                )
             if path.parent.resolve() == output.resolve() and output.exists():
                 raise UsageError(f"'{output}' contains the input: name another output.")
 
@@ -154,14 +157,14 @@ class _Job:
         encoding = container_named(container).encoding if container else ""
         if ros2 and encoding == "ros1":
             raise UsageError(
-                f"A {output.suffix} has ROS 1's messages: with --ros2 write "
-                f"'{output.stem}.mcap' or .db3."
+                f"A {output.suffix} file contains messages of ROS 1, but --ros2 makes those of "
+                f"ROS 2: write '{output.stem}.mcap' or .db3."
             )
         self._ros2 = ros2 or encoding == "cdr"
         if edits.split_every and container:
             raise UsageError(
-                f"--split-every writes several files into a folder: '{output.stem}', not "
-                f"'{output.name}'."
+                "--split-every writes several files into a folder: name the output "
+                f"'{output.stem}', not '{output.name}'."
             )
         if not container:
             kinds = {tape.container for tape in self._tapes}
@@ -386,7 +389,9 @@ class _Job:
         if found is not None:
             return found
         if len(self._outputs) >= MOST_PARTS:
-            raise UsageError(f"That would make more than {MOST_PARTS} files: split less often.")
+            raise UsageError(
+                f"--split-every would make more than {MOST_PARTS} files: choose a longer time."
+            )
         path = self._path_in(part, len(self._outputs))
         tape = self._tapes[number if self._by_tape else 0]
         output = self._outputs[number] = EditedFile(

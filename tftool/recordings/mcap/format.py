@@ -170,7 +170,7 @@ def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, S
             return starts, lengths, log_times
     places = pairs[:, 1]
     if len(data) < IN_CHUNK or places.min() < 0 or places.max() > len(data) - IN_CHUNK:
-        raise InputError("its message index points outside of it")
+        raise InputError("its message index points outside of the chunk")
     # Read the code (1 byte), length (8) and channel (2) of all records at once.
     heads = rows_of(data, places, 16)
     lengths = (heads[:, 0] >> np.uint64(8)).view(np.int64)
@@ -201,9 +201,7 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
         if not code:
             raise InputError("a record has the invalid code 0")
         if position > size:
-            raise InputError(
-                f"a record has the length {length} bytes, but only {size - first} follow"
-            )
+            raise InputError(f"a record announces {length} bytes, but only {size - first} follow")
         yield code, first, position
 
 
@@ -256,7 +254,7 @@ def index_entry(summary: bytes, first: int, last: int, size: int) -> IndexEntry:
     (indexes_length,) = U64.unpack_from(summary, first + 36 + count)
     method, place = text_at(summary, first + 44 + count, last)
     if place + 16 > last:
-        raise InputError("a chunk's index is cut")
+        raise InputError("the index of a chunk ends too early")
     packed, unpacked = _SIZES.unpack_from(summary, place)
     found = IndexEntry(
         start, end, position, length, indexes, indexes_length, method, packed, unpacked
@@ -301,7 +299,7 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length
     if end > (len(body) if last is None else last):
-        raise InputError(f"a text has the length {length} bytes")
+        raise InputError(f"a text announces {length} bytes, more than the record has")
     return body[place + 4 : end].decode("utf-8", "surrogateescape"), end
 
 

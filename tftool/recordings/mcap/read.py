@@ -298,7 +298,7 @@ class Mcap(ChunkedReader):
         """Yield chunks, and blocks of messages between them; store other records in `extras`."""
         yield from self._pieces()
         if not self._ended:
-            self.note(f"The recording breaks off at byte {self._ended_at}.")
+            self.note(f"The recording ends too early, at byte {self._ended_at}.")
 
     def _pieces(self) -> "Iterator[Chunk | Loose]":
         """Yield chunks and messages while reading record by record; note how the file ends."""
@@ -352,7 +352,7 @@ class Mcap(ChunkedReader):
         low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
         (length,) = U32.unpack_from(head, 37)
         if length > LONGEST_METHOD:
-            raise InputError(f"a compression's name has the length {length} bytes")
+            raise InputError(f"the name of a compression announces {length} bytes")
         method = head[41 : 41 + length].decode("utf-8", "surrogateescape")
         (packed,) = U64.unpack_from(head, 41 + length)
         place = position + 49 + length
@@ -595,4 +595,4 @@ def check_length(length: int) -> None:
         InputError: If the length is too small.
     """
     if length < MESSAGE_HEAD.size:
-        raise InputError(f"a message's record has the length {length} bytes")
+        raise InputError(f"the record of a message announces {length} bytes")

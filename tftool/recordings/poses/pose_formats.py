@@ -282,5 +282,5 @@ def format_of_file(word: str, path: Path) -> tuple[PoseFormat, PoseOptions]:
     with path.open("rb") as file:
         form = recognised(file.read(HEAD), str(path))
     if form is None:
-        raise InputError(f"'{path}' is not a pose file any more.")
+        raise InputError(f"'{path}' has changed and is not a pose file any more.")
     return form, options

@@ -283,7 +283,7 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
         more = "more" if len(link.stamps) > count else f"{len(link.stamps)}"
         raise InputError(
             f"'{path}' has {count} poses, and '{times}' has {more} stamps: they do not belong "
-            "together. --pose-rate HZ ignores the stamps."
+            "together. To ignore the stamps, give --pose-rate HZ."
         )
     return [link]
 

@@ -162,15 +162,13 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
         if not 0 < length <= _LARGEST_HEADER or first > size:
             if partial:
                 return
-            raise InputError(f"a record has a header of {length} bytes")
+            raise InputError(f"a record announces a header of {length} bytes")
         (count,) = U32.unpack_from(data, first - 4)
         last = first + count
         if last > size:
             if partial:
                 return
-            raise InputError(
-                f"a record has the length {count} bytes, but only {size - first} follow"
-            )
+            raise InputError(f"a record announces {count} bytes, but only {size - first} follow")
         yield fields_of(data[position + 4 : first - 4]), first, last
         position = last
 
@@ -183,7 +181,7 @@ def fields_of(header: bytes) -> dict[bytes, bytes]:
         (length,) = U32.unpack_from(header, position)
         position += 4
         if position + length > size:
-            raise InputError(f"a field has the length {length} bytes")
+            raise InputError(f"a field announces {length} bytes, more than the header has")
         name, _, value = header[position : position + length].partition(b"=")
         found[name] = value
         position += length

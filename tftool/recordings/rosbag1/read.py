@@ -120,7 +120,7 @@ class Rosbag1(ChunkedReader):
         if len(infos) != count:
             raise InputError(f"it names {len(infos)} chunks of {count}")
         if any(info.position >= place for info in infos):
-            raise InputError("a chunk is beyond its end")
+            raise InputError("a chunk is beyond the end of the file")
         for info in infos:
             self._chunks.append(Chunk(self, info.position, counts=info.counts))
             self._count(info.counts)
@@ -159,7 +159,7 @@ class Rosbag1(ChunkedReader):
         """Yield the chunks of the bag."""
         yield from self._pieces()
         if not self._ended:
-            self.note(f"The recording breaks off at byte {self._ended_at}.")
+            self.note(f"The recording ends too early, at byte {self._ended_at}.")
 
     def _pieces(self) -> Iterator[Chunk]:
         """Yield the chunks while reading record by record; note how the file ends."""
@@ -254,7 +254,7 @@ class Rosbag1(ChunkedReader):
             times = np.stack([words_at(data, starts - n, "<u4") for n in (12, 8)], axis=1)
             marks = words_at(data, starts - 16, "<u4")
             if (times != entries[:, :2]).any() or (marks != _BEFORE_TIME).any():
-                raise InputError("its index has other times")
+                raise InputError("the times in its index differ from those of the messages")
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:

@@ -212,7 +212,7 @@ def unpack_file(path: Path, target: Path) -> str:
                 if not done:
                     raise InputError(
                         f"'{path}' ends after {path.stat().st_size} bytes without any content: it "
-                        "was cut, or never finished."
+                        "was truncated, or never finished."
                     )
                 return ""
             done += len(piece)
