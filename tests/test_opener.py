@@ -175,7 +175,7 @@ def test_a_scenario_is_played_for_5_s_or_as_far_as_is_asked(tmp_path):
         ("turtles", {"with_odometry": True}, "leave out --with-odometry"),
         ("turtles", {"until": -1.0}, "give more than 0"),
         ("arm.urdf", {"with_odometry": True}, "leave out --with-odometry"),
-        ("arm.urdf", {"urdf": "arm.urdf"}, "--urdf is for a recording"),
+        ("arm.urdf", {"urdf": "arm.urdf"}, "--urdf is only allowed for a recording"),
         ("arm.urdf", {"cache_time": seconds(1)}, "leave out --cache-time"),
         ("statics.sh", {"joints": {"a": 1.0}}, "leave out --joint a=1"),
     ],

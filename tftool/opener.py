@@ -203,9 +203,9 @@ def refuse_options_of_files(
         UsageError: If such an option was given.
     """
     what = "The session that runs" if word is None else f"'{visible(word)}'"
-    robot.refuse(f"{what} is no robot description and no recording")
-    recording.refuse(f"{what} is no recording")
-    options_of(word or "").refuse(f"{what} is no pose file")
+    robot.refuse(f"{what} is neither a robot description nor a recording")
+    recording.refuse(f"{what} is not a recording")
+    options_of(word or "").refuse(f"{what} is not a pose file")
 
 
 def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, Any]) -> None:

@@ -34,7 +34,9 @@ def refused(read, path):
 
 
 def test_a_pipe_into_which_no_process_writes_is_refused(pipe):
-    assert refused(read_named, pipe) == "it is a pipe, and no process writes into it"
+    assert refused(read_named, pipe) == (
+        "it is a pipe, but no process writes into it: start the writer first"
+    )
     assert refused(open_regular, pipe) == "it is not a regular file"
 
 

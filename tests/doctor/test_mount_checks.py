@@ -164,4 +164,4 @@ def test_a_topic_is_a_motion_whose_mount_is_compared_with_tf(tftool, run):
 def test_rows_are_no_place_for_mounts(tftool, run, tmp_path):
     result = tftool("doctor", run[0], "--mounts", "-o", tmp_path / "rows.csv")
     assert result.status == 2
-    assert "--mounts goes with a report" in result.err
+    assert "--mounts cannot be combined with -o" in result.err

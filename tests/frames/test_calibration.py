@@ -114,7 +114,7 @@ def test_planar_is_refused_where_the_body_tilts():
     found = solved(world(5, seconds=20.0), planar=True)
 
     assert not found
-    assert "Leave out --planar" in found.why
+    assert "leave out --planar" in found.why
 
 
 def test_unseen_parts_are_kept_from_the_published_mount():

@@ -43,7 +43,11 @@ def open_named(path: Path) -> BinaryIO:
         # None means that a process has the pipe open, but has not written yet.
         first = file.read(io.DEFAULT_BUFFER_SIZE)
         if first == b"" and stat.S_ISFIFO(mode):
-            raise OSError(errno.EINVAL, "it is a pipe, and no process writes into it", str(path))
+            raise OSError(
+                errno.EINVAL,
+                "it is a pipe, but no process writes into it: start the writer first",
+                str(path),
+            )
         os.set_blocking(file.fileno(), True)
         data = bytearray(first or b"")
         while len(data) <= LARGEST and (more := file.read(io.DEFAULT_BUFFER_SIZE)):
@@ -87,7 +91,9 @@ def reader_there(path: str, flags: int) -> int:
     except OSError as error:
         if error.errno != errno.ENXIO:
             raise
-        raise OSError(errno.EINVAL, "no process reads from it", path) from None
+        raise OSError(
+            errno.EINVAL, "no process reads from it: start the reader first", path
+        ) from None
     if _AT_ONCE:
         os.set_blocking(number, True)
     return number

@@ -51,8 +51,8 @@ def seconds(value: float) -> int:
         if not hasattr(value, "__array__"):
             raise
         raise TypeError(
-            "seconds takes one number, not an array: "
-            "np.rint(times * 1e9).astype(np.int64) converts an array"
+            "seconds() converts one number, not an array: for an array use np.rint(times * "
+            "1e9).astype(np.int64)"
         ) from error
     if not is_finite:
         raise ValueError(f"{value!r} is not a finite number of seconds")

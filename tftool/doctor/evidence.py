@@ -186,7 +186,10 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
     end = evidence.end if scope.end is None else scope.end.stamp(evidence.start)
     if begin > evidence.end or end < evidence.start or begin >= end:
         length = as_seconds(evidence.end - evidence.start)
-        raise InputError(f"'{source.name}' has no data in that time: it lasts {length:.3f} s.")
+        raise InputError(
+            f"'{source.name}' has no data between --from and --to: choose times from 0 to "
+            f"{length:.3f} s, the length of the recording."
+        )
     return within(evidence, max(begin, evidence.start), min(end, evidence.end))
 
 

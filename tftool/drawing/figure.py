@@ -118,7 +118,7 @@ def plot(
     """
     found = _trajectories(frames, target, source)
     if not any(one.path.valid.any() for one in found):
-        raise UsageError("There is no pose to draw.")
+        raise UsageError("No pose can be drawn: all lookups were refused.")
     words = [what] if isinstance(what, str) else list(what)
     begin = min(int(one.path.stamps[0]) for one in found if len(one.path))
     begin = begin if start is None else start
@@ -133,7 +133,9 @@ def plot(
         return ax
     drawn = panels(found, begin, chosen(words or ["position"]))
     if len(drawn) > 1:
-        raise UsageError(f"One axes can hold one panel, not {len(drawn)}: name one of them.")
+        raise UsageError(
+            f"One axes can show one panel, not {len(drawn)}: choose one with only=[…]."
+        )
     _draw_panel(ax, drawn[0], shades(found, begin), dark)
     ax.set_xlabel("time, s")
     return ax
@@ -148,8 +150,8 @@ def _trajectories(
     if isinstance(frames, TransformArray | Trajectory | Sequence):
         if target is not None or source is not None:
             raise TypeError(
-                "poses already belong to a pair: plot(path), plot(path, ax=axes); for frames "
-                "name a pair: plot(recording, 'map', 'base_link')"
+                "poses already have a pair of frames: call plot(path) or plot(path, ax=axes). "
+                "For frames, name a pair: plot(recording, 'map', 'base_link')"
             )
         given = [frames] if isinstance(frames, TransformArray | Trajectory) else frames
         return [one if isinstance(one, Trajectory) else trajectory_of(one) for one in given]

@@ -220,7 +220,7 @@ def compare(
     tolerance = tolerance or Allowance()
     for side in (first, second):
         if not side.buffer.frames():
-            raise InputError(f"{side.name} has no frames: there is nothing to compare.")
+            raise InputError(f"{side.name} has no frames to compare: choose another source.")
     held = [_held(side) for side in (first, second)]
     notes = []
     shift = 0

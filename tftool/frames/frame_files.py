@@ -130,7 +130,7 @@ def _robot_beside(options: DescriptionOptions) -> Robot | None:
     if options.urdf is None and not options.arguments:
         return None
     if options.urdf is None:
-        options.refuse("Only a robot description has arguments: name it with --urdf FILE")
+        options.refuse("xacro arguments need a robot description: name one with --urdf FILE")
 
     assert options.urdf is not None
     return load_urdf(options.urdf, options.arguments)
@@ -158,7 +158,8 @@ def load_described(found: Found, options: DescriptionOptions) -> Robot:
     """
     if options.urdf is not None:
         raise UsageError(
-            f"--urdf is for a recording, but '{visible(found.name)}' is a robot description."
+            f"--urdf is only allowed for a recording, but '{visible(found.name)}' is a robot "
+            "description."
         )
     return load_urdf(found.paths[0], options.arguments)
 
@@ -166,7 +167,7 @@ def load_described(found: Found, options: DescriptionOptions) -> Robot:
 def _read_statics(found: Found, options: DescriptionOptions) -> Frames:
     from tftool.robots.static_publishers import load_statics
 
-    options.refuse(f"'{visible(found.name)}' is a {found.kind.value}, and no robot")
+    options.refuse(f"'{visible(found.name)}' is a {found.kind.value}, not a robot description")
     statics = load_statics(found.paths[0], found.name)
     return Frames(
         "file of static transforms",

@@ -111,9 +111,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
     asked, words = _asked(buffer, target, source, moments)
     path = buffer.lookup_transforms(target, source, asked, missing="nan")
     if not len(asked):
-        raise UsageError(
-            f"There is nothing to look up: {words}, there is no moment in the requested span."
-        )
+        raise UsageError(f"No moment is in the requested time span: {words}. Choose a longer span.")
     if not path.valid.any():
         # Raises the error for the first time.
         buffer.lookup_transform(target, source, int(asked[0]))
@@ -133,8 +131,9 @@ def only_chain(buffer: Buffer) -> tuple[str, str]:
     leaves = sorted(set(frames) - set(parents.values()))
     if len(roots) != 1 or len(leaves) != 1 or len(frames) < 2:
         raise InputError(
-            f"There are {len(leaves)} chains of frames, to {', '.join(leaves[:5])}"
-            f"{' …' if len(leaves) > 5 else ''}: --pair TARGET:SOURCE names one."
+            f"Name the pair of frames: there are {len(leaves)} chains of frames, to "
+            f"{', '.join(leaves[:5])}{' …' if len(leaves) > 5 else ''}: --pair TARGET:SOURCE "
+            "names one."
         )
     return roots[0], leaves[0]
 

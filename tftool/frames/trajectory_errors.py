@@ -153,9 +153,9 @@ def trajectory_errors(
         a, b = _nearest(a, b)
     if len(a) < 2:
         raise InputError(
-            f"{len(a)} of {counts[1]} poses of B {'have' if len(a) != 1 else 'has'} a pose of A at "
-            "its time: do the two share a clock? 'tftool diff A B --clock-offset' measures the "
-            "offset."
+            f"{len(a)} of {counts[1]} poses of B {'have' if len(a) != 1 else 'has'} a pose of A "
+            "at its time: check that A and B use the same clock. 'tftool diff A B "
+            "--clock-offset' measures the offset."
         )
     b, scale = fitted(a, b, fit)
     columns: list[ErrorColumn] = []
@@ -211,8 +211,8 @@ def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArr
     u, singular, v = np.linalg.svd(covariance)
     if singular[1] <= 1e-12 * max(singular[0], 1e-300):
         raise InputError(
-            "All positions are on one line or in one point, so that the rotation is undetermined: "
-            "--fit first uses the first pose alone."
+            "All positions are on one line or in one point, so the rotation cannot be "
+            "determined: use --fit first, which needs only the first pose."
         )
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(v))])
     matrix = u @ np.diag(signs) @ v

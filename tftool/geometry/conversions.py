@@ -105,7 +105,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
         )
     except (TypeError, ValueError) as error:
         raise ValueError(
-            f"a rotation matrix is three rows of three numbers, not {matrix!r}"
+            f"a rotation matrix must be three rows of three numbers, not {matrix!r}"
         ) from error
     rows: Matrix3 = ((a, b, c), (d, e, f), (g, h, i))
     for j, row in enumerate(rows):
@@ -117,7 +117,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
                     "the matrix is not a rotation: its rows are not perpendicular unit vectors"
                 )
     if a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0:
-        raise ValueError("the matrix is not a rotation: it mirrors")
+        raise ValueError("the matrix is not a rotation: its determinant is negative, so it mirrors")
     import numpy as np
     from transforms3d.quaternions import mat2quat
 

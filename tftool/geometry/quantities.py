@@ -45,7 +45,7 @@ def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
         ValueError: If there are not 36 numbers.
     """
     if len(covariance) != 36:
-        raise ValueError(f"a covariance is 36 numbers, not {len(covariance)}")
+        raise ValueError(f"a covariance must be 36 numbers, not {len(covariance)}")
     turn = quaternions.matrix(_usable(a_from_b).rotation)
     result = [0.0] * 36
     for top in (0, 3):

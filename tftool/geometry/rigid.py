@@ -177,12 +177,12 @@ class Transform(_Parts):
         try:
             rows = [_floats(row, 4, "row of a 4×4 matrix") for row in matrix]
         except TypeError as error:
-            raise ValueError(f"a transform's matrix is 4×4 numbers, not {matrix!r}") from error
+            raise ValueError(f"a transform's matrix must be 4×4 numbers, not {matrix!r}") from error
         if len(rows) != 4:
-            raise ValueError(f"a transform's matrix is 4×4, not of {len(rows)} rows")
+            raise ValueError(f"a transform's matrix must be 4×4, not of {len(rows)} rows")
         if max(map(abs, map(operator.sub, rows[3], (0.0, 0.0, 0.0, 1.0)))) > 1e-6:
             raise ValueError(
-                f"the last row of a transform's matrix is (0, 0, 0, 1), not {rows[3]}: "
+                f"the last row of a transform's matrix must be (0, 0, 0, 1), not {rows[3]}: "
                 "transpose it if its translation is in the last row"
             )
         return cls([row[3] for row in rows[:3]], quaternion_from_matrix(rows))

@@ -168,7 +168,7 @@ class SimClock(Clock):
             ValueError: If `epoch` is not after 0; 0 means "latest" in every lookup.
         """
         if epoch <= 0:
-            raise ValueError("a simulated clock starts after 0, which means 'latest'")
+            raise ValueError("a simulated clock must start after 0, because stamp 0 means 'latest'")
         super().__init__(epoch, math.inf)
         self.alarms = 0
         self.paced = 0
@@ -302,7 +302,7 @@ class WallClock(Clock):
         if head_start < 0:
             raise ValueError(f"a head start cannot be negative: {head_start} ns")
         if epoch is not None and epoch <= 0:
-            raise ValueError("a clock starts after 0, which means 'latest'")
+            raise ValueError("a clock must start after 0, because stamp 0 means 'latest'")
         super().__init__(time.time_ns() - head_start if epoch is None else epoch, rate)
         self._started = time.monotonic_ns() - round(head_start / rate)
         self._alarm: asyncio.TimerHandle | None = None
@@ -646,8 +646,8 @@ class _VirtualSelector(selectors.DefaultSelector):
             return []
         if self._loop.is_forsaken():
             raise TftoolError(
-                "every task waits and nothing is due, so this run would never end: give it "
-                "an end (until), or a timer."
+                "every task waits, but no timer is due, so this run would never end: pass "
+                "'until', or start a timer."
             )
         # A thread or a file may still wake the loop, so wait for that in real time.
         return super().select(None)

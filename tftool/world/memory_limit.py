@@ -37,8 +37,8 @@ def allowed(environment: Mapping[str, str] = os.environ) -> int:
     megabytes = int(given) if given.isdecimal() and len(given) < 10 else 0
     if not megabytes:
         raise UsageError(
-            f"{VARIABLE}={given[:40]!r} is no number of megabytes: set it to {MAX_BYTES >> 20}, "
-            "or unset it."
+            f"{VARIABLE}={given[:40]!r} is not a number of megabytes: set it to "
+            f"{MAX_BYTES >> 20}, or unset it."
         )
     return megabytes << 20
 

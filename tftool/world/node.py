@@ -51,8 +51,8 @@ class Node(Resident):
         if kind is not Node and not self._is_passive:
             if kind.run is Node.run:
                 raise TypeError(
-                    f"{kind.__name__} has no 'async def run(self)', so it would do nothing: "
-                    "a node that only listens writes 'pass' in it"
+                    f"{kind.__name__} has no 'async def run(self)', so it would do nothing: write "
+                    "one; 'pass' is enough for a node that only listens"
                 )
             if not inspect.iscoroutinefunction(kind.run):
                 raise TypeError(f"{kind.__name__}.run must be written 'async def run(self)'")
@@ -122,8 +122,9 @@ class Node(Resident):
                 if not slipped and missed * period >= LATE:
                     slipped = True
                     self.warn(
-                        f"is {as_seconds(missed * period):.1f} s behind its own timer: "
-                        "the computer was too busy, or stopped it; the missed calls are skipped"
+                        f"is {as_seconds(missed * period):.1f} s behind its own timer, because "
+                        "the computer was too busy or suspended the process: the missed calls "
+                        "are skipped"
                     )
             yield due
             due += period

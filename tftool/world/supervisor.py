@@ -58,8 +58,9 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
     earliest = clock.now() if isinstance(clock, SimClock) else clock.epoch
     if until is not None and until < earliest:
         raise ValueError(
-            f"until={until} is {as_seconds(earliest - until):g} s in the past: it is a stamp, such "
-            "as world.clock.now() + seconds(10); world.run(seconds(10)) takes a duration"
+            f"until={until} is {as_seconds(earliest - until):g} s in the past: 'until' is a "
+            "stamp, such as world.clock.now() + seconds(10). For a duration, call "
+            "world.run(seconds(10))"
         )
     supervisor = Supervisor(world.clock, until is not None)
     world._supervisor = supervisor

@@ -74,7 +74,8 @@ class Topic(Generic[T]):
         """
         if not isinstance(value, self.kind):
             raise TypeError(
-                f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
+                f"topic '{self.name}' has messages of type {self.kind.__name__}, not "
+                f"{type(value).__name__}"
             )
         self.latest = value
         self.count += 1
@@ -316,7 +317,9 @@ class NamedOffers(Generic[T]):
         name = name.removeprefix("/")
         if name in self._first and not self._first[name].is_remote:
             if not shares:
-                raise TftoolError(f"{self._what} '{name}' already has a server")
+                raise TftoolError(
+                    f"{self._what} '{name}' already has a server: choose another name"
+                )
             self._next.setdefault(name, []).append(offer)
         else:
             self._first[name] = offer

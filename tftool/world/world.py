@@ -529,7 +529,7 @@ class World:
             TftoolError: If the world has a node of that name.
         """
         if any(other.name == node.name for other in self.nodes):
-            raise TftoolError(f"a node named '{node.name}' exists already")
+            raise TftoolError(f"a node named '{node.name}' exists already: choose another name")
         node.rank = self._joined
         self._joined += 1
         self.nodes.append(node)
@@ -545,7 +545,10 @@ class World:
         """
         if self._supervisor is None:
             work.close()
-            raise TftoolError(f"node '{node.name}' cannot start work: its world does not run")
+            raise TftoolError(
+                f"node '{node.name}' cannot start work, because its world does not run: start the "
+                "world first"
+            )
         return self._supervisor.start_soon(node, work)
 
     def free_name(self, wanted: str) -> str:

@@ -47,7 +47,7 @@ def test_a_robot_is_drawn_with_all_its_meshes(chromium, stage, robot):
     assert links_of(page) == {"base": [4, 0, 0], "hand": [7, 0, 0]}
     missing = page.until(lambda: (lines := page.texts("#missing li")) and len(lines) == 3 and lines)
     assert "package 'nobody'" in missing[0]
-    assert "only package:// and relative paths" in missing[1]
+    assert "use package:// or a relative path" in missing[1]
     assert missing[2].startswith("'meshes/broken.stl' cannot be drawn")
     assert page.complaints() == []
 

@@ -108,7 +108,7 @@ def test_who_only_looks_is_told_that_nobody_gets_what_its_nodes_send(tmp_path):
         "def generate_launch_description():\n"
         "    return LaunchDescription([])\n"
     )
-    told = "--read-only: other processes get nothing that nodes here publish, broadcast or serve."
+    told = "--read-only: other processes receive no messages and no answers from the nodes here."
     with node("listener") as listener:
         listener.says("No session is running here")
         run = ["run", "--read-only", "--for", 1, NODES / "talker.py"]

@@ -152,7 +152,7 @@ def test_a_new_description_takes_the_place_of_the_old_one(world, robot):
 
     plate = world.buffer.lookup_transform("base", "plate")
     assert plate.transform.translation == (7.0, 8.0, 9.0)
-    assert any("the new robot_description is not taken" in text for text in log_texts(world))
+    assert any("the new robot_description is rejected" in text for text in log_texts(world))
 
 
 @pytest.mark.parametrize("frequency", [-1.0, 1001.0, math.nan])
@@ -263,7 +263,7 @@ def test_a_robot_repeats_what_was_recorded(world, robot):
         ({"joints": {"turm": 1.0}}, "did you mean 'turn'"),
         (
             {"recording": [JointStates(("turn",), [1], [[0.0]])]},
-            "a recording goes with motion: recorded",
+            "'recording' is only allowed together with 'motion: recorded'",
         ),
     ],
 )

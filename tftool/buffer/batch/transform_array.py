@@ -185,7 +185,8 @@ class TransformArray:
             if other.frame_id != self.child_frame_id:
                 raise ValueError(
                     f"'{self.frame_id}' from '{self.child_frame_id}' cannot be chained with "
-                    f"'{other.frame_id}' from '{other.child_frame_id}': the inner frames differ"
+                    f"'{other.frame_id}' from '{other.child_frame_id}': the child of the first "
+                    "must be the parent of the second"
                 )
             if len(other) != len(self):
                 raise ValueError(

@@ -275,8 +275,8 @@ class _Solver:
         is_planar = self.planar or problem.a.is_planar()
         if self.planar and second > 2.0 * SECOND_AXIS:
             raise CalibrationRefused(
-                f"{problem.a.name} tilts by {math.degrees(second):.1f}° in the mean: it is not "
-                "planar. Leave out --planar: the motion determines the whole mount.",
+                f"{problem.a.name} tilts by {math.degrees(second):.1f}° on average, so the motion "
+                "is not planar: leave out --planar; this motion determines the whole mount.",
             )
         if second < SECOND_AXIS or is_planar:
             if is_planar:

@@ -141,7 +141,7 @@ def export(
     form = _named(format) if format is not None else format_of(place)
     asked = list(pairs)
     if (target is None) != (source is None):
-        raise UsageError("A pair needs two frames: name the target and the source.")
+        raise UsageError("Only one frame of a pair is given: name the target and the source.")
     if target is not None and source is not None:
         asked.insert(0, (target, source))
     refuse_input(frames, place)
@@ -217,7 +217,7 @@ def write_links(
         UsageError: If there is nothing to write, or the format cannot contain the links.
     """
     if not buffer.frames():
-        raise UsageError("There are no frames to write.")
+        raise UsageError("The source has no frames to write.")
     if form is Format.mcap:
         count = frame_messages.write_frames(
             buffer, path, foxglove=style.foxglove, force=force, progress=progress
@@ -235,7 +235,7 @@ def write_links(
     if not links:
         below = "" if style.root is None else f" below '{style.root}'"
         moving = " --with-moving adds those that move." if form is Format.urdf else ""
-        raise UsageError(f"No link{below} is static: there is nothing to write.{moving}")
+        raise UsageError(f"No link{below} is static, and only static links can be written.{moving}")
     name = path.name.partition(".")[0] or "robot"
     text = LINK_WRITERS[form](links, name)
     with whole_file(path, force=force) as file:
@@ -271,5 +271,5 @@ def refuse_input(frames: object, path: Path) -> None:
 def _stamps(stamps: npt.ArrayLike) -> Stamps:
     found = np.asarray(stamps)
     if found.ndim != 1 or not np.issubdtype(found.dtype, np.integer):
-        raise TypeError("stamps are whole nanoseconds of shape (n,)")
+        raise TypeError("stamps must be int64 nanoseconds of shape (n,)")
     return found.astype(np.int64)

@@ -93,7 +93,7 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
         UsageError: If the text has no known notation, or fits several notations.
     """
     if len(text) > LONGEST:
-        raise UsageError(f"That text is longer than {LONGEST} characters: paste one rotation.")
+        raise UsageError(f"The text is longer than {LONGEST} characters: paste only one rotation.")
     if form is not None and form not in FORMS:
         raise UsageError(f"'{form}' is not a notation of a rotation: {_listed()}.")
     for reader in (_publisher, _echoed, _described, _labelled):
@@ -118,7 +118,9 @@ def _publisher(text: str, _degrees: bool) -> Written | None:
         return None
     said = static_arguments.of_line(text, frames=("parent", "child"))
     if said is None:
-        raise UsageError("That line asks static_transform_publisher for its help.")
+        raise UsageError(
+            "The line contains --help of static_transform_publisher, not numbers: leave --help out."
+        )
     written = _quaternion(said.transform.rotation, "static_transform_publisher's words")
     pose = Transform(said.transform.translation, written.transform.rotation)
     return Written(pose, True, written.form, written.notes)
@@ -249,7 +251,8 @@ def _ambiguous(count: int) -> UsageError:
         )
     given = "1 number is" if count == 1 else f"{count} numbers are"
     return UsageError(
-        f"{given} no rotation: a quaternion has 4, angles are 3, a matrix has 9 or 16."
+        f"{given} not a rotation: give 4 numbers for a quaternion, 3 for angles, 9 or 16 for a "
+        "matrix."
     )
 
 
@@ -311,8 +314,8 @@ def _matrix(numbers: Sequence[float]) -> Written:
     if count == 16 and max(abs(a - b) for a, b in zip(rows[3], (0, 0, 0, 1), strict=True)) > 1e-6:
         hint = "; written column by column? Then transpose it" if any(rows[3][:3]) else ""
         raise UsageError(
-            f"The last row of a 4×4 matrix is 0 0 0 1, not {' '.join(f'{n:g}' for n in rows[3])}"
-            f"{hint}."
+            "The last row of a 4×4 matrix must be 0 0 0 1, not "
+            f"{' '.join(f'{n:g}' for n in rows[3])}{hint}."
         )
     near, apart = nearest_rotation([row[:3] for row in rows[:3]])
     if not apart < SLACK:

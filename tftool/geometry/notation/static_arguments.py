@@ -79,7 +79,7 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
             option = next(iter(given))
             raise _refusal(
                 "Cannot specify both new-style (flags) and old-style (arguments)",
-                f"Leave out --{option}, or give every number by its option.",
+                f"Leave out --{option}, or give every number by an option such as --x 1.",
             )
         return _old_style(words)
     if words:
@@ -126,9 +126,7 @@ def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
     try:
         words = shlex.split(line.replace("\\\n", " "), comments=True)
     except ValueError as error:
-        raise UsageError(
-            f"That line has an opening quote without a closing one: {error}."
-        ) from None
+        raise UsageError(f"The line has a quote without its closing quote: {error}.") from None
     start = next((n for n, word in enumerate(words) if "static_transform_publisher" in word), -1)
     rest = words[start + 1 :]
     # Words after which the line no longer contains arguments.
@@ -190,9 +188,13 @@ def _old_style(words: list[str]) -> StaticArguments:
     names = (*TRANSLATION, *turns)
     numbers = {name: _number(name, text) for name, text in zip(names, texts, strict=True)}
     if not parent:
-        raise _refusal("Frame id must not be empty", "The last but one word names the parent.")
+        raise _refusal(
+            "Frame id must not be empty", "Write the parent frame as the last but one word."
+        )
     if not child:
-        raise _refusal("Child frame id must not be empty", "The last word names the child.")
+        raise _refusal(
+            "Child frame id must not be empty", "Write the child frame as the last word."
+        )
     translation = tuple(numbers[name] for name in TRANSLATION)
     if turns is QUATERNION:
         turn = _rotation(numbers[name] for name in QUATERNION)

@@ -221,8 +221,8 @@ class PageServer:
             asyncio.get_running_loop().set_exception_handler(self._note)
             return self
         raise TftoolError(
-            f"no port from {self.asked_port} to {self.asked_port + PORTS_TRIED - 1} is free; "
-            "name another with --port"
+            f"no port from {self.asked_port} to {self.asked_port + PORTS_TRIED - 1} is free: "
+            "choose another one with --port"
         )
 
     async def __aexit__(

@@ -151,7 +151,9 @@ class RobotStatePublisher(Node):
             try:
                 self.robot = _described(str(value))
             except InputError as error:
-                self.error(f"the new robot_description is not taken: {error}")
+                self.error(
+                    f"the new robot_description is rejected, and the old one is kept: {error}"
+                )
                 return
         elif name == "publish_frequency" and not 0.0 <= float(str(value)) <= FASTEST:
             raise UsageError(f"publish_frequency must be between 0 and {FASTEST:g} Hz")
@@ -320,9 +322,11 @@ class MovingRobot(RobotStatePublisher):
             UsageError: If a joint is unknown, or a recording is missing or not needed.
         """
         if motion == "recorded" and not any(len(states) for states in recording):
-            raise UsageError("motion: recorded needs a recording with joint states")
+            raise UsageError(
+                "'motion: recorded' needs a recording with joint states: name one with 'recording'"
+            )
         if motion != "recorded" and recording:
-            raise UsageError("a recording goes with motion: recorded")
+            raise UsageError("'recording' is only allowed together with 'motion: recorded'")
         file.positions(joints)
         super().__init__(world, name, robot=file, frame_prefix=frame_prefix, publish_frequency=0.0)
         self.joints, self.motion, self.recording = dict(joints or {}), motion, tuple(recording)

@@ -65,7 +65,7 @@ def test_peers_of_the_environment_are_named_where_they_are_not_gone_to():
         (("192.0.2.7",), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, "unset the variable"),
         ((), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}, "set it to LOCALHOST"),
         ((), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "EVERYWHERE"}, "none of SUBNET, LOCALHOST"),
-        (("eth0..9",), {}, "is no interface of this machine"),
+        (("eth0..9",), {}, "is neither an interface of this machine"),
     ],
 )
 def test_what_cannot_be_is_said_with_what_to_do(places, environment, told):
@@ -76,8 +76,8 @@ def test_what_cannot_be_is_said_with_what_to_do(places, environment, told):
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [
-        (["tree", "--dds-on", "eth0..9"], 3, "is no interface of this machine"),
-        (["tree", "--dds", "--connect", "tcp/localhost:7447"], 2, "--dds goes by DDS"),
+        (["tree", "--dds-on", "eth0..9"], 3, "is neither an interface of this machine"),
+        (["tree", "--dds", "--connect", "tcp/localhost:7447"], 2, "--dds uses DDS"),
         (["tree", "--dds", "--domain", "233"], 2, "233"),
         (["tree", "turtles", "--dds"], 2, "--dds"),
     ],

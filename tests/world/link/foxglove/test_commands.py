@@ -91,14 +91,14 @@ def test_python_opens_an_address(moving):
         (["static", "0", "0", "0", "0", "0", "0", "a", "b", "ws://r:1"], "is read-only"),
         (["demo", "ws://r:1"], "is read-only"),
         (["robot", "wss://r:1"], "is read-only"),
-        (["echo", "map", "ws://r:1"], "is a FROM: give only one"),
-        (["echo", "a", "b", "ws://r:1", "--at", "3"], "which keeps no past"),
-        (["doctor", "scenarios/turtles.yaml", "ws://r:1"], "two sources: name one at a time"),
+        (["echo", "map", "ws://r:1"], "is the address of a session"),
+        (["echo", "a", "b", "ws://r:1", "--at", "3"], "which does not store the past"),
+        (["doctor", "scenarios/turtles.yaml", "ws://r:1"], "two sources: leave one out"),
         (["record", "-o", "x.mcap", "--in", "turtles", "ws://r:1"], "two sources"),
         (["tree", "ws://:1"], "is not a server address: write ws://HOST:8765"),
         (["tree", "ws://robot:0"], "is not a server address"),
         (["tree", "ws://ro bot"], "is not a server address"),
-        (["session", "run.mcap"], "'run.mcap' is no session that runs"),
+        (["session", "run.mcap"], "'run.mcap' is not the address of a session"),
     ],
 )
 def test_contradictions_and_publishing_are_refused(tftool, words, sentence):

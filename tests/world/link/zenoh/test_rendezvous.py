@@ -245,7 +245,7 @@ def test_a_link_in_place_of_the_folder_is_refused(home):
     (home / "real").mkdir(mode=0o700)
     (home / "link").symlink_to(home / "real")
 
-    with pytest.raises(LinkError, match="does not belong to you"):
+    with pytest.raises(LinkError, match="belongs to another user"):
         Rendezvous(0, home / "link").enter()
 
 

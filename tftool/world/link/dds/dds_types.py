@@ -94,7 +94,9 @@ class Types:
     def _single(self, full: str, field: FieldDefinition, parts: dict[str, Any]) -> Any:
 
         if field.type == "wstring":
-            raise LinkError(f"{full}: DDS's library for Python has no wide texts ('{field.name}')")
+            raise LinkError(
+                f"{full}: the DDS library for Python cannot send a wstring ('{field.name}')"
+            )
         if "/" in field.type:
             if field.type not in parts:
                 parts[field.type] = self._made(field.type, (), parts)

@@ -131,12 +131,13 @@ def _confined(variables: Mapping[str, str]) -> str:
     reach = variables.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip().upper()
     if reach and reach not in _RANGES:
         raise LinkError(
-            f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{reach[:60]}', none of {', '.join(_RANGES)}"
+            f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{reach[:60]}': set it to one of "
+            f"{', '.join(_RANGES)}"
         )
     if reach == "OFF":
         raise LinkError(
-            "ROS_AUTOMATIC_DISCOVERY_RANGE=OFF turns discovery off: unset it, or "
-            "set it to LOCALHOST"
+            "ROS_AUTOMATIC_DISCOVERY_RANGE=OFF turns discovery off, so no process can be found: "
+            "unset it, or set it to LOCALHOST"
         )
     # If both are set, ROS 2 uses the older one.
     if variables.get("ROS_LOCALHOST_ONLY", "").strip() == "1":
@@ -160,8 +161,8 @@ def _checked(place: str) -> str:
         found = socket.getaddrinfo(place, None, socket.AF_INET, socket.SOCK_DGRAM)
     except (OSError, UnicodeError) as error:
         raise LinkError(
-            f"'{place[:80]}' is no interface of this machine ({', '.join(_interfaces())}), and no "
-            "address of another one"
+            f"'{place[:80]}' is neither an interface of this machine ({', '.join(_interfaces())}) "
+            "nor the address of another machine"
         ) from error
     return str(found[0][4][0])
 

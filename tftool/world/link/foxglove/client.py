@@ -152,9 +152,9 @@ class FoxgloveClient:
         if self._failure or not self._first.is_set():
             reason = self._failure or "it does not answer"
             raise LinkError(
-                f"No Foxglove server answers at {self._place}: {reason}. Is foxglove_bridge "
-                "running there ('ros2 run foxglove_bridge foxglove_bridge'; port 8765 unless "
-                "another one was chosen)?"
+                f"No Foxglove server answers at {self._place}: {reason}. Check that "
+                "foxglove_bridge runs there ('ros2 run foxglove_bridge foxglove_bridge'; its "
+                "default port is 8765)."
             )
 
     @contextlib.contextmanager

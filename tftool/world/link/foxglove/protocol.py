@@ -116,9 +116,9 @@ class ServerState:
         try:
             message = json.loads(text)
         except (ValueError, RecursionError):
-            raise ProtocolError("a text that is no JSON") from None
+            raise ProtocolError("a text that is not JSON") from None
         if not isinstance(message, dict):
-            raise ProtocolError("a text that is no JSON object")
+            raise ProtocolError("a text that is not a JSON object")
         operation = message.get("op")
         change = _CHANGES.get(operation) if isinstance(operation, str) else None
         if change is None:
@@ -147,7 +147,7 @@ class ServerState:
                 continue
             definition = one.get("schema") or ""
             if not isinstance(definition, str):
-                raise TypeError("a schema that is no text")
+                raise TypeError("a schema that is not text")
             if self._definitions + len(definition) > MOST_DEFINITIONS:
                 definition = ""
             self._definitions += len(definition)
@@ -218,7 +218,7 @@ def _text(value: Any) -> str:
 
 def _number(value: Any) -> int:
     if not (isinstance(value, int) and 0 <= value < 1 << 32):
-        raise ValueError("no number of 32 bits")
+        raise ValueError("not a number of 32 bits")
     return value
 
 

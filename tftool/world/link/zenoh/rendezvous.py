@@ -249,13 +249,13 @@ def _make_private(path: Path) -> None:
         return
     if not stat.S_ISDIR(facts.st_mode) or facts.st_uid != os.getuid():
         raise LinkError(
-            f"{path} does not belong to you, so no session can use it; name another folder "
-            f"in {FOLDER_VARIABLE}"
+            f"{path} belongs to another user, so no session can use it: name another folder in "
+            f"{FOLDER_VARIABLE}"
         )
     if facts.st_mode & 0o077:
         raise LinkError(
             f"other users can enter {path} (mode {facts.st_mode & 0o777:03o}), so no session can "
-            f"meet there; chmod 700 it, or name another folder in {FOLDER_VARIABLE}"
+            f"use it: run 'chmod 700' on it, or name another folder in {FOLDER_VARIABLE}"
         )
 
 
