@@ -111,7 +111,7 @@ def test_spans_apart_are_said(tftool, tmp_path):
         (["A"], 2, "Missing argument"),
         (["A", "nope.mcap"], 3, "nope.mcap"),
         (["A", "session"], 3, "No session is running"),
-        (["session", "session"], 2, "is one"),
+        (["session", "session"], 2, "both the running session"),
         (["A", "A", "--json", "--markdown"], 2, "leave one out"),
         (["A", "A", "--mm", "-1"], 2, "give zero or more"),
         (["A", "A", "--mm", "nan"], 2, "give zero or more"),

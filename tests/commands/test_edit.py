@@ -96,7 +96,7 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (["-o", "b.txt"], 2, "does not end in the suffix of a recording"),
         (["-o", "-"], 2, "'-' means stdout, but this output"),
         (["-o", "nowhere/b.mcap"], 3, "there is no folder"),
-        (["-o", "b.mcap", "--split-every", "5"], 2, "folder: 'b', not 'b.mcap'"),
+        (["-o", "b.mcap", "--split-every", "5"], 2, "name the output 'b', not 'b.mcap'"),
         (["-o", "b.mcap", "--set", "base_link:laser=1,2"], 2, "takes 6 numbers"),
         (["-o", "b.mcap", "--set", "base_link:laser=1,2,3,x,0,0"], 2, "'x' is not a number"),
         (["-o", "b.mcap", "--set", "a:b=1,2,nan,0,0,0"], 2, "not a finite number"),

@@ -539,9 +539,14 @@ def test_a_loop_that_polls_simulated_time_is_named_with_its_line(tmp_path, tftoo
     [
         (
             ["topic", "echo", "/nothing"],
-            "There is no topic '/nothing' after 10 s: 'tftool ros2 topic list' lists the topics",
+            "There is no topic '/nothing' after 10 s: "
+            "'tftool ros2 topic list' lists the topics that exist.",
         ),
-        (["param", "get", "/nobody", "x"], "Node '/nobody' does not exist, or has no parameters: "),
+        (
+            ["param", "get", "/nobody", "x"],
+            "Node '/nobody' does not exist, or has no parameters: "
+            "'tftool ros2 node list' lists the nodes.",
+        ),
         (
             ["node", "info", "/nobody"],
             "There is no node '/nobody': 'tftool ros2 node list' lists the nodes.",

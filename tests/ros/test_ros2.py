@@ -385,7 +385,7 @@ def test_what_is_not_there_is_named(ros_runtime, tmp_path):
         (["service", "call", "/spawn", "turtlesim/srv/Spawn", "7"], "needs fields"),
         (["topic", "pub", "/a", "geometry_msgs/msg/Polygon", "{points: 3}"], "a list is needed"),
         (["topic", "pub", "/a", "std_msgs/msg/Empty", "-r", "0"], "0 is not a rate"),
-        (["topic", "pub", "/a", "std_msgs/msg/Empty", "-r", "nan"], "nan is no number"),
+        (["topic", "pub", "/a", "std_msgs/msg/Empty", "-r", "nan"], "nan is not a rate"),
         (["interface", "show", "std_msgs/msg/Strin"], "did you mean 'std_msgs/msg/String'"),
     ],
 )

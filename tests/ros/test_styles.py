@@ -273,6 +273,7 @@ def test_a_file_that_makes_no_node_says_so(ros_runtime, tmp_path):
     ros_runtime.sleep(1.0)
 
     assert ros_runtime.log(program.name) == [
-        "'nothing.py' has ended without calling rclpy.init(), so it ran no node"
+        "'nothing.py' has ended without calling rclpy.init(), so it ran no node: "
+        "call rclpy.init() and spin a node"
     ]
     assert program.status == 0

@@ -64,7 +64,7 @@ def test_peers_of_the_environment_are_named_where_they_are_not_gone_to():
         (("192.0.2.7",), {"ROS_LOCALHOST_ONLY": "1"}, "ROS_LOCALHOST_ONLY=1 restricts ROS 2"),
         (("192.0.2.7",), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, "unset the variable"),
         ((), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}, "set it to LOCALHOST"),
-        ((), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "EVERYWHERE"}, "none of SUBNET, LOCALHOST"),
+        ((), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "EVERYWHERE"}, "set it to one of SUBNET, LOCALHOST"),
         (("eth0..9",), {}, "is neither an interface of this machine"),
     ],
 )
