@@ -372,7 +372,7 @@ def test_what_exists_is_kept_unless_forced(tftool, run, tmp_path):
     forced = tftool("export", "odom", "base", run, "-o", path, "--force")
 
     assert (refused.status, kept, forced.status) == (2, "precious", 0)
-    assert "--force replaces it" in refused.err
+    assert "add --force to replace it" in refused.err
     assert path.read_text().startswith("17")
 
 

@@ -270,7 +270,7 @@ def test_a_root_that_is_no_folder_is_refused(tftool, tmp_path):
     result = tftool("mcp", tmp_path / "nowhere")
 
     assert result.status == 3
-    assert "is no folder" in result.err
+    assert "is not a folder" in result.err
 
 
 def test_without_the_package_the_extra_is_named(tftool, tmp_path, monkeypatch):

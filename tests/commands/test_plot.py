@@ -204,7 +204,7 @@ def test_without_matplotlib_the_extra_is_named(tftool, run, tmp_path, monkeypatc
         (["map", "car", "RUN", "-o", "run.mcap"], 2, ".svg, .pdf or .png"),
         (["map", "nope", "RUN"], 4, "nope"),
         (["map", "car", "nope.mcap"], 3, "nope.mcap"),
-        (["map", "car", "RUN", "--rate", "1", "--every", "1"], 2, "give one"),
+        (["map", "car", "RUN", "--rate", "1", "--every", "1"], 2, "leave out all but one"),
     ],
 )
 def test_what_does_not_fit_is_said(tftool, run, tmp_path, monkeypatch, words, status, told):

@@ -82,7 +82,7 @@ def test_joints_that_mimic_each_other_stand_for_themselves():
     ("positions", "told"),
     [
         ({"tern": 1.0}, "no joint 'tern'; did you mean 'turn'?"),
-        ({"turn": math.nan}, "give a number"),
+        ({"turn": math.nan}, "give a finite number"),
     ],
 )
 def test_a_wrong_position_is_a_sentence(crane, positions, told):

@@ -360,7 +360,7 @@ def test_what_is_not_there_is_named(ros_runtime, tmp_path):
     failure, _ = ran(ros_runtime, tmp_path, "topic", "echo", "/nothing", seconds=15.0)
     assert "There is no topic '/nothing' after 10 s" in str(failure)
     failure, _ = ran(ros_runtime, tmp_path, "param", "list", "/nobody", seconds=15.0)
-    assert "Node '/nobody' is not there" in str(failure)
+    assert "Node '/nobody' does not exist" in str(failure)
     failure, _ = ran(ros_runtime, tmp_path, "node", "info", "/nobody", seconds=15.0)
     assert "There is no node '/nobody'" in str(failure)
 

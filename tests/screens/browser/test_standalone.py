@@ -205,7 +205,7 @@ def test_a_scenario_and_a_description_become_files(tmp_path, capsys):
     ("words", "status", "sentence"),
     [
         (["-o", "run.txt"], 2, "end it in .html"),
-        (["-o", "there.html"], 2, "--force replaces it"),
+        (["-o", "there.html"], 2, "add --force to replace it"),
         (["-o", "no/such/folder/run.html"], 3, "there is no folder"),
         (["--force"], 2, "is only allowed with -o"),
         (["-o", "run.html", "--cache-time", "5"], 2, "leave out --cache-time"),

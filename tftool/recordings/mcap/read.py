@@ -298,7 +298,7 @@ class Mcap(ChunkedReader):
         """Yield chunks, and blocks of messages between them; store other records in `extras`."""
         yield from self._pieces()
         if not self._ended:
-            self.note(f"The recording ends too early, at byte {self._ended_at}.")
+            self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> "Iterator[Chunk | Loose]":
         """Yield chunks and messages while reading record by record; note how the file ends."""

@@ -159,7 +159,7 @@ class Rosbag1(ChunkedReader):
         """Yield the chunks of the bag."""
         yield from self._pieces()
         if not self._ended:
-            self.note(f"The recording ends too early, at byte {self._ended_at}.")
+            self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> Iterator[Chunk]:
         """Yield the chunks while reading record by record; note how the file ends."""
