@@ -10,7 +10,7 @@ from rich.cells import cell_len
 from tftool.base.color import Color
 from tftool.drawing import sprites, theme
 from tftool.drawing.canvas import Canvas
-from tftool.drawing.cells import Dots, packed, woven
+from tftool.drawing.cells import Dots, merged, packed
 from tftool.drawing.line_plot import draw_curve
 from tftool.drawing.plane import (
     ColoredLines,
@@ -540,14 +540,16 @@ def curve(height, color):
     return dots
 
 
-def test_curves_that_share_their_cells_take_turns_and_each_keeps_its_own():
-    red, blue = Color(255, 0, 0), Color(0, 0, 255)
-    level, other = curve(0.5, red), curve(0.5, blue)
+def test_curves_that_share_their_cells_keep_all_dots_and_one_color():
+    red, blue, green = Color(255, 0, 0), Color(0, 0, 255), Color(0, 255, 0)
+    high, low = curve(0.5, red), curve(0.4, blue)
+    rising = Dots(12, 3)
+    draw_curve(rising, np.array([0.0, 0.5, 1.0]), np.array([1.0, 0.5, 0.5]), green)
 
-    (row,) = [row for row in woven([level, other]).colors.tolist() if max(row) >= 0]
-
-    assert row.count(packed(red)) == row.count(packed(blue)) == 6
-    assert row[:3] == [packed(red)] * 3
-    apart = woven([level, curve(0.0, blue)])
-    assert sorted({max(row) for row in apart.colors.tolist()}) == [-1, packed(blue), packed(red)]
-    assert (woven([level]).masks == level.masks).all()
+    found = merged([high, low])
+    assert (found.masks == high.masks | low.masks).all()
+    assert sorted(map(set, found.colors.tolist()), key=min) == [{-1}, {-1}, {packed(red)}]
+    both = merged([high, rising])
+    assert (both.masks == high.masks | rising.masks).all()
+    assert (both.colors[rising.masks > 0] == packed(green)).all()
+    assert (merged([high]).masks == high.masks).all()

@@ -182,26 +182,25 @@ class Dots:
         ]
 
 
-DASH: Final = 3
-"""Cells of one curve in a row where several share their cells."""
+def merged(layers: Sequence[Dots]) -> Dots:
+    """Lay curves into one picture; a cell that several share has the dots of all and one colour.
 
-
-def woven(layers: Sequence[Dots]) -> Dots:
-    """Lay curves into one picture; where several meet, each gets some of the cells.
-
-    One colour alone would hide the others where they run side by side. A cell shows the dots of one
-    curve only.
+    A curve that changes its line of cells is preferred to a level one, then the curve with the
+    fewest cells of its own. The order is the same in all cells, so no line has several colours.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.
     """
     masks = np.stack([one.masks for one in layers])
     has = masks > 0
-    turn = np.arange(masks.shape[2]) // DASH % np.maximum(has.sum(0), 1)
-    chosen = (has & (np.cumsum(has, 0) - 1 == turn)).argmax(0)[None]
+    is_level = has.any(2).sum(1) <= 1
+    own = (has & (has.sum(0) == 1)).sum((1, 2))
+    order = np.lexsort((own, is_level))
+    chosen = has[order].argmax(0)[None]
     found = Dots(*masks.shape[:0:-1])
-    found.masks = np.take_along_axis(masks, chosen, 0)[0]
-    found.colors = np.take_along_axis(np.stack([one.colors for one in layers]), chosen, 0)[0]
+    found.masks = np.bitwise_or.reduce(masks)
+    colors = np.stack([layers[place].colors for place in order])
+    found.colors = np.take_along_axis(colors, chosen, 0)[0]
     return found
 
 

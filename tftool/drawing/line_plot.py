@@ -13,7 +13,7 @@ from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme
-from tftool.drawing.cells import Dots, packed, woven
+from tftool.drawing.cells import Dots, merged, packed
 from tftool.drawing.table_columns import fitted
 from tftool.frames.pair_samples import Trajectory, trajectory_of
 from tftool.frames.pair_series import (
@@ -153,7 +153,7 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
     for place, (_, x, y) in enumerate(curves):
         color = colors[place % len(colors)]
         draw_curve(layers[place], (x - left) / wide, (y - bottom) / high, color)
-    dots = woven(layers)
+    dots = merged(layers)
     text = Text(no_wrap=True, overflow="crop")
     for place, (label, x, y) in enumerate(curves):
         holds = np.flatnonzero(np.isfinite(x))
@@ -236,7 +236,7 @@ def _drawn(
             max(0, min(begin, columns - 1)), max(0, min(max(end, begin + 1), columns))
         ):
             shade[column] = ":" if look.ascii_only else "░"
-    for label, cells in zip(labels, woven(layers).rows(ascii_only=look.ascii_only), strict=True):
+    for label, cells in zip(labels, merged(layers).rows(ascii_only=look.ascii_only), strict=True):
         below = zip(cells, shade, strict=True)
         yield _row(label, [cell if cell[1] else (sign, "dim") for cell, sign in below], look)
 
