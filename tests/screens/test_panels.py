@@ -150,13 +150,25 @@ def test_an_old_link_turns_amber_and_then_red():
     assert theme.hexadecimal(theme.DARK.text) in inks(0.0)
     assert amber in inks(10.0)
     assert red in inks(19.9)
-    assert not {amber, red} & inks(4.9)
+    # After a second of silence, the rate alone is amber.
+    assert not {amber, red} & inks(0.9)
 
 
 def test_a_rate_of_one_sample_is_none():
     lines = words(tree(moment(WORLD, info("a", "world", samples=1, rate=10000.0))))
 
     assert "–" in lines[2]
+
+
+@pytest.mark.parametrize(("age", "color"), [(2.0, "warning"), (9.0, "warning"), (20.0, "error")])
+def test_a_silent_frame_has_rate_zero_in_amber_or_red(age, color):
+    look = Look(theme.DARK)
+    line = tree(moment(WORLD, info("a", "world"), ages={"a": age}), look=look)[2]
+
+    assert "62.6" not in line.plain
+    at = line.plain.index(" 0.0")
+    (style,) = [one.style for one in line.spans if one.start <= at < one.end]
+    assert style.color.triplet.hex == theme.hexadecimal(getattr(theme.DARK, color))
 
 
 def test_without_frames_there_is_a_sentence():

@@ -16,12 +16,16 @@ from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.traffic_app import TrafficWatch
 
 
-def received(frames, now):
-    """Five seconds of messages: the first frame at 10 Hz, each other one at half of that."""
+def received(frames, now, later=0.0):
+    """Five seconds of messages: the first frame at 10 Hz, each other one at half of that.
+
+    The first frame's messages end `later` seconds before the messages of the others.
+    """
     traffic = Traffic()
     for place, name in enumerate(frames):
         for message in range(50 if place == 0 else 25):
-            arrival = now - seconds(5.0) + seconds(message * (0.1 if place == 0 else 0.2))
+            begin = now - seconds(5.0 if place else 5.0 + later)
+            arrival = begin + seconds(message * (0.2 if place else 0.1))
             sample = TransformStamped(arrival - seconds(0.02), "map", name, Transform.identity())
             traffic.receive(arrival, [sample], f"node_{place}", is_static=False)
     fixed = TransformStamped(now, "base", "plate", Transform.identity())
@@ -29,10 +33,10 @@ def received(frames, now):
     return traffic
 
 
-def shown(*keys, frames=("base", "odom"), size=(80, 24), chain=None, **setting):
+def shown(*keys, frames=("base", "odom"), size=(80, 24), chain=None, later=0.0, **setting):
     """Return the lines of the screen after some keys."""
     world = new_world()
-    traffic = received(frames, world.clock.now())
+    traffic = received(frames, world.clock.now(), later)
     app = TrafficWatch(world, traffic, chain, Setting(title="tftool monitor", **setting))
     lines = []
 
@@ -98,6 +102,19 @@ def test_frames_are_sorted_by_rate():
     rated = shown("s", frames=frames)
     assert line_of(rated, "zebra ") < line_of(rated, "ant ")
     assert "sort: rate" in rated[-1]
+
+
+def test_a_silent_sender_has_no_rate_and_no_bar_and_is_sorted_last():
+    lines = shown("s", later=11.0, size=(100, 30))
+
+    # The first node sent at 10 Hz until 11 s ago; the second node still sends at 5 Hz.
+    first, second = line_of(lines, "│node_0 "), line_of(lines, "│node_1 ")
+    assert "10.00 Hz" not in "".join(lines)
+    assert "0.00 Hz" in lines[first]
+    assert "▇" not in lines[first]
+    assert "▇" in lines[second]
+    assert "0.00 Hz" in lines[line_of(lines, "│base ")]
+    assert line_of(lines, "│odom ") < line_of(lines, "│base ")
 
 
 def test_a_chain_names_its_pair_and_its_delay():

@@ -63,6 +63,15 @@ def shown(*keys, frames=60, size=(80, 24), news="", framed=False, solids=None, *
     return [line.rstrip() for line in lines]
 
 
+def test_a_frame_that_stopped_has_rate_zero():
+    # Link n has a rate of 200 / (200 - n) Hz and an age of (200 - n) / 10 s.
+    old = next(line for line in shown(frames=200, size=(120, 24)) if "link_00" in line)
+    new = next(line for line in shown("G", frames=200, size=(120, 24)) if "link_198" in line)
+
+    assert "0.00 Hz" in old
+    assert "100.0 Hz" in new
+
+
 def first_words(lines):
     return [line.split()[0] for line in lines if line]
 

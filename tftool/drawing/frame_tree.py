@@ -483,9 +483,13 @@ def _link_columns(
         (text, _age_style(one.info) if why else style)
         for one, (text, style), (why, _) in zip(rows, cells(_AGE), wrong, strict=True)
     ]
+    rates = [
+        (text, style if one.info.rate or one.info.samples < 2 else _age_style(one.info))
+        for one, (text, style) in zip(rows, cells(_rate), strict=True)
+    ]
     return [
         TableColumn("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, goes=4),
-        TableColumn("rate", cells(_rate), stands_right=True, goes=5),
+        TableColumn("rate", rates, stands_right=True, goes=5),
         TableColumn("kept", cells(_KEPT), stands_right=True, goes=3),
         TableColumn("oldest", cells(_OLDEST, "dim"), stands_right=True, goes=1),
         TableColumn("newest", cells(_NEWEST, "dim"), stands_right=True, goes=2),

@@ -19,11 +19,12 @@ from tftool.drawing.cells import Dots, blended, packed
 from tftool.drawing.sparklines import TrafficHistory, TrafficLook, sparkline
 from tftool.drawing.table_columns import fitted, padded
 from tftool.drawing.traffic_view import (
-    NONE,
     bar,
     is_silent,
     late_style,
     milliseconds,
+    present_rate,
+    rate_words,
     silence,
 )
 from tftool.geometry.rigid_arrays import Floats
@@ -136,7 +137,8 @@ def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
     palette = layout.palette
     dim = layout.ink(palette.dim)
     found = sorted(traffic.senders.items())
-    fastest = max([one.rate or 0.0 for _, one in found], default=0.0)
+    rates = {name: present_rate(now, one) or 0.0 for name, one in found}
+    fastest = max(rates.values(), default=0.0)
     longest = max([cell_len(visible(name)) for name, _ in found], default=0)
     names = max(len("broadcaster"), min(longest, layout.width // 3))
     cells = layout.width - names - 3 * NUMBER - 4
@@ -145,15 +147,14 @@ def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
     room = layout.height - 1
     for name, one in found if len(found) <= room else found[: max(1, room - 1)]:
         late = late_style(now, one, False)
-        rate = NONE if one.rate is None else f"{one.rate:.2f} Hz"
         line = Text.assemble(
             (padded(visible(name), names, more=layout.more), dim),
-            (f"{rate:>{NUMBER}}", layout.ink(layout.state(late))),
+            (f"{rate_words(now, one):>{NUMBER}}", layout.ink(layout.state(late))),
             (f"{milliseconds(one.average_delay):>{NUMBER}}", layout.ink(layout.state(late))),
             (f"{milliseconds(one.maximum_delay):>{NUMBER}}", dim),
         )
         if cells >= 8:
-            drawn = bar(one.rate or 0.0, fastest, cells, ascii_only=layout.ascii_only)
+            drawn = bar(rates[name], fastest, cells, ascii_only=layout.ascii_only)
             line.append("  " + drawn, layout.ink(_rate_color(palette)))
         line.truncate(layout.width)
         lines.append(line)
@@ -232,7 +233,7 @@ def _numbers(now: Stamp, link: FrameTraffic, tall: int) -> tuple[list[str], list
     series: Series = link.series
     if link.is_static:
         return ["static"], []
-    rates = [NONE if series.rate is None else f"{series.rate:.2f} Hz"]
+    rates = [rate_words(now, series)]
     if is_silent(now, series, link.is_static):
         since = f"{short_duration(silence(now, series))} ago"
         rates = [*rates, since] if tall > 1 else [since]

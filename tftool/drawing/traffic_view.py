@@ -176,7 +176,8 @@ def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
 ) -> list[TableColumn]:
     """Return the columns of rate, delay and time since the last message."""
-    rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
+    rates = [rate_words(now, one) for one in series]
+    heights = [present_rate(now, one) or 0.0 for one in series]
     late = [late_style(now, one, still) for one, still in zip(series, statics, strict=True)]
 
     def cells(values: list[str]) -> list[Cell]:
@@ -186,13 +187,13 @@ def _measures(
         ]
 
     shown = [
-        ("static", "dim") if still else (rate, "")
-        for rate, still in zip(rates, statics, strict=True)
+        ("static", "dim") if still else (rate, style if is_silent(now, one, still) else "")
+        for rate, one, still, style in zip(rates, series, statics, late, strict=True)
     ]
-    fastest = max([one.rate or 0.0 for one in series], default=0.0)
+    fastest = max(heights, default=0.0)
     bars = [
-        ("" if still else bar(one.rate or 0.0, fastest, ascii_only=ascii_only), style or "green")
-        for one, still, style in zip(series, statics, late, strict=True)
+        ("" if still else bar(one, fastest, ascii_only=ascii_only), style or "green")
+        for one, still, style in zip(heights, statics, late, strict=True)
     ]
     silent = [
         (f"{short_duration(silence(now, one))} ago" if is_silent(now, one, still) else "", style)
@@ -231,7 +232,23 @@ def is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
     """Return whether a link has been silent for many of its periods."""
     if is_static or series.rate is None:
         return False
-    return as_seconds(silence(now, series)) > max(STOPPED_AFTER, STOPPED_PERIODS / series.rate)
+    return has_stopped(as_seconds(silence(now, series)), series.rate)
+
+
+def has_stopped(silent: float, rate: float) -> bool:
+    """Return whether a sender of `rate` hertz, silent for `silent` seconds, has stopped."""
+    return rate > 0.0 and silent > max(STOPPED_AFTER, STOPPED_PERIODS / rate)
+
+
+def present_rate(now: Stamp, series: Series) -> float | None:
+    """Return the rate of a link or a publisher, hertz: 0 if it has stopped, None if unknown."""
+    return 0.0 if is_silent(now, series, False) else series.rate
+
+
+def rate_words(now: Stamp, series: Series) -> str:
+    """Format the present rate of a link or a publisher."""
+    rate = present_rate(now, series)
+    return NONE if rate is None else f"{rate:.2f} Hz"
 
 
 def late_style(now: Stamp, series: Series, is_static: bool) -> str:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 from rich.cells import cell_len
+from rich.style import Style
 from rich.text import Text
 
 from tftool.base.color import Color
@@ -16,6 +17,7 @@ from tftool.drawing import theme
 from tftool.drawing.drawn_forest import ASCII, UNICODE, branches, grow
 from tftool.drawing.line_plot import PAIR_LABELS, PlotSpan, pair_plot
 from tftool.drawing.table_columns import fitted, padded, plain
+from tftool.drawing.traffic_view import has_stopped
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.screens.terminal.scene import Scene, SceneMoment
 from tftool.screens.terminal.screen_options import BLOCK_LINES
@@ -86,8 +88,9 @@ def tree(
             (mark, accent),
             (guide, dim),
             (name, look.ink(look.of_name(info.frame), bold=picked) if fresh else style),
-            (_facts(info, age, columns, look), dim if info.is_static else style),
         )
+        for text, ink in _facts(info, age, columns, look):
+            line.append(text, dim if info.is_static else ink or style)
         if columns.sender:
             sender = padded(info.authority or "", columns.sender, more=look.more)
             line.append("  " + sender, dim)
@@ -122,21 +125,28 @@ class _Columns(NamedTuple):
         return cls(max(4, width - used), rate, age, sender)
 
 
-def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
-    """Format rate and age of a link at the width of their columns."""
+def _facts(
+    info: FrameInfo, age: float, columns: _Columns, look: Look
+) -> list[tuple[str, Style | None]]:
+    """Format rate and age of a link at the width of their columns; None is the row's own style."""
     width = columns.rate + columns.age
     if info.root is None:
-        return f"{'in a loop':>{width}}"
+        return [(f"{'in a loop':>{width}}", None)]
     if info.parent is None:
-        return " " * width
+        return [(" " * width, None)]
     if info.is_static:
-        return f"{'static':>{width}}"
+        return [(f"{'static':>{width}}", None)]
     none = "-" if look.ascii_only else "–"
-    rate = f"{info.rate:.1f}" if info.samples > 1 and info.rate < 9999.0 else none
+    rate, ink = none, None
+    if info.samples > 1 and info.rate < 9999.0:
+        stopped = has_stopped(age, info.rate)
+        rate = "0.0" if stopped else f"{info.rate:.1f}"
+        if stopped and not theme.is_stale(age):
+            ink = look.ink(look.palette.warning)
     shown = f"{age:.1f} s" if age < 100.0 else f"{age:.0f} s"
     if columns.age > 10 and theme.is_stale(age):
         shown += " ago"
-    return f"{rate:>{columns.rate}}{shown:>{columns.age}}"
+    return [(f"{rate:>{columns.rate}}", ink), (f"{shown:>{columns.age}}", None)]
 
 
 def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:

@@ -12,7 +12,7 @@ from tftool.buffer.traffic import FrameTraffic, Traffic
 from tftool.drawing.echo_view import in_words
 from tftool.drawing.sparklines import LOOKS, TrafficHistory
 from tftool.drawing.traffic_curves import LONGEST, TrafficLayout, curves, senders
-from tftool.drawing.traffic_view import Chain, links_of, milliseconds
+from tftool.drawing.traffic_view import Chain, links_of, milliseconds, present_rate
 from tftool.screens.terminal.panel_text import Hint, footer, title_bar
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
@@ -138,7 +138,8 @@ class TrafficWatch(PanelApp):
             places = {frame: place for place, frame in enumerate(self._chain.frames)}
             return sorted(links, key=lambda link: places[link.frame])
         if self._order == "rate":
-            return sorted(links, key=lambda link: -(link.series.rate or 0.0))
+            now = self.world.clock.now()
+            return sorted(links, key=lambda link: -(present_rate(now, link.series) or 0.0))
         if self._order == "delay":
             return sorted(links, key=lambda link: -(link.series.average_delay or 0.0))
         # Static links have no curve; they are listed last, so that the curves stay together.

@@ -1,7 +1,7 @@
 """Screen of `tftool tree --watch`: a live tree that can be scrolled, sorted and filtered."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from rich.text import Text
@@ -10,14 +10,15 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 
 from tftool.base.plain_text import count
-from tftool.base.stamps import as_seconds
-from tftool.buffer.sample import Snapshot
+from tftool.base.stamps import Stamp, as_seconds
+from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.buffer.traffic import Traffic
 from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
 from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpacePicture
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.drawing.table_columns import fitted, plain
+from tftool.drawing.traffic_view import has_stopped
 from tftool.screens.terminal.frames_picture import natural_fixed
 from tftool.screens.terminal.panel_text import Hint, footer, title_bar
 from tftool.screens.terminal.screen_options import Setting
@@ -220,11 +221,25 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         now = self.world.clock.now()
         snapshot = self.world.buffer.snapshot(now)
         self._history.look(now, self._traffic)
-        before, self._seen = self._seen, (snapshot, self._marks_now(snapshot))
+        marks = self._marks_now(snapshot)
+        snapshot = replace(
+            snapshot, frames=tuple(self._present(now, one) for one in snapshot.frames)
+        )
+        before, self._seen = self._seen, (snapshot, marks)
         if before is None or len(before[0].frames) != len(snapshot.frames):
             self._arrange()
             self.call_after_refresh(self.redraw)
         self._draw()
+
+    def _present(self, now: Stamp, info: FrameInfo) -> FrameInfo:
+        """Return a frame's facts, with rate 0 if its sender has stopped."""
+        link = self._traffic.links.get(info.frame)
+        heard = None if link is None else link.series.last
+        # A sender of old stamps is not silent.
+        silent = info.age if heard is None else min(info.age, now - heard)
+        if info.parent is None or info.is_static or not has_stopped(as_seconds(silent), info.rate):
+            return info
+        return info._replace(rate=0.0)
 
     def _draw(self) -> None:
         if self._seen is None:
