@@ -91,7 +91,7 @@ def test_what_is_refused_is_shaded_and_told(tftool, run):
 
     shaded = [line.rstrip().count("░") for line in out.splitlines() if "│" in line]
     assert min(shaded) > 30
-    assert "No pose from 20.00 s to 40.00 s: Lookup would require extrapolation" in out
+    assert "No pose from 20.00 s to 40.00 s: the data ends earlier (car in map)." in out
 
 
 def test_the_path_from_above_is_round(tftool, run):

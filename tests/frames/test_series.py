@@ -84,7 +84,8 @@ def test_what_is_refused_is_a_span_with_its_reason():
     (span,) = shades([found], SECOND)
 
     assert (span.first, span.last) == (2.0, 3.0)
-    assert reasons([span])[0].startswith("No pose from 2.000 s to 3.000 s: Lookup would require")
+    told = "No pose from 2.000 s to 3.000 s: the data ends earlier (car in map)."
+    assert reasons([span])[0] == told
     assert reasons([span] * 5)[-1] == "... and in 2 more spans."
 
 

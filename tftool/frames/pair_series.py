@@ -4,6 +4,7 @@ Times are seconds since one start, so that a plot's axis agrees with `--from` an
 """
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -21,6 +22,12 @@ Floats = batch.Floats
 
 MOST_TOLD: Final = 3
 """Maximum number of spans without poses whose reason is printed."""
+
+_OUTSIDE: Final = re.compile(
+    r"extrapolation into the (past|future)\..* from frame \[(.+)\] to frame \[(.+)\]"
+)
+_BEYOND: Final = {"past": "begins later", "future": "ends earlier"}
+"""Short form of tf2's message on a time outside the data, for each side."""
 
 LONG_SILENCE: Final = 10.0
 """Number of median periods without a sample that count as a gap."""
@@ -175,6 +182,9 @@ def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
         if one.first == one.last:
             when = f"at {axis_number(one.first)} s"
         why = " ".join(one.reason.split())
+        if outside := _OUTSIDE.search(why):
+            side, source, target = outside.groups()
+            why = f"the data {_BEYOND[side]} ({source} in {target})."
         told.append(f"No pose {when}{f': {why}' if why else '.'}")
     if len(spans) > MOST_TOLD:
         told.append(f"... and in {len(spans) - MOST_TOLD} more spans.")
