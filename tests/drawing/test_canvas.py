@@ -315,6 +315,24 @@ def test_names_stand_beside_turtles_and_do_not_hide_each_other():
     assert text.count("turtle1") == text.count("turtle2") == 1
 
 
+@pytest.mark.parametrize(("right", "up"), [(2.0, -1.0), (2.0, 1.0), (-2.0, 1.0), (-1.0, 1.5)])
+def test_a_name_is_nearer_to_its_own_turtle_than_to_another(right, up):
+    rows = 34
+    places = {"turtle1": (4.0, 5.0), "turtle2": (4.0 + right, 5.0 + up)}
+    drawn = words(draw(sheet(*(turtle(name, *at) for name, at in places.items())), rows=rows))
+
+    def apart(row, column, end, name):
+        x, y = (place * rows / FIELD for place in places[name])
+        return math.hypot(x - min(max(2.0 * x, column), end) / 2.0, rows - y - row - 0.5)
+
+    for name, other in (("turtle1", "turtle2"), ("turtle2", "turtle1")):
+        text = f"{name} (no frame)"
+        (row,) = [row for row, line in enumerate(drawn) if text in line]
+        column = drawn[row].index(text)
+        span = row, column, column + len(text)
+        assert apart(*span, name) < apart(*span, other)
+
+
 def test_a_crowd_of_names_is_nudged_apart_and_none_is_dropped():
     crowd = [frame(f"frame{n:02}", 5.0 + 0.01 * n, 5.0) for n in range(20)]
 

@@ -1,5 +1,6 @@
 """Placement of labels beside frames, so that no label covers another."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -10,6 +11,10 @@ from tftool.drawing.table_columns import fitted
 
 FARTHEST_ROWS = 7
 """Largest distance in rows between a label and its frame."""
+
+
+SMALL = 2
+"""Largest reach of a symbol near which another frame's label may be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +94,7 @@ class Placer:
         found = []
         for label in labels:
             width = cell_len(label.text)
+            large = [one for one in labels if one.reach > SMALL and one is not label]
             best: tuple[float, int, int] | None = None
             for cost, column, row in self._places(label, width):
                 if best is not None and cost >= best[0]:
@@ -100,6 +106,8 @@ class Placer:
                 cost += 4.0 * len(solid.intersection(cells))
                 # Directly beside another label, the two would read as one word.
                 cost += 3.0 * ((row, column - 1) in hard and column - 1 != label.column)
+                own = _apart(label, column, row, width)
+                cost += 5.0 * any(_apart(one, column, row, width) <= own for one in large)
                 if best is None or cost < best[0]:
                     best = cost, column, row
             if best is None:
@@ -128,3 +136,12 @@ class Placer:
                     if before == (start - column, line - row):
                         cost -= 1.2
                     yield cost, start, line
+
+
+def _apart(label: Label, column: int, row: int, width: int) -> tuple[float, float]:
+    """Return the rows between a text and a frame's symbol, and between the text and its centre."""
+    nearest = min(max(label.column, column), column + width - 1)
+    across, down = abs(nearest - label.column), abs(row - label.row)
+    # A cell is twice as high as wide.
+    edge = max(0, across - label.reach), max(0.0, down - 0.5 * label.reach)
+    return math.hypot(0.5 * edge[0], edge[1]), math.hypot(0.5 * across, down)
