@@ -67,6 +67,17 @@ def test_a_value_that_is_noise_is_written_as_zero():
     assert "x 0  y 1.000  z 0" in drawn
 
 
+def test_a_small_value_has_the_decimals_of_the_values_beside_it():
+    stamps = np.arange(3) * seconds(1) + 1
+    moves = np.array([[3.0, 1.0, 0.0], [1.0, 0.5, 0.0], [0.006, 4.14e-6, 0.0]])
+    turns = np.tile([0.0, 0.0, 0.0, 1.0], (3, 1))
+    path = trajectory_of(TransformArray("map", "car", stamps, moves, turns, np.ones(3, bool)))
+
+    drawn = over_time([path], 1, chosen(["position"]), PlotLook(80, 12)).plain
+
+    assert "x 0.006  y 0.000  z 0" in drawn
+
+
 def test_a_line_rises_where_the_value_does(tftool, tmp_path):
     from tftool import Buffer, Transform, TransformStamped, seconds
 

@@ -36,6 +36,9 @@ LABELS: Final = 10
 NOISE: Final = 1e-6
 """Fraction of a panel's largest value below which a value is shown as 0."""
 
+HALF_DIGIT: Final = 0.0005
+"""Half of the last digit of a value with three decimals."""
+
 LEAST_ROWS: Final = 3
 ROWS: Final = 7
 """Lines of a panel if the height of the plot is not given."""
@@ -189,8 +192,7 @@ def _titled(panel: PlotPanel, look: PlotLook, number: int) -> Text:
     for place, one in enumerate(panel.curves):
         holds = np.flatnonzero(np.isfinite(one.values))
         last = float(one.values[holds[-1]]) if len(holds) else math.nan
-        is_noise = abs(last) < NOISE * max(map(abs, panel.limits()))
-        value = "" if math.isnan(last) else "0" if is_noise else axis_number(last)
+        value = "" if math.isnan(last) else _value(last, max(map(abs, panel.limits())))
         key = str(number + place) if look.numbered and number + place < 10 else ""
         label = "" if is_alone else visible(one.label)
         is_hidden = number + place in look.hidden
@@ -199,6 +201,15 @@ def _titled(panel: PlotPanel, look: PlotLook, number: int) -> Text:
     line.truncate(look.width, overflow="ellipsis")
     line.append("\n")
     return line
+
+
+def _value(last: float, largest: float) -> str:
+    """Format the last value of a curve in a panel whose largest value is given."""
+    if abs(last) < NOISE * largest:
+        return "0"
+    # Beside values of a tenth and more, powers of ten would only show noise.
+    is_small = 0.0 < abs(last) < HALF_DIGIT and largest >= 0.1
+    return "0.000" if is_small else axis_number(last)
 
 
 def _drawn(
