@@ -325,6 +325,8 @@ def test_a_small_picture_names_the_chosen_frame_first_and_counts_the_unnamed():
     assert "tip_31" in small
     assert small.count("tip_") < 6 < large.count("tip_")
     assert re.search(r"grid \S+ m, \d\d of 41 frames unnamed", small)
+    narrow = text(cells(SpacePicture("root", frames, chosen="tip_31"), columns=30, rows=20))
+    assert re.search(r"grid \S+ m, \d\d of 41 unnamed", narrow)
     few = text(cells(SpacePicture("root", tuple(spread(3)), chosen="tip_01"), columns=60, rows=30))
     assert "unnamed" not in few
 

@@ -1,4 +1,5 @@
 import asyncio
+import re
 
 import pytest
 from rich.cells import cell_len
@@ -260,7 +261,11 @@ def arm(shown):
 def long_names():
     """The screen of 80 × 24 for an arm with a joint of 19 letters."""
     robot = Robot(parse_description(ARM.replace('"turn"', '"shoulder_lift_joint"')))
-    app = RobotApp(new_world(), Sliders(robot, Mover(robot)), setting=Setting())
+    return screen_of(RobotApp(new_world(), Sliders(robot, Mover(robot)), setting=Setting()))
+
+
+def screen_of(app):
+    """Return the lines of a screen of 80 × 24 cells."""
     lines = []
 
     async def main():
@@ -272,6 +277,26 @@ def long_names():
 
     asyncio.run(main())
     return lines
+
+
+def test_a_robot_of_one_link_is_drawn_without_any_transform():
+    text = re.sub(r'<link name="base"/>|<joint.*</joint>', "", ARM, flags=re.DOTALL)
+    robot = Robot(parse_description(text))
+    solids, _ = solids_of(robot.links.values(), MeshFolders())
+    app = RobotApp(new_world(), Sliders(robot, Mover(robot)), setting=Setting(), solids=solids)
+
+    lines = screen_of(app)
+
+    assert solid_cells(lines) > 40
+    assert "no joint that moves" in "".join(lines)
+
+
+def test_a_short_table_of_links_has_the_chosen_link_and_counts_the_others(shown):
+    lines = shown("tab", size=(100, 17))
+
+    (row,) = [line for line in lines if line.startswith("│base  ")]
+    assert row.split("│")[1].split() == ["base", "0.000", "0.000", "0.000"]
+    assert any("4 more" in line for line in lines)
 
 
 def solid_cells(lines):

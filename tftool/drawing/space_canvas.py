@@ -466,7 +466,9 @@ class SpaceCanvas:
             text, is_chosen = placed.label.text, one.name == chosen
             sheet.write(placed.column, placed.row, text, ink, bold=is_chosen, clears=True)
         if told < total:
-            hint += f", {total - told} of {total} frames unnamed"
+            words = f", {total - told} of {total} frames unnamed"
+            fits = len(hint + words) <= self.columns
+            hint += words if fits else words.replace(" frames", "")
         sheet.write(0, self.rows - 1, hint[: self.columns], packed(palette.dim), clears=True)
 
 

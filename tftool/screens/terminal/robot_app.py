@@ -12,9 +12,10 @@ from textual.containers import Container
 from tftool.base.errors import TransformException
 from tftool.base.plain_text import count
 from tftool.drawing.solids import Solids
-from tftool.drawing.space import SpacePicture
+from tftool.drawing.space import SpaceFrame, SpacePicture
 from tftool.drawing.table_columns import fitted, padded
 from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.geometry.rigid import Transform
 from tftool.screens.terminal.panel_text import Hint, footer
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.sliders import Slider, Sliders, tip_of
@@ -42,6 +43,9 @@ BESIDE = 76
 
 WITH_LINKS = 9
 """Smallest number of rows of the link's panel that also lists the other links."""
+
+WITH_TABLE = 3
+"""Smallest number of rows of the table of links: its heading, a link, the number of others."""
 
 BELOW = 26
 """Smallest number of rows with the picture below the joints."""
@@ -155,7 +159,7 @@ class RobotApp(PanelApp):
         self.query_one("#side").styles.width = (
             max(44, min(76, width * 2 // 5)) if is_beside else "1fr"
         )
-        joints = len(self.sliders.sliders) + 2
+        joints = max(1, len(self.sliders.sliders)) + 2
         fits = joints + WITH_LINKS <= height - 2
         self.panel("joints").styles.height = joints if fits else "1fr"
         self.panel("pose").styles.height = "1fr" if fits else 6 if height >= 16 else 4
@@ -201,6 +205,9 @@ class RobotApp(PanelApp):
         root = self.prefix + self.sliders.robot.root
         snapshot = self.world.buffer.snapshot(self.world.clock.now())
         frames = frames_in_space(snapshot, root)
+        if len(self._links) == 1:
+            # Nobody publishes a transform of a single link.
+            frames = (SpaceFrame(root, Transform()),)
         space.draw(SpacePicture(root, frames, self._solids, chosen=self._chosen_frame()), self.look)
         if self._missing:
             space.border_subtitle = f"meshes missing: {len(self._missing)}"
@@ -262,16 +269,17 @@ class RobotApp(PanelApp):
         turn = f"rpy {roll:.4f} {pitch:.4f} {yaw:.4f} rad"
         if height < 4:
             return [heading, Text(f"{place}   {turn}")]
-        lines = [heading, Text(place), Text(turn), self._joint(width), *self._others(width)]
-        if len(lines) > height > 6:
-            lines[height - 1 :] = [Text(f"{len(lines) - height + 1} more", "dim")]
-        return lines[:height]
+        lines = [heading, Text(place), Text(turn), self._joint(width)]
+        return lines + self._others(width, height - len(lines))
 
-    def _others(self, width: int) -> list[Text]:
-        """Return lines with the position of every link, below a heading."""
+    def _others(self, width: int, room: int) -> list[Text]:
+        """Return at most `room` lines: a heading, and positions of links."""
+        if room < WITH_TABLE:
+            return []
         look, root = self.look, self.prefix + self.sliders.robot.root
         name_width = max(8, width - 24)
-        lines = [Text(), Text(f"{'':{name_width}}       x       y       z", "dim")]
+        lines: list[Text] = []
+        chosen = 0
         for link in self._links:
             try:
                 place = self.world.buffer.lookup_transform(root, self.prefix + link)
@@ -280,8 +288,16 @@ class RobotApp(PanelApp):
             name = padded(self.prefix + link, name_width, more=look.more)
             numbers = "".join(f"{round(one, 3) + 0.0:8.3f}" for one in place.transform.translation)
             color = look.palette.accent if link == self.link else look.of_name(self.prefix + link)
+            chosen = len(lines) if link == self.link else chosen
             lines.append(Text.assemble((name, look.ink(color)), numbers))
-        return lines
+        head = [Text()] * (room > WITH_TABLE)
+        head.append(Text(f"{'':{name_width}}       x       y       z", "dim"))
+        room -= len(head)
+        if len(lines) > room:
+            first = max(0, chosen - room + 2)
+            shown = lines[first : first + room - 1]
+            lines = [*shown, Text(f"{len(lines) - len(shown)} more", "dim")]
+        return head + lines
 
     def _joint(self, width: int) -> Text:
         """Describe the joint under the cursor and its limits."""
