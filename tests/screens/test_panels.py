@@ -171,6 +171,15 @@ def test_a_silent_frame_has_rate_zero_in_amber_or_red(age, color):
     assert style.color.triplet.hex == theme.hexadecimal(getattr(theme.DARK, color))
 
 
+def test_a_picture_alone_offers_no_key_for_the_next_panel():
+    def offered(alone):
+        found = panels.hints("field", drives=True, past=False, ascii_only=False, alone=alone)
+        return "Tab" in [hint.keys for hint in found]
+
+    assert offered(alone=False)
+    assert not offered(alone=True)
+
+
 def test_without_frames_there_is_a_sentence():
     assert words(tree(moment())) == ["No frames yet."]
 

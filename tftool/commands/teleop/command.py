@@ -160,7 +160,6 @@ def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
         Setting(
             title=f"tftool teleop {options.turtle}",
             drive_only=True,
-            banner=BANNER,
             ascii_only=options.ascii_only,
             light=options.light,
         ),

@@ -366,6 +366,7 @@ def hints(
     ascii_only: bool,
     chooses: bool = False,
     in_space: bool = False,
+    alone: bool = False,
 ) -> Sequence[Hint]:
     """Return the keys that matter now, the most important first.
 
@@ -376,10 +377,11 @@ def hints(
         ascii_only: Whether to write keys in ASCII.
         chooses: Whether another scenario can be chosen.
         in_space: Whether the picture is in 3-D.
+        alone: Whether there is no other panel.
     """
     arrows, updown = ("arrows", "up/down") if ascii_only else ("↑↓←→", "↑↓")
     travel = [Hint("l", "live"), Hint("[ ]", "time")] if past else [Hint("[ ]", "past")]
-    always = [*travel, Hint("Tab", "panel"), Hint("?", "keys")]
+    always = [*travel, *([] if alone else [Hint("Tab", "panel")]), Hint("?", "keys")]
     if panel == "scenarios":
         return [
             Hint(updown, "choose"),

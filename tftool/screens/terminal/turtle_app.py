@@ -310,6 +310,7 @@ class TurtleApp(PanelApp):
             ascii_only=look.ascii_only,
             chooses=self.setting.scenarios is not None,
             in_space=self.field.in_space,
+            alone=not self.query_one("#side").display,
         )
         self.panel("footer").show([panels.footer(hints, width, look)])
         self.panel("banner").show(self._banner(width))
