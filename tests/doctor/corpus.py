@@ -170,6 +170,7 @@ def conflict(made: Robot, *names: str) -> None:
 
 
 def twice(made: Robot) -> None:
+    made.kind = "ROS 1 bag"
     nav(made, without=("wheel_left_link",))
     for tick in range(240):
         for latency in (0.004, 0.006):

@@ -181,6 +181,20 @@ def test_what_is_merely_fast_has_one_publisher(speed):
 def test_two_publishers_of_equal_values_only_repeat_stamps():
     made = robot()
     made.moving("odom", "base_link")
+    assert ids(made, notes=True) == []  # ROS 2 ignores them
+    made.kind = "ROS 1 bag"
+    assert ids(made) == ["repeated-stamp"]
+
+
+@pytest.mark.parametrize("kind", ["ROS 1 bag", "rosbag2"])
+def test_a_node_that_repeats_its_newest_pose_under_an_old_stamp_is_no_conflict(kind):
+    made = robot(odometry=False)
+    made.kind = kind
+    for tick in range(160):
+        # Each pose is sent twice, and the second time under the stamp of the next one.
+        for stamp in (tick, tick + 1):
+            pose = (0.05 * tick, 0.0, 0.0, *NO_TURN)
+            made.sent("odom", "base_link", 0.05 * stamp, pose, node="/camera")
     assert ids(made) == ["repeated-stamp"]
 
 

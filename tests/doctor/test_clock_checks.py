@@ -198,6 +198,36 @@ def test_an_imu_on_the_right_clock_is_off_all_others():
     assert "143 hours off" in findings[0].message
 
 
+def test_a_gps_that_is_late_is_no_clock_beside_which_an_imu_is_ahead():
+    made = Robot(log_from=START - 5.8 * 3600.0)
+    made.hears("/imu", "base_link", 100.0, "sensor_msgs/Imu", latency=0.002)
+    made.moving("base_link", "imu_link", 100.0, latency=0.002)
+    for topic in ("/fix", "/fix_again", "/fix_filtered"):
+        made.hears(topic, "base_link", 1.0, "sensor_msgs/NavSatFix", latency=0.11)
+    made.hears("/velocity", "base_link", 1.0, "geometry_msgs/TwistStamped", latency=0.11)
+    assert ids(made, notes=True) == ["shifted-clock"]
+
+
+@pytest.mark.parametrize(("hours", "words"), [(5.8, "NTP"), (-5.8, "was probably played")])
+def test_stamps_ahead_of_the_recorder_by_hours_are_another_clock_and_not_played(hours, words):
+    made = robot(log_from=START - hours * 3600.0)
+    made.hears("/points", "laser", 5.0, "sensor_msgs/PointCloud2")
+    made.moving("map", "odom", 10.0, stands, offset=-hours * 3600.0, latency=0.002)
+    assert words in found(made, "clock-offset").fixes[0].text
+
+
+def test_a_sensor_that_counts_from_1970_without_a_clock_needs_ntp():
+    made = robot()
+    made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu")
+    kind, rows = made.heard["/imu"]
+    made.heard["/imu"] = (kind, [(stamp - seconds(START - 3401.0), *row) for stamp, *row in rows])
+    mixture = found(made, "clock-mixture")
+    assert "/imu is stamped with a clock that was never set" in mixture.message
+    assert "NTP" in mixture.fixes[0].text
+    made.clock = [(seconds(START + 0.1 * i), seconds(START + 0.1 * i)) for i in range(81)]
+    assert "use_sim_time: false" in found(made, "clock-mixture").fixes[0].text
+
+
 def test_dating_ahead_by_a_period_or_of_a_constant_is_by_design():
     made = robot()
     made.moving("map", "odom", 20.0, stands, offset=0.05)
@@ -349,6 +379,7 @@ def test_what_is_sent_again_late_repeats_stamps_and_is_not_also_out_of_order():
         made.sent("base_link", "arm", tick * 0.05, drives(tick * 0.05))
         if tick > 2 and tick % 4 == 0:
             made.sent("base_link", "arm", (tick - 2) * 0.05, drives((tick - 2) * 0.05), latency=0.2)
+    made.kind = "ROS 1 bag"
     assert ids(made, notes=True) == ["repeated-stamp"]
     assert found(made, "out-of-order").because_of == "repeated-stamp"
 

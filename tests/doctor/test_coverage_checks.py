@@ -412,3 +412,14 @@ def test_a_mount_sent_on_tf_that_holds_up_a_sensor_belongs_on_tf_static():
     made.moving("base_link", "laser", 4.0, stands)
     cures = [fix.text for fix in found(made, "sensor-outruns-tf").fixes]
     assert any("laser in base_link" in cure and "/tf_static" in cure for cure in cures)
+
+
+@pytest.mark.parametrize(
+    ("kind", "told"),
+    [("visualization_msgs/Marker", []), ("sensor_msgs/PointCloud2", ["sensor-outruns-tf"])],
+)
+def test_what_is_only_drawn_may_come_before_its_transform(kind, told):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 5.0)
+    made.hears("/drawn", "base_link", 20.0, kind, latency=0.001)
+    assert ids(made) == told

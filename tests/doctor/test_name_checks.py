@@ -180,3 +180,11 @@ def test_the_distance_of_two_names_is_that_of_its_definition_up_to_what_is_asked
 
     assert measured == right if right <= most else measured > most
     assert distance(f"robot/{one}_link", f"robot/{other}_link", 12) == right
+
+
+def test_a_frame_that_only_the_filtered_position_names_is_not_missed():
+    made = robot()
+    made.hears("/gps/filtered", "gps", kind="sensor_msgs/NavSatFix")
+    assert ids(made, notes=True) == []
+    made.hears("/gps/fix", "antenna", kind="sensor_msgs/NavSatFix")
+    assert ids(made) == ["unknown-frame"]

@@ -24,6 +24,9 @@ _SYNCHRONISE = (
     ),
     Fix("a larger timeout does not help against a constant offset"),
 )
+_SET_CLOCK = Fix(
+    "set the clock of the computer that is off (chronyc tracking shows it): give it NTP or chrony"
+)
 _PLAY_AGAIN = Fix(
     "a recording was probably played beside nodes that run on the present time: {play_again}"
 )
@@ -54,10 +57,10 @@ CONSTANTS_AHEAD = seconds(1)
     headline="{where} {concerned:is|are} stamped with {odd_clock}, all others with {usual_clock}",
     detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
     consequence="no lookup across the two clocks can succeed",
-    fixes=(Fix("{sim_time}"),),
     causes=(
         "one node without use_sim_time",
         "simulated time set on a real robot",
+        "a computer without a clock of its own, which counts from 1970",
         "a real sensor on a simulated robot",
     ),
     links=threads("ANYbotics/elevation_mapping#122", "iRobotEducation/create3_sim#203"),
@@ -80,6 +83,10 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     tracks = [one for one in odd if isinstance(one, Track)]
     heards = [one for one in odd if isinstance(one, Heard)]
     sample, usual = _example(odd, sim_is_odd), _example(others, not sim_is_odd)
+    # Without /clock there is no simulation that the other nodes follow.
+    is_unset = sim_is_odd and not len(read)
+    setting = "false" if sim_is_odd else "true"
+    odd_clock = "a clock that was never set" if is_unset else "the simulation's clock"
     yield Hit(
         edges=tuple(track.edge for track in tracks),
         topics=tuple(sorted({heard.topic for heard in heards})),
@@ -90,10 +97,11 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
             "odd": [one.name for one in odd],
             "odd_stamp": sample,
             "usual_stamp": usual,
-            "odd_clock": "the simulation's clock" if sim_is_odd else "the wall clock",
+            "odd_clock": odd_clock if sim_is_odd else "the wall clock",
             "usual_clock": "the wall clock" if sim_is_odd else "the simulation's",
-            "setting": "false" if sim_is_odd else "true",
+            "setting": setting,
         },
+        fixes=(_SET_CLOCK if is_unset else Fix(model.words["sim_time"].format(setting=setting)),),
         alone=True,
     )
 
@@ -361,7 +369,10 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
     """A sensor's stamps are in the future: two clocks differ."""
     alike: dict[int, list[Track | Heard]] = defaultdict(list)
     for track in model.unshifted:
-        alike[-track.median_latency].append(track)
+        ahead = -track.median_latency
+        near = max(_ONE_CLOCK, abs(ahead) // 10_000)
+        same = next((one for one in alike if abs(one - ahead) < near), ahead)
+        alike[same].append(track)
     for heard in model.heard:
         if len(heard.stamps) < 3 or not heard.is_spatial:
             continue
@@ -403,7 +414,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 else "each lookup at these stamps asks for what is not there"
                 + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
             },
-            fixes=(*cures_of_offset(ahead), *twice),
+            fixes=(*cures_of_offset(model, ahead), *twice),
             alone=True,
         )
     if not alike:
@@ -430,9 +441,13 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tup
     return tuple(fixes), told
 
 
-def cures_of_offset(ahead: Duration) -> tuple[Fix, ...]:
-    """Return the remedies for two clocks, or for old data if the offset is long."""
-    return _SYNCHRONISE if abs(ahead) < _PLAYED else (_PLAY_AGAIN,)
+def cures_of_offset(model: Model, ahead: Duration) -> tuple[Fix, ...]:
+    """Return the remedies for two clocks, or for old data if stamps are long before reception."""
+    if abs(ahead) < _PLAYED:
+        return _SYNCHRONISE
+    # What was recorded before is stamped before its reception.
+    is_old = model.shift is not None and model.shift.by > 0
+    return (_PLAY_AGAIN if is_old else _SET_CLOCK,)
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -612,7 +627,8 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     "repeated-stamp",
     Severity.WARNING,
     rule="more than {samples:g} samples, and a share above {share:g}, repeat a stamp with "
-    "the same value. In ROS 2 not reported for a transform from map to odometry",
+    "any value. In ROS 2 only samples with another value count, and no transform from map to "
+    "odometry is reported",
     headline="{where} {concerned:repeats|repeat} stamps",
     detail="{edge}: {count} of {of} samples repeat a stamp",
     consequence="{repeats}",
@@ -637,21 +653,23 @@ _FROZEN = {"times": 10, "seconds": 1.0}
 )
 def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Stamps are sent twice: TF_REPEATED_DATA in ROS 1."""
+    is_old = is_ros1(model.evidence)
     for track in model.dynamic:
         places = track.by_stamp
-        if track.is_orderly or (track.is_localisation and not is_ros1(model.evidence)):
+        if track.is_orderly or (track.is_localisation and not is_old):
             continue  # a localiser of ROS 2 repeats the pose of the last scan on purpose
         again = np.flatnonzero(np.diff(track.sorted_stamps) == 0)
         if len(again) <= limits["samples"] or stands_still(track):
             continue
         some, others = places[again], places[again + 1]
-        alike = (track.apart(some, others) < 1e-6) & (track.turned(some, others) < 1e-4)
-        count = int(np.count_nonzero(alike))
+        differ = (track.apart(some, others) > 1e-6) | (track.turned(some, others) > 1e-4)
+        told = differ | is_old  # ROS 2 ignores equal ones
+        count = int(np.count_nonzero(told))
         if count > limits["samples"] and count > limits["share"] * len(places):
             yield hit_of(
                 track,
                 {"count": count, "of": len(places)},
-                since=int(track.logs[some[alike]].min()),
+                since=int(track.logs[some[told]].min()),
                 count=count,
             )
 

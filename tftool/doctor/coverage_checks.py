@@ -526,7 +526,8 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     rule="the 95 % quantile of the waits for the last transform that a message on the robot needs "
     "is {seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
     " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
-    "{messages:g} messages, which are not those of an IMU, a compass or a satellite receiver",
+    "{messages:g} messages, which are not markers or those of an IMU, a compass or a "
+    "satellite receiver",
     headline="{topics} {topics:arrives|arrive} before the transforms {topics:it needs|they need}",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
@@ -655,8 +656,8 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
 _RELAYED = 5_000_000
 """Maximum difference between the waits of a topic and of its relayed copy, nanoseconds."""
 
-_NOT_PLACED = frozenset({"Imu", "MagneticField", "NavSatFix"})
-"""Types of messages that filters use on arrival, so that nothing looks up their stamps."""
+_NOT_PLACED = frozenset({"Imu", "MagneticField", "NavSatFix", "Marker"})
+"""Types of messages that filters use on arrival, or that are only drawn."""
 
 _WORLDS = frozenset({"map", "world", "earth"})
 

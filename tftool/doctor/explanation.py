@@ -282,7 +282,8 @@ def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
             "other clocks: no lookup across the two clocks can succeed",
         ),
         tuple(
-            Remedy("clock", in_words(fix.text, model.words)) for fix in cures_of_offset(ahead)[:1]
+            Remedy("clock", in_words(fix.text, model.words))
+            for fix in cures_of_offset(model, ahead)[:1]
         ),
         ("a timeout, a larger cache: the two clocks never meet",),
     )

@@ -51,6 +51,9 @@ class Settings:
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
 
+_ONE_CLOCK = seconds(0.05)
+"""Maximum difference between two delays of one clock, nanoseconds."""
+
 SHIFT = seconds(2)
 """Minimum constant difference between stamps and reception that counts as a shift of the clock."""
 
@@ -413,7 +416,7 @@ class Model:
         if not len(read):
             read, received = self._clock
             self.reference = (
-                "stamps are a simulation's and there is no /clock: the freshest stream counts "
+                "stamps count from 0 and there is no /clock: the freshest stream counts "
                 "as not late at all, and only differences are true"
             )
         for stream in streams:
@@ -426,7 +429,7 @@ class Model:
 
     def _find_shift(self, streams: list[Stream]) -> None:
         """Find the constant by which most stamps differ from arrivals, and remove it."""
-        late, spreads, moving = [], [], []
+        late, spreads, moving, kept = [], [], [], []
         for stream in streams:
             is_moving = False
             if isinstance(stream, Track):
@@ -442,6 +445,7 @@ class Model:
             delays = (stream.logs - stream.stamps)[stream.stamps != 0]
             low, middle, high = np.percentile(delays, (10, 50, 90), method="nearest").tolist()
             late.append(int(middle))
+            kept.append(stream)
             spreads.append(int(high) - int(low))
             if is_moving:
                 moving.append(int(middle))
@@ -455,6 +459,10 @@ class Model:
         spread = sorted(alike)[len(alike) // 2]
         if 2 * len(alike) <= len(late) or spread > LAP:
             return
+        at_once = [s for one, s in zip(late, kept, strict=True) if abs(one - by) < _ONE_CLOCK]
+        if all(_copies(at_once[0], other) for other in at_once[1:]):
+            # One late stream and its copies tell no clock: the freshest stream does.
+            by = min(one for one in late if abs(one - by) < near)
         by = min([one for one in moving if LAP <= by - one < near], default=by)
         self.shift = Shift(by, spread, len(alike), len(late))
         for stream in streams:
@@ -490,6 +498,12 @@ class Model:
         stamps, logs = (np.concatenate(columns) for columns in zip(*kept, strict=True))
         order = np.argsort(logs, kind="stable")
         return np.maximum.accumulate(stamps[order]), logs[order]
+
+
+def _copies(one: Stream, other: Stream) -> bool:
+    """Whether two streams have the same stamps, as a message and what is computed from it."""
+    shares = (np.isin(one.stamps, other.stamps), np.isin(other.stamps, one.stamps))
+    return all(float(share.mean()) > 0.5 for share in shares)
 
 
 def _is_nameless(track: Track) -> bool:

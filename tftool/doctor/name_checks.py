@@ -55,7 +55,9 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     for heard in model.heard:
         known = heard.frame in model.frames or heard.frame[1:] in _slashed(heard, model)
         known = known or heard.frame in model.described
-        if heard.frame and heard.is_spatial and not known:
+        # navsat_transform_node names a frame in its output that it does not publish.
+        is_output = last_part(heard.type) == "NavSatFix" and last_part(heard.topic) == "filtered"
+        if heard.frame and heard.is_spatial and not known and not is_output:
             by_name[heard.frame].append(heard)
     for name, heards in by_name.items():
         count = sum(len(heard.stamps) for heard in heards)

@@ -103,7 +103,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     rule="two publishers with at least {least:g} samples each overlap in time and differ by "
     "more than {metres:g} m (or {degrees:g}°) and by more than one step. Where "
     "publishers are unknown: {samples:g} stamps or more have two values that differ so "
-    "much (a warning from {stamps:g} on), or the samples alternate between two tracks "
+    "much (a warning from {stamps:g} on) and one of the two interrupts the motion of "
+    "the other, or the samples alternate between two tracks "
     "(a sample belongs to a track within {reach:g} m + {speed:g} m/s, a radian counting"
     " as half a metre). Each track needs {samples:g} samples and a share of {share:g}, "
     "the track must change {changes:g} times or more, and motion at constant velocity "
@@ -276,7 +277,8 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
         track.turned(mine, theirs) > np.radians(limits["degrees"])
     )
     count = int(np.count_nonzero(differ))
-    if count < max(limits["stamps"], 1):
+    back = _count_returns(track, again[differ])
+    if count < max(limits["stamps"], 1) or back < max(limits["share"] * count, 1):
         return None
     owned = (mine[differ], theirs[differ])
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
@@ -286,6 +288,33 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
         topic = track.topics[0] if track.topics else "/tf"
         hit = replace(hit, fixes=(Fix(f"find its publishers: `{{publishers}} {topic}`"),))
     return hit
+
+
+def _count_returns(track: Track, firsts: Places) -> int:
+    """Return at how many stamps with two values one of the two interrupts the motion of the other.
+
+    A node that sends its newest pose under an old stamp goes on from the second value instead.
+
+    Args:
+        track: The edge's samples.
+        firsts: Places of the first of two samples in the order of stamps, shape (n,).
+    """
+    firsts = firsts[(firsts > 0) & (firsts + 2 < len(track.by_stamp))]
+    before, mine, theirs, after = (track.by_stamp[firsts + step] for step in (-1, 0, 1, 2))
+    half = 0.5 * (track.apart(mine, theirs) + _RADIAN * track.turned(mine, theirs))
+    where, times = track.translations, track.stamps
+    gone, left = times[mine] - times[before], times[after] - times[theirs]
+    ratio = (left / gone)[:, None]
+    returns = np.zeros(len(firsts), dtype=bool)
+    for one, other, led in (
+        (mine, after, (where[mine] - where[before]) * ratio),
+        (before, theirs, (where[after] - where[theirs]) / ratio),
+    ):
+        turned = _RADIAN * track.turned(one, other)
+        for moved in (np.zeros_like(led), led):
+            missed = np.linalg.norm(where[one] + moved - where[other], axis=1)
+            returns |= missed + turned < half
+    return int(np.count_nonzero(returns))
 
 
 def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
