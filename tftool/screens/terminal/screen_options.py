@@ -18,7 +18,6 @@ class Setting:
         colors: Whether colours may be used.
         light: Whether the terminal's background is light.
         drive_only: Whether to show only the field, for `tftool teleop`.
-        banner: Lines to show above the field.
         at: First time to show, standing still; None for the present.
         scenarios: Function that returns name and description of the scenarios to choose from;
             None if no scenario can be chosen.
@@ -30,7 +29,6 @@ class Setting:
     colors: bool = True
     light: bool = False
     drive_only: bool = False
-    banner: tuple[str, ...] = ()
     at: Stamp | None = None
     scenarios: Callable[[], Sequence[tuple[str, str]]] | None = None
 
@@ -73,9 +71,6 @@ BLOCK_LINES = 11
 LEAST_PLOT = 6
 """Smallest number of lines of the plots, with their border."""
 
-WITH_BANNER = 36
-"""Smallest number of rows with a banner above the picture."""
-
 SCALE = 5
 """Columns at the left of the picture for its scale in metres."""
 
@@ -103,19 +98,18 @@ class ScreenLayout:
     log: int = 0
 
 
-def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
+def arranged(width: int, height: int, frames: int) -> ScreenLayout:
     """Divide a screen among its panels.
 
     Args:
         width: Columns of the terminal.
         height: Rows of the terminal.
-        banner: Rows of the banner.
         frames: Lines that the whole tree needs.
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:
         return ScreenLayout(small=True)
     # Without the top line, the log's line and the line of keys.
-    room = height - 3 - banner
+    room = height - 3
     log = max(4, min(12, room // 3))
     if width < WITH_PANELS:
         return ScreenLayout(alone=True, log=log)

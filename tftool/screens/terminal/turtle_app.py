@@ -9,7 +9,6 @@ import asyncio
 from collections.abc import Callable, Sequence
 from typing import ClassVar
 
-from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
@@ -25,7 +24,7 @@ from tftool.screens.terminal.panel_text import PairPlot
 from tftool.screens.terminal.plane_view import PlaneView
 from tftool.screens.terminal.question import SceneQuestion
 from tftool.screens.terminal.scene import Scene, SceneMoment
-from tftool.screens.terminal.screen_options import SMALLEST, WITH_BANNER, Setting, arranged
+from tftool.screens.terminal.screen_options import SMALLEST, Setting, arranged
 from tftool.screens.terminal.space_panel import SPACE_BINDINGS, SpacePanel
 from tftool.screens.terminal.space_scene import opens_in_space, space_picture
 from tftool.screens.terminal.text_style import wrapped
@@ -68,7 +67,6 @@ class TurtleApp(PanelApp):
     .mono Panel:focus {{ border: heavy $accent; }}
     .ascii Panel:focus {{ border: ascii $accent; }}
     #small {{ border: none; height: 1fr; display: none; background: $background; }}
-    #banner {{ border: none; display: none; background: $background; }}
     #scenarios {{ layer: above; dock: top; display: none; border: round $accent; }}
     .ascii #scenarios {{ border: ascii $accent; }}
     #log {{ border: none; height: 1; background: $background; }}
@@ -154,7 +152,6 @@ class TurtleApp(PanelApp):
     def compose(self) -> ComposeResult:
         """Create the panels of this screen; `_arrange` sets their sizes."""
         yield Panel("header", can_focus=False)
-        yield Panel("banner", can_focus=False)
         with Container(id="body"):
             yield SpacePanel("field", "Field")
             with Container(id="side"):
@@ -180,15 +177,12 @@ class TurtleApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self, width: int, height: int) -> None:
-        banner = self._banner(width) if height >= WITH_BANNER else []
         moment = self._question.moment
         frames = 3 if moment is None else len(moment.snapshot.frames)
-        layout = arranged(width, height - self._strip + 1, len(banner), frames)
+        layout = arranged(width, height - self._strip + 1, frames)
         for name in ("header", "footer"):
             self.panel(name).display = not layout.small
         self.panel("small").display = layout.small
-        self.panel("banner").display = bool(banner) and not layout.small
-        self.panel("banner").styles.height = len(banner)
         self.query_one("#body").display = not layout.small
         self.query_one("#side").display = not layout.alone
         self.screen.set_class(layout.portrait, "portrait")
@@ -205,9 +199,6 @@ class TurtleApp(PanelApp):
         log = self.panel("log")
         log.display = not layout.small
         log.styles.height = layout.log if log.has_focus else self._strip
-
-    def _banner(self, width: int) -> list[Text]:
-        return [line for text in self.setting.banner for line in wrapped(text, width)]
 
     # Looking
 
@@ -313,7 +304,6 @@ class TurtleApp(PanelApp):
             alone=not self.query_one("#side").display,
         )
         self.panel("footer").show([panels.footer(hints, width, look)])
-        self.panel("banner").show(self._banner(width))
         self._draw_log(moment)
         if not self.query_one("#side").display:
             return
