@@ -293,7 +293,7 @@ def test_a_message_that_is_shorter_than_its_head_is_told(tmp_path, is_chunked):
     with open_recording(path) as recording:
         assert len(recording.transforms) > 30
         # In a chunk its index is found wrong first.
-        told = "its message index points" if is_chunked else "has the length 7 bytes"
+        told = "its message index points" if is_chunked else "of a message announces 7 bytes"
         assert any(told in one for one in recording.damage)
 
 

@@ -282,5 +282,5 @@ def test_a_file_with_zero_bytes_is_no_python_text(tmp_path):
 
     file = tmp_path / "node.pyc"
     file.write_bytes(b"a = 1\0")
-    with pytest.raises(InputError, match=r"node\.pyc' is no Python text: source code"):
+    with pytest.raises(InputError, match=r"node\.pyc' is not valid Python: source code"):
         compile_file(file)

@@ -277,7 +277,7 @@ def _add_interfaces(package: Package) -> None:
     if package.name in TAKEN:
         if any((package.path / kind).is_dir() for kind in _KINDS):
             raise InputError(
-                f"two packages of interfaces cannot share the name '{package.name}' as well"
+                f"a package of interfaces cannot be named '{package.name}', as Python's module is"
             )
         return
     texts = {
