@@ -225,7 +225,7 @@ def test_a_report_is_one_page_with_the_curves(tftool, words, tmp_path):
         (["--moving", "a:b", "--moving", "c:d", "--moving", "e:f"], "at most twice"),
         (["--time-only", "--check"], "leave out the options of the mount"),
         (["-o", "mount.txt"], "end it in .urdf"),
-        (["-o", "new.urdf"], "name one with --urdf FILE"),
+        (["-o", "new.urdf"], "name it with --urdf FILE"),
         (["--report", "page.pdf"], "end it in .html"),
         (["--joint", "mount"], "--joint is only allowed with -o FILE"),
     ],

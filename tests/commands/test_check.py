@@ -67,7 +67,7 @@ def test_what_cannot_be_read_ends_with_3_and_the_rest_is_judged(tftool, scenario
         "wrong.yaml:1:11: 'soon' is not a duration such as 2 s\n"
         "     1 | duration: soon\n"
         "       |           ^^^^\n"
-        "wrong.yaml:2:9: there is no node 'turtlsim'; did you mean 'turtlesim'?\n"
+        "wrong.yaml:2:9: there is no kind of node 'turtlsim'; did you mean 'turtlesim'?\n"
         "     2 | nodes: [turtlsim]\n"
         "       |         ^^^^^^^^\n"
         "tftool: There is no file or folder 'gone.yaml'.\n"
