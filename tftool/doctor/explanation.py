@@ -17,9 +17,10 @@ from tftool.base.errors import ExtrapolationException, TransformException
 from tftool.base.stamps import CACHE_TIME, LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.doctor.clock_checks import cures_of_offset
-from tftool.doctor.coverage_checks import Waits, edge_stopped, least_rate, rounded_up, waits_of
+from tftool.doctor.coverage_checks import Waits, least_rate, rounded_up, waits_of
 from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Edge
+from tftool.doctor.gap_checks import edge_stopped
 from tftool.doctor.missing_joins import proposed_frame, proposed_join
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.name_checks import alike_frames

@@ -43,8 +43,8 @@ def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
     same clock, by more than ten of its periods and a second.
     """
     from tftool.doctor.clock_checks import clock_mixture
-    from tftool.doctor.coverage_checks import edge_stopped
     from tftool.doctor.evidence import evidence_of_buffer
+    from tftool.doctor.gap_checks import edge_stopped
     from tftool.doctor.model import Model
     from tftool.doctor.publisher_checks import two_parents
 

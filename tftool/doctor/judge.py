@@ -16,10 +16,12 @@ from tftool.buffer.buffer import Buffer
 from tftool.doctor import clock_checks as clocks
 from tftool.doctor import coverage_checks as coverage
 from tftool.doctor import description_checks as description
+from tftool.doctor import gap_checks as gaps
 from tftool.doctor import mount_checks as mounts
 from tftool.doctor import name_checks as names
 from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
+from tftool.doctor import stamp_checks as stamps
 from tftool.doctor import value_checks as values
 from tftool.doctor.check import NEEDS, Check
 from tftool.doctor.evidence import Evidence, described_by, evidence_of
@@ -34,7 +36,10 @@ if TYPE_CHECKING:
 
 CHECKS: Mapping[str, Check] = {
     check.id: check
-    for room in (publishers, shape, names, clocks, coverage, values, mounts, description)
+    for room in (
+        *(publishers, shape, names, clocks, stamps),
+        *(gaps, coverage, values, mounts, description),
+    )
     for check in room.check.checks
 }
 """All checks by id, in the order of the report: by area, then by definition."""

@@ -5,8 +5,8 @@ from typing import Any, Final
 
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import Buffer
-from tftool.doctor.coverage_checks import gap, holes
 from tftool.doctor.evidence import evidence_of_buffer
+from tftool.doctor.gap_checks import gap, holes
 from tftool.doctor.judge import judge
 from tftool.doctor.localisation_steps import LocalisationStep, steps_of
 from tftool.doctor.missing_joins import base_of

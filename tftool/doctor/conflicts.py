@@ -1,0 +1,361 @@
+"""Evidence that two sources publish one transform with different values."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS
+from tftool.doctor.findings import Confidence, Fix, Hit, Severity
+from tftool.doctor.missing_joins import BASES, quoted
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.stamp_stream import Places, Track, last_part
+from tftool.doctor.wording import span
+from tftool.geometry.quaternions import angle_between
+from tftool.geometry.rigid_arrays import (
+    Floats,
+    angles_between,
+    conjugate,
+    multiply,
+    rotation_vectors,
+    unit,
+)
+
+MOST_FOLLOWED = 20_000
+"""Maximum number of an edge's samples that are followed one by one; these are enough evidence."""
+
+_RADIAN = 0.5
+"""Length in metres that equals a radian, where one number combines a distance and an angle."""
+
+
+def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
+    """Return a warning for a conflict that hardly matters to a driving robot; None for an error."""
+    worst, turned = hit.facts["worst"], hit.facts["most_turned"]
+    assert isinstance(worst, float)
+    assert isinstance(turned, float)
+    if worst < limits["slight"] and turned < np.radians(limits["slight_degrees"]):
+        poses = np.hstack((track.translations, track.rotations))[track.by_stamp]
+        if len(np.unique(poses.round(6), axis=0)) == 2:
+            return Severity.WARNING
+    has_users = any(one.is_spatial and one.frame == track.child for one in model.heard)
+    is_base = track.is_localisation or is_odometry(track) or last_part(track.child) in BASES
+    is_drawn_only = not has_users and len(model.below(track.child)) == 1 and not is_base
+    return Severity.WARNING if is_drawn_only else None
+
+
+def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
+    """Return the finding about a joint that has one and the same value in every other sample.
+
+    One robot_state_publisher may send both values, if two sources of joint states feed it.
+    """
+    if track.is_localisation or is_odometry(track) or hit.confidence is Confidence.CERTAIN:
+        return None
+    places = track.by_stamp[:MOST_FOLLOWED]
+    poses = np.hstack((track.translations[places], track.rotations[places]))
+    _, kinds, counts = np.unique(poses, axis=0, return_inverse=True, return_counts=True)
+    rests = kinds.reshape(-1) == counts.argmax()
+    moving, resting = places[~rests], places[rests]
+    changes = np.count_nonzero(np.diff(rests))
+    if changes < 0.3 * len(places) or len(counts) <= limits["samples"]:
+        return None
+    near = np.clip(
+        np.searchsorted(track.stamps[resting], track.stamps[moving]), 0, len(resting) - 1
+    )
+    told = _conflict(track, ("A", "B"), (moving, resting[near]), Confidence.LIKELY)
+    text = f"one value {len(resting):,} times, others {len(moving):,} times, by turns"
+    seen = " (seen from the values; perhaps one publisher, fed by two sources of joint states)"
+    cure = (
+        "find who publishes joint states: `{publishers} /joint_states`; stop a "
+        "joint_state_publisher that sends zeros beside the real source, or name that source in "
+        "its source_list"
+    )
+    facts = {**told.facts, "told": text, "seen": seen}
+    return replace(told, facts=facts, fixes=(Fix(cure),))
+
+
+def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if two publishers with known names disagree at the same time."""
+    places = track.by_stamp
+    senders = track.senders[places]
+    numbers, counts = np.unique(senders, return_counts=True)
+    publishers = model.evidence.transforms.publishers
+    named = [
+        number
+        for number, count in zip(numbers.tolist(), counts.tolist(), strict=True)
+        if count >= limits["least"] and publishers[number].node
+    ]
+    for first, second in ((a, b) for i, a in enumerate(named) for b in named[i + 1 :]):
+        if publishers[first].node == publishers[second].node:
+            continue
+        mine, theirs = places[senders == first], places[senders == second]
+        stamps, others = track.stamps[mine], track.stamps[theirs]
+        if stamps[0] > others[-1] or others[0] > stamps[-1]:
+            continue
+        inside = (stamps >= others[0]) & (stamps <= others[-1])
+        stamps, mine = stamps[inside], mine[inside]
+        if len(mine) < limits["least"]:
+            continue
+        after = np.clip(np.searchsorted(others, stamps), 1, len(others) - 1)
+        nearer = np.abs(others[after] - stamps) < np.abs(others[after - 1] - stamps)
+        nearest = theirs[np.where(nearer, after, after - 1)]
+        apart, turned = track.apart(mine, nearest), track.turned(mine, nearest)
+        step = float(np.median(track.apart(mine[1:], mine[:-1]))) if len(mine) > 1 else 0.0
+        spin = float(np.median(track.turned(mine[1:], mine[:-1]))) if len(mine) > 1 else 0.0
+        if (
+            float(np.median(apart)) > limits["metres"] + step
+            or float(np.median(turned)) > np.radians(limits["degrees"]) + spin
+        ):
+            names = (publishers[first].node, publishers[second].node)
+            return _conflict(track, names, (mine, nearest), Confidence.CERTAIN)
+    return None
+
+
+def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if stamps occur twice with different poses."""
+    if len(track.steps) == len(track.by_stamp) - 1:
+        return None
+    # A stamp that occurs more than twice does not change, which is another fault.
+    _, firsts, counts = np.unique(track.sorted_stamps, return_index=True, return_counts=True)
+    again = firsts[counts == 2]
+    mine, theirs = track.by_stamp[again], track.by_stamp[again + 1]
+    differ = (track.apart(mine, theirs) > limits["metres"]) | (
+        track.turned(mine, theirs) > np.radians(limits["degrees"])
+    )
+    count = int(np.count_nonzero(differ))
+    back = _count_returns(track, again[differ])
+    if count < max(limits["stamps"], 1) or back < max(limits["share"] * count, 1):
+        return None
+    owned = (mine[differ], theirs[differ])
+    sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
+    hit = _conflict(track, ("A", "B"), owned, sure)
+    hit = replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
+    if sure is Confidence.POSSIBLE:
+        topic = track.topics[0] if track.topics else "/tf"
+        hit = replace(hit, fixes=(Fix(f"find its publishers: `{{publishers}} {topic}`"),))
+    return hit
+
+
+def _count_returns(track: Track, firsts: Places) -> int:
+    """Return at how many stamps with two values one of the two interrupts the motion of the other.
+
+    A node that sends its newest pose under an old stamp goes on from the second value instead.
+
+    Args:
+        track: The edge's samples.
+        firsts: Places of the first of two samples in the order of stamps, shape (n,).
+    """
+    firsts = firsts[(firsts > 0) & (firsts + 2 < len(track.by_stamp))]
+    before, mine, theirs, after = (track.by_stamp[firsts + step] for step in (-1, 0, 1, 2))
+    half = 0.5 * (track.apart(mine, theirs) + _RADIAN * track.turned(mine, theirs))
+    where, times = track.translations, track.stamps
+    gone, left = times[mine] - times[before], times[after] - times[theirs]
+    ratio = (left / gone)[:, None]
+    returns = np.zeros(len(firsts), dtype=bool)
+    for one, other, led in (
+        (mine, after, (where[mine] - where[before]) * ratio),
+        (before, theirs, (where[after] - where[theirs]) / ratio),
+    ):
+        turned = _RADIAN * track.turned(one, other)
+        for moved in (np.zeros_like(led), led):
+            missed = np.linalg.norm(where[one] + moved - where[other], axis=1)
+            returns |= missed + turned < half
+    return int(np.count_nonzero(returns))
+
+
+def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if an edge's poses form two alternating continuous motions."""
+    places = track.by_stamp[:MOST_FOLLOWED]
+    if len(places) < max(2 * limits["samples"], 2):
+        return None
+    apart = track.strides[: len(places) - 1]
+    # If the edge hardly moves and turns, there cannot be two motions.
+    if apart.max() < 0.5 * limits["reach"] and not track.has_turns(
+        places[1:], places[:-1], 0.5 * limits["reach"]
+    ):
+        return None
+    times = track.stamps[places] / NANOSECONDS
+    jumps = apart + _RADIAN * track.turned(places[1:], places[:-1])
+    # If no sample jumps, there cannot be two motions.
+    leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
+    if np.count_nonzero(leaves) < limits["changes"]:
+        return None
+    together = _motion_errors(track, places)
+    # Two publishers with equal rates alternate strictly, even if each turns a lot in a period.
+    for owners in (_follow(track, places, limits), np.arange(len(places)) % 2):
+        owned = _alternating(track, places, owners, together, limits)
+        if owned is not None:
+            return _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
+    return None
+
+
+def _alternating(
+    track: Track, places: Places, owners: Places, together: Floats, limits: Limits
+) -> tuple[Places, Places] | None:
+    """Return the samples of two alternating motions; None if a single motion explains all.
+
+    Args:
+        track: The edge's samples.
+        places: Rows of the samples in the order of their stamps, shape (n,).
+        owners: Number of the motion to which each sample is assigned, shape (n,).
+        together: Error of each sample if there is a single motion, shape (n,).
+        limits: The thresholds.
+    """
+    turns = np.flatnonzero(np.diff(owners)) + 1
+    if len(turns) < limits["changes"] or len(turns) <= limits["share"] * (len(owners) - 1):
+        return None
+    counts = np.bincount(owners, minlength=3)
+    enough = np.flatnonzero(
+        (counts >= limits["samples"]) & (counts >= limits["share"] * len(owners))
+    )
+    if len(enough) < 2:
+        return None
+    alone = np.full(len(places), np.nan)
+    for owner in enough.tolist():
+        alone[owners == owner] = _motion_errors(track, places[owners == owner])
+    judged = turns[np.isfinite(together[turns]) & np.isfinite(alone[turns])]
+    if len(judged) < max(limits["samples"], 1):
+        return None
+    error = float(np.median(together[judged]))
+    if error <= max(limits["worse"] * float(np.median(alone[judged])), limits["reach"]):
+        return None
+    first, second = enough[np.argsort(-counts[enough], kind="stable")][:2].tolist()
+    mine, theirs = places[owners == first], places[owners == second]
+    near = np.clip(np.searchsorted(track.stamps[theirs], track.stamps[mine]), 0, len(theirs) - 1)
+    return mine, theirs[near]
+
+
+def _motion_errors(track: Track, places: Places) -> Floats:
+    """Return the distance of each sample from its prediction by the two samples before.
+
+    The rotation between two samples may be a full turn more or less, as for a fast wheel: the best
+    of the three predictions is used.
+
+    Args:
+        track: The edge's samples.
+        places: Rows of the samples in the order of their stamps, shape (n,).
+
+    Returns:
+        Metres, with a radian counted as `_RADIAN` metres, shape (n,); NaN for the first two
+        samples, and where two stamps are equal.
+    """
+    errors = np.full(len(places), np.nan)
+    if len(places) < 3:
+        return errors
+    times = track.stamps[places] / NANOSECONDS
+    steps = np.diff(times)
+    with np.errstate(all="ignore"):
+        ratio = np.where(steps[:-1] > 0.0, steps[1:] / steps[:-1], np.nan)
+    where, turned = track.translations[places], unit(track.rotations[places])
+    led = where[1:-1] + (where[1:-1] - where[:-2]) * ratio[:, None]
+    missed = np.sqrt(np.einsum("ij,ij->i", where[2:] - led, where[2:] - led))
+    first = rotation_vectors(multiply(conjugate(turned[:-2]), turned[1:-1]))
+    angles = np.sqrt(np.einsum("ij,ij->i", first, first))
+    axes = first / np.where(angles > 0.0, angles, 1.0)[:, None]
+    best = np.full(len(angles), np.inf)
+    for turns in (-1, 0, 1):
+        half = 0.5 * (angles + 2.0 * np.pi * turns) * ratio
+        led_turn = np.column_stack((axes * np.sin(half)[:, None], np.cos(half)))
+        # Without rotation there is no axis for a full turn.
+        led_turn = np.where((angles > 0.0)[:, None], led_turn, (0.0, 0.0, 0.0, 1.0))
+        best = np.fmin(best, angles_between(multiply(turned[1:-1], led_turn), turned[2:]))
+    errors[2:] = missed + _RADIAN * best
+    return errors
+
+
+def _follow(track: Track, places: Places, limits: Limits) -> Places:
+    """Return the number of the motion (at most three) that best predicts each sample."""
+    stamps = (track.stamps[places] / NANOSECONDS).tolist()
+    poses = np.hstack((track.translations[places], unit(track.rotations[places]))).tolist()
+    reach, speed = limits["reach"], limits["speed"]
+    ends: list[tuple[float, list[float]]] = []
+    owners = []
+    for now, pose in zip(stamps, poses, strict=True):
+        best, least, continues = -1, np.inf, False
+        for number, (then, last) in enumerate(ends):
+            away = _pose_distance(pose, last)
+            fits = away < reach + speed * min(now - then, 0.2)
+            if (fits, -away) > (continues, -least):
+                best, least, continues = number, away, fits
+        if not continues and len(ends) < 3:
+            best = len(ends)
+            ends.append((now, pose))
+        ends[best] = (now, pose)
+        owners.append(best)
+    return np.array(owners)
+
+
+def _pose_distance(a: list[float], b: list[float]) -> float:
+    away = math.dist(a[:3], b[:3])
+    return away + _RADIAN * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
+
+
+def _conflict(
+    track: Track, names: tuple[str, str], owned: tuple[Places, Places], confidence: Confidence
+) -> Hit:
+    """Return the hit about two publishers of one edge.
+
+    Args:
+        track: The edge that both publish.
+        names: Names of the publishers.
+        owned: Rows of the first publisher's samples, and rows of the second publisher's samples to
+            compare with them, shape (n,).
+        confidence: Confidence that there are two publishers.
+    """
+    rates, late = [], []
+    for places in (owned[0], np.unique(owned[1])):
+        stamps = track.stamps[places]
+        lasts = int(stamps[-1] - stamps[0])
+        rates.append((len(stamps) - 1) * NANOSECONDS / lasts if lasts else 0.0)
+        late.append(int(np.median(track.latency[places])))
+    known = confidence is Confidence.CERTAIN
+    apart, turned = track.apart(*owned), track.turned(*owned)
+    seen = "" if known else " (seen from the values, publishers unknown)"
+    if not known and len(track.nodes) == 1 and len(track.publishers) == 1:
+        seen = f" (seen from the values; both by {track.nodes[0]}, which two sources may feed)"
+    return Hit(
+        edges=(track.edge,),
+        publishers=names if known else track.nodes,
+        since=int(max(track.logs[places].min() for places in owned)),
+        count=min(len(owned[0]), len(np.unique(owned[1]))),
+        confidence=confidence,
+        facts={
+            "edge": track.name,
+            "named": track.name,
+            "child": track.child,
+            "parent": track.parent,
+            "first": names[0],
+            "second": names[1],
+            "rates": rates,
+            "latencies": late,
+            "told": f"{rates[0]:.3g} and {rates[1]:.3g} Hz, latencies {span(late[0])} and "
+            f"{span(late[1])}",
+            "apart": float(np.median(apart)),
+            "turned": float(np.median(turned)),
+            "worst": float(np.max(apart)),
+            "most_turned": float(np.max(turned)),
+            "seen": seen,
+        },
+        fixes=(switches_off(track),),
+        alone=True,
+    )
+
+
+def is_odometry(track: Track) -> bool:
+    """Return whether an edge is odometry, by the name of its parent."""
+    return last_part(track.parent).startswith("odom")
+
+
+def switches_off(track: Track) -> Fix:
+    """Return the remedy to switch off one of an edge's two publishers, by the edge's names."""
+    if track.is_localisation:
+        return Fix(
+            "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "
+            "publish_map_tf: false (ZED); a replayed transform: remove it from the recording:",
+            f"tftool edit RECORDING -o CLEAN --drop {quoted(f'{track.parent}:{track.child}')}",
+        )
+    if is_odometry(track):
+        return Fix("switch one of the odometry transforms off: {odometry_off}")
+    return Fix(
+        "stop one of the two publishers, or give the frames of one another name; for a joint, look "
+        "also for two publishers of its state"
+    )

@@ -1,0 +1,283 @@
+"""Checks of missing transforms: edges that stop, pause or are sent once, and outages of all."""
+
+import re
+from collections.abc import Iterator
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS
+from tftool.doctor.check import checks_of, hit_of
+from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.stamp_stream import Heard, Track, last_part
+from tftool.doctor.wording import several
+
+check = checks_of(Area.COVERAGE)
+
+
+def _least_gap(track: Track, limits: Limits) -> float:
+    return max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+
+
+def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
+    """Return the gaps that are too long for an edge's period, as pairs of stamps."""
+    # A stamp that is wrong by years does not make a gap.
+    stamps = track.sorted_stamps
+    if track.wild.any():
+        stamps = stamps[~track.wild[track.by_stamp]]
+    if len(stamps) < limits["samples"] or not track.period:
+        return []
+    if len(track.steps) < 0.5 * (len(stamps) - 1):
+        return []  # its stamps do not change, which is another fault
+    wide = stamps[1:] - stamps[:-1] > _least_gap(track, limits)
+    places = wide.nonzero()[0].tolist()
+    return [(int(stamps[place]), int(stamps[place + 1])) for place in places]
+
+
+@check(
+    "edge-stopped",
+    Severity.ERROR,
+    rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
+    "share of {share:g}, before the recording's end, while other streams continue; of "
+    "{samples:g} samples or more, except detections of a camera that have no children",
+    headline="{where} {concerned:stops|stop} before the end",
+    detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
+    consequence="lookups through it refuse from then on",
+    fixes=(Fix("check the node that publishes it: it crashed or hangs"),),
+    causes=(
+        "a node that crashed",
+        "a lost sensor",
+    ),
+    limits={"periods": STOPPED_PERIODS, "seconds": STOPPED_AFTER, "share": 0.05, "samples": 5},
+    needs=("log times",),
+    because_of=(
+        ("stream", "clock-mixture"),
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "parent-switch"),
+    ),
+)
+def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A transform ends long before the recording does."""
+    length = model.end - model.start
+    alive: list[Track | Heard] = [*model.dynamic, *model.heard]
+    latest = max((int(one.logs[-1]) for one in alive if len(one.logs)), default=model.start)
+    for track in model.dynamic:
+        if len(track.stamps) < limits["samples"]:
+            continue
+        last = int(track.logs[-1])
+        before = model.end - last
+        least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+        if before <= least or before <= limits["share"] * length:
+            continue
+        above = model.parents.get(track.child)
+        if above is not None and above.parent != track.parent:
+            continue
+        if _is_detection(model, track):
+            continue
+        # If all links end at once, as when a session's host exits, it is not the fault of one link.
+        if latest - last <= least:
+            continue
+        yield hit_of(
+            track,
+            {
+                "last": int(track.stamps.max()),
+                "before": before,
+                "period": track.period,
+                "below": sorted(model.below(track.child)),
+            },
+            since=last,
+            until=model.end,
+            count=1,
+        )
+
+
+_SEEN = re.compile(
+    r"tag|marker|aruco|fiducial|charuco|obj|detect|person|people|target|ball|box|obstacle|goal|yolo"
+)
+
+
+def _is_detection(model: Model, track: Track) -> bool:
+    """Whether an edge is a camera's detection: a leaf with such a name or rate."""
+    if len(model.below(track.child)) > 1 or any(h.frame == track.child for h in model.heard):
+        return False
+    steps = track.steps
+    is_irregular = len(steps) > 1 and float(steps.std()) > float(steps.mean())
+    return is_irregular or _SEEN.search(last_part(track.child).lower()) is not None
+
+
+@check(
+    "gap",
+    Severity.WARNING,
+    rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
+    "samples or more; a note for transforms that are published on change (variation "
+    "above {variation:g})",
+    headline="{where} {concerned:has a gap|have gaps}",
+    detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
+    "{period:span}){why}{beside}",
+    consequence="lookups inside it interpolate across the gap, or refuse during it",
+    fixes=(
+        Fix("check what stopped then: if all edges stop together, the recorder or the network"),
+    ),
+    causes=(
+        "load",
+        "a network that drops",
+        "a publisher that hung",
+    ),
+    limits={"periods": 5, "seconds": 0.5, "samples": 10, "variation": 1.0},
+    why="four messages lost in a row are no accident on a reliable topic; the usual "
+    "timeouts of consumers cover shorter gaps",
+    because_of=(
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "edge-stopped nan-transform clock-offset outage"),
+    ),
+)
+def gap(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A transform has a gap."""
+    known = {track.edge: holes(track, limits) for track in model.dynamic}
+    for track in model.dynamic:
+        found = known[track.edge]
+        if not found:
+            continue
+        begin, end = max(found, key=lambda hole: hole[1] - hole[0])
+        also = [
+            other.name
+            for other in model.dynamic
+            if other is not track
+            and any(low < end and begin < high for low, high in known[other.edge])
+        ]
+        steps = track.steps
+        regular = steps[steps <= _least_gap(track, limits)] if len(found) <= 3 else steps
+        mean = float(regular.mean()) if len(regular) else 0.0
+        on_change = bool(mean) and float(regular.std()) / mean > limits["variation"]
+        stamps = track.stamps
+        missing = int(np.count_nonzero((stamps > begin) & (stamps < end)))
+        yield hit_of(
+            track,
+            {
+                "begin": begin,
+                "end": end,
+                "length": end - begin,
+                "period": track.period,
+                "also": also,
+                "beside": f"; at the same time: {several(also)}" if also else "",
+                "unusable": missing,
+                "why": f"; {missing} samples in it are unusable (NaN)" if missing else "",
+            },
+            since=begin,
+            until=end,
+            count=len(found),
+            severity=Severity.NOTE if on_change else Severity.WARNING,
+        )
+
+
+@check(
+    "outage",
+    Severity.WARNING,
+    rule="nothing arrives for more than {seconds:g} s and {periods:g} periods on half or more of "
+    "the streams that come at {hz:g} Hz or more, a topic of messages and a transform among them, "
+    "and they go on afterwards",
+    headline="nothing arrived for {length:span} on {streams} of {of} streams",
+    detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
+    consequence="whatever was stamped then came late, in a burst, or never",
+    fixes=(
+        Fix(
+            "look for what they share: the network, the computer or the recorder; record on the "
+            "robot"
+        ),
+    ),
+    causes=(
+        "a network that was gone",
+        "a recorder or a disk that hung",
+    ),
+    limits={"seconds": 2.0, "periods": 10, "hz": 1.0},
+    needs=("log times",),
+)
+def outage(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Most streams stop arriving at once for a time, and go on."""
+    silent: list[tuple[Track | Heard, int, int]] = []
+    count = 0
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    for stream in streams:
+        steps = np.diff(stream.logs)
+        if len(steps) < 10 or (usual := int(np.median(steps))) * limits["hz"] > NANOSECONDS:
+            continue
+        count += 1
+        place = int(steps.argmax())
+        if steps[place] > max(limits["seconds"] * NANOSECONDS, limits["periods"] * usual):
+            silent.append((stream, int(stream.logs[place]), int(stream.logs[place + 1])))
+    begin = max((begin for _, begin, _ in silent), default=0)
+    end = min((end for _, _, end in silent), default=0)
+    kinds = {type(stream) for stream, _, _ in silent}
+    if len(kinds) < 2 or 2 * len(silent) < count or end - begin < limits["seconds"] * NANOSECONDS:
+        return
+    missed = sum(
+        _is_hole(stream, begin, end, limits["seconds"] * NANOSECONDS) for stream, _, _ in silent
+    )
+    lost = "all of it came afterwards"
+    if missed:
+        lost = f"on {missed} of them data of that time never came"
+    gone = [one.name for one in streams if begin - NANOSECONDS < one.logs[-1] < end]
+    yield Hit(
+        edges=tuple(stream.edge for stream, _, _ in silent if isinstance(stream, Track)),
+        topics=tuple(stream.topic for stream, _, _ in silent if isinstance(stream, Heard)),
+        since=begin,
+        until=end,
+        facts={
+            "begin": begin,
+            "end": end,
+            "length": end - begin,
+            "streams": len(silent),
+            "of": count,
+            "names": [stream.name for stream, _, _ in silent],
+            "lost": f"{lost}; {several(gone)} never came back" if gone else lost,
+        },
+        alone=True,
+    )
+
+
+def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
+    """Whether a stream has a gap of stamps about a time when nothing arrived."""
+    stamps = np.sort(stream.stamps)
+    steps = np.diff(stamps)
+    delay = stream.arrivals - stream.logs
+    near = int(delay[0]) if len(delay) else 0
+    wide = (steps > least) & (stamps[1:] > begin + near) & (stamps[:-1] < end + near)
+    return bool(wide.any())
+
+
+@check(
+    "single-sample",
+    Severity.WARNING,
+    rule="a transform on a dynamic topic was sent once",
+    headline="{where} {concerned:was|were} sent once, on /tf",
+    detail="{edge}: at {stamp:moment}",
+    consequence="one sample answers only for its own stamp, and only while the cache keeps it",
+    fixes=(Fix("send a mount with a StaticTransformBroadcaster (on /tf_static)"),),
+    causes=("a mount sent with a TransformBroadcaster",),
+    why="tf2 interpolates between two samples and never extrapolates from one",
+    because_of=(
+        ("child", "static-and-dynamic"),
+        ("edge", "zero-stamp"),
+    ),
+)
+def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A moving frame with one sample only."""
+    for track in model.dynamic:
+        if len(track.stamps) == 1 and len(track.by_stamp) == 1:
+            yield hit_of(track, {"stamp": int(track.stamps[0])}, topics=track.topics, count=1)
+
+
+@check(
+    "no-transforms",
+    Severity.ERROR,
+    rule="no topic carries a transform",
+    headline="there are no transforms",
+    consequence="nothing can be placed in another frame",
+    fixes=(Fix("record /tf and /tf_static too"),),
+    causes=("/tf and /tf_static were not in the recorder's list",),
+    because_of=(("anything", "namespaced-topic"),),
+)
+def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
+    """The recording has no transforms."""
+    if not model.tracks and not model.nameless:
+        yield Hit(topics=tuple(t.name for t in model.evidence.topics if t.transforms))

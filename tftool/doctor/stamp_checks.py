@@ -1,0 +1,302 @@
+"""Checks of the order of stamps: zero, frozen, repeated and old stamps, and time that goes back."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
+from tftool.doctor.check import checks_of, hit_of, threads
+from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.ros_words import is_ros1
+from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
+from tftool.recordings.contract import Stamps
+
+check = checks_of(Area.CLOCKS)
+
+
+@check(
+    "zero-stamp",
+    Severity.WARNING,
+    rule="a transform on a dynamic topic has stamp 0",
+    headline="{where} {concerned:has|have} stamp 0",
+    detail="{edge}: {count} of {of} samples",
+    consequence="lookups at any other time refuse; in a query, 0 means the latest time",
+    fixes=(Fix("stamp it: t.header.stamp = {now}, inside the loop"),),
+    causes=(
+        "the stamp is never set",
+        "use_sim_time without /clock",
+    ),
+)
+def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A moving frame with stamp 0."""
+    for track in model.dynamic:
+        zeros = np.flatnonzero(track.stamps == 0)
+        if len(zeros):
+            yield hit_of(
+                track,
+                {"count": len(zeros), "of": len(track.stamps)},
+                since=int(track.logs[zeros[0]]),
+                count=len(zeros),
+            )
+
+
+@check(
+    "frozen-stamp",
+    Severity.WARNING,
+    rule="one stamp is sent {times:g} times or more, while the clock of the stamps goes on by "
+    "more than {seconds:g} s; messages only if a moving transform places them",
+    headline="{where} {concerned:repeats|repeat} one stamp",
+    detail="{what}: {stamp:moment} {count:times}, for {lasted:span}",
+    consequence="{so}",
+    causes=(
+        "the stamp is set once, before the loop: set it inside",
+        "a localiser that has had no scan since: find out why, and do not stamp it anew",
+    ),
+    limits={"times": 10, "seconds": 1.0},
+    needs=("log times",),
+    why="while a slow simulation's clock stands still, stamps repeat as they should",
+    because_of=(("edge", "zero-stamp"),),
+)
+def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A stamp is repeated without change."""
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    for one in streams:
+        frozen = _frozen(one, limits)
+        if frozen is None:
+            continue
+        stamp, count, lasted = frozen
+        facts: dict[str, Fact] = {
+            "what": one.name,
+            "count": count,
+            "stamp": stamp,
+            "lasted": lasted,
+        }
+        if isinstance(one, Track):
+            facts["so"] = "lookups at any other time refuse: the buffer holds only that stamp"
+        elif one.frame not in model.frames or model.rests(one.frame):
+            continue
+        else:
+            facts["so"] = (
+                "each is placed where its frame was at that time, and refused once the cache has "
+                "forgotten it"
+            )
+        # A localiser has another remedy.
+        alone = isinstance(one, Heard) or one.is_localisation
+        yield hit_of(one, facts, count=count, alone=alone, fixes=(_unfreeze(model, one),))
+
+
+def _unfreeze(model: Model, stream: Track | Heard) -> Fix:
+    """Return the remedy for a stamp that does not change."""
+    if isinstance(stream, Track) and stream.is_localisation:
+        # A localiser's stamp is that of its last scan: a newer stamp would be wrong.
+        return Fix(
+            "look at the scan topic and its transforms: a localiser repeats the stamp of the last "
+            "scan it could use, so find out why its scans stopped; do not stamp it anew"
+        )
+    name = "t" if isinstance(stream, Track) else "message"
+    return Fix(f"set the stamp inside the loop: {name}.header.stamp = {{now}}")
+
+
+def stands_still(stream: Track | Heard) -> bool:
+    """Whether `frozen-stamp` reports a stream, so that advice about clocks and caches is wrong."""
+    return _frozen(stream, _FROZEN) is not None
+
+
+def _frozen(stream: Track | Heard, limits: Limits) -> tuple[int, int, int] | None:
+    """Return a repeated stamp, its count, and its duration on the clock of the stamps; or None."""
+    stamps = stream.stamps
+    if limits["times"] > 1 and not (stamps[1:] == stamps[:-1]).any():
+        return None
+    stamped = stamps != 0
+    if np.count_nonzero(stamped) < max(limits["times"], 1):
+        return None
+    values, counts = np.unique(stamps[stamped], return_counts=True)
+    most = int(np.argmax(counts))
+    if counts[most] < limits["times"]:
+        return None
+    arrivals = stream.arrivals[stamps == values[most]]
+    lasted = int(arrivals.max() - arrivals.min())
+    if lasted <= limits["seconds"] * NANOSECONDS:
+        return None
+    return int(values[most]), int(counts[most]), lasted
+
+
+_FROZEN = {"times": 10, "seconds": 1.0}
+
+
+@check(
+    "repeated-stamp",
+    Severity.WARNING,
+    rule="more than {samples:g} samples, and a share above {share:g}, repeat a stamp with "
+    "any value. In ROS 2 only samples with another value count, and no transform from map to "
+    "odometry is reported",
+    headline="{where} {concerned:repeats|repeat} stamps",
+    detail="{edge}: {count} of {of} samples repeat a stamp",
+    consequence="{repeats}",
+    fixes=(
+        Fix("send a transform only when its stamp is newer than the last one's"),
+        Fix(
+            "where two nodes send it (a simulator's wheels and robot_state_publisher), switch one "
+            "off: `{publishers} /tf` lists them"
+        ),
+    ),
+    causes=(
+        "a filter publishes faster than its data",
+        "the same pose is sent once per sensor",
+        "two nodes with one frame",
+    ),
+    links=threads("at-wat/neonavigation#612", "uf-mil/mil#1097"),
+    limits={"samples": 2, "share": 0.05},
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("child", "publisher-conflict two-parents"),
+    ),
+)
+def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Stamps are sent twice: TF_REPEATED_DATA in ROS 1."""
+    is_old = is_ros1(model.evidence)
+    for track in model.dynamic:
+        places = track.by_stamp
+        if track.is_orderly or (track.is_localisation and not is_old):
+            continue  # a localiser of ROS 2 repeats the pose of the last scan on purpose
+        again = np.flatnonzero(np.diff(track.sorted_stamps) == 0)
+        if len(again) <= limits["samples"] or stands_still(track):
+            continue
+        some, others = places[again], places[again + 1]
+        differ = (track.apart(some, others) > 1e-6) | (track.turned(some, others) > 1e-4)
+        told = differ | is_old  # ROS 2 ignores equal ones
+        count = int(np.count_nonzero(told))
+        if count > limits["samples"] and count > limits["share"] * len(places):
+            yield hit_of(
+                track,
+                {"count": count, "of": len(places)},
+                since=int(track.logs[some[told]].min()),
+                count=count,
+            )
+
+
+@check(
+    "time-jump-back",
+    Severity.ERROR,
+    rule="within 1 s, at least two streams and half of all step back by more than 1 s",
+    headline="time went back by {back:span}, {count:times}",
+    detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
+    "streams; all that follows is about what came before",
+    consequence="{jumped_back}",
+    fixes=(Fix("{play_again}"),),
+    causes=(
+        "play --loop",
+        "a simulation was reset",
+        "NTP set the clock back while running",
+    ),
+    links=threads("ros2/geometry2#606", "ros/geometry2#43"),
+    needs=("log times",),
+    why="a looped recording would trigger forty other checks, so all of them use only the "
+    "first pass",
+)
+def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Time went back: a looped bag, a reset simulation."""
+    if not model.laps:
+        return
+    first = model.laps[0]
+    yield Hit(
+        since=first.log,
+        until=model.laps[-1].log,
+        count=len(model.laps),
+        facts={
+            "moment": first.log,
+            "before": first.before,
+            "after": first.after,
+            "back": first.before - first.after,
+            "streams": first.streams,
+            "count": len(model.laps),
+        },
+        alone=True,
+    )
+
+
+@check(
+    "old-data",
+    Severity.WARNING,
+    rule="a sample is older than the newest of its frame by more than the cache (--cache-time)",
+    headline="{where} {concerned:sends|send} samples that are too old to be kept",
+    detail="{edge}: {count:times}, up to {behind:span} behind",
+    consequence="tf2 drops them and warns TF_OLD_DATA",
+    fixes=(Fix("restart the publisher that still has the old clock; or clear the buffer"),),
+    causes=(
+        "a restarted publisher or simulation",
+        "a replayed recording beside the live robot",
+    ),
+    links=threads("ros/geometry2#43"),
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "wild-stamp clock-offset"),
+    ),
+)
+def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Samples are older than the cache allows: TF_OLD_DATA."""
+    by_child: dict[str, list[Track]] = defaultdict(list)
+    for track in model.dynamic:
+        by_child[track.child].append(track)
+    for tracks in by_child.values():
+        if len(tracks) == 1 and tracks[0].is_orderly:
+            continue
+        stamps, newest = _newest_before(tracks)
+        old = (stamps < newest - model.settings.cache_time) & (stamps != 0)
+        if old.any():
+            logs = np.sort(np.concatenate([track.logs for track in tracks]), kind="stable")
+            behind = int((newest - stamps)[old].max())
+            count = int(np.count_nonzero(old))
+            yield Hit(
+                edges=tuple(track.edge for track in tracks),
+                publishers=tuple(sorted({n for track in tracks for n in track.nodes})),
+                since=int(logs[np.flatnonzero(old)[0]]),
+                count=count,
+                facts={"edge": tracks[0].name, "count": count, "behind": behind},
+            )
+
+
+def _newest_before(tracks: list[Track]) -> tuple[Stamps, Stamps]:
+    """Return stamps in order of arrival, and the newest stamp of the same clock up to each."""
+    stamps = np.concatenate([track.stamps for track in tracks])
+    if len(tracks) > 1:
+        logs = np.concatenate([track.logs for track in tracks])
+        stamps = stamps[np.argsort(logs, kind="stable")]
+    is_sim = stamps < SIMULATED_BELOW
+    # Compare stamps of each clock separately: a mixture of clocks is another fault.
+    low = np.iinfo(np.int64).min // 2
+    of_sim = np.maximum.accumulate(np.where(is_sim, stamps, low))
+    of_wall = np.maximum.accumulate(np.where(is_sim, low, stamps))
+    return stamps, np.where(is_sim, of_sim, of_wall)
+
+
+@check(
+    "out-of-order",
+    Severity.NOTE,
+    rule="more than {samples:g} samples, and a share above {share:g}, are older than an "
+    "earlier one",
+    headline="{where} {concerned:arrives|arrive} out of order",
+    detail="{edge}: {count} of {of} samples",
+    consequence="harmless to tf2; a sign of threads, a second publisher, a lossy network, or a "
+    "message filter that released many scans at once",
+    limits={"samples": 2, "share": 0.01},
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("stream", "clock-mixture"),
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "wild-stamp clock-offset repeated-stamp"),
+        ("frame", "sensor-outruns-tf"),
+    ),
+)
+def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Samples arrive in another order than their stamps, within the cache time."""
+    for track in model.dynamic:
+        count = unsorted_share(track.stamps)
+        if count > limits["samples"] and count > limits["share"] * len(track.stamps):
+            # A localiser sends late what it could place late.
+            waited = (track.child,) if track.is_localisation else ()
+            facts = {"count": count, "of": len(track.stamps)}
+            yield hit_of(track, facts, since=None, count=count, frames=waited)
