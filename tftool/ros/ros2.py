@@ -29,7 +29,7 @@ from tftool.ros.rclpy.node_graph import (
     get_action_names_and_types,
     get_action_server_names_and_types_by_node,
 )
-from tftool.ros.rclpy.node_parameters import Parameter, parameter_dict_from_yaml_file
+from tftool.ros.rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 from tftool.ros.rclpy.parameter_client import AsyncParameterClient
 from tftool.ros.rclpy.qos import (
     DurabilityPolicy,

@@ -20,7 +20,7 @@ rclpy: rclpy.core: init spin spin_once spin_until_future_complete create_node ge
     logging InitContextManager Context List Optional TYPE_CHECKING
 rclpy rclpy.utilities: rclpy.core: shutdown try_shutdown ok get_default_context
     get_rmw_implementation_identifier
-rclpy rclpy.node rclpy.parameter: rclpy.node_parameters: Parameter
+rclpy rclpy.node rclpy.parameter: rclpy.parameter: Parameter
 rclpy rclpy.signals: rclpy.core: SignalHandlerOptions
 rclpy.node tf2_ros: rclpy.node: Node
 rclpy.node: rclpy.node_graph: NodeNameNonExistentError
@@ -69,7 +69,7 @@ rclpy.logging: rclpy.logging: get_logger set_logger_level initialize shutdown cl
     get_logging_directory _root_logger get_logger_effective_level get_logging_severity_from_string
 rclpy.logging rclpy.impl.logging_severity: rclpy.logging: LoggingSeverity
 rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger SkipFirst
-rclpy.parameter: rclpy.node_parameters: parameter_value_to_python get_parameter_value
+rclpy.parameter: rclpy.parameter: parameter_value_to_python get_parameter_value
     parameter_dict_from_yaml_file PARAMETER_SEPARATOR_STRING
 rclpy.parameter_client: rclpy.parameter_client: AsyncParameterClient
 rclpy.parameter_event_handler: rclpy.parameter_client: ParameterEventHandler ParameterCallbackHandle

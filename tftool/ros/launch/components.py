@@ -24,7 +24,7 @@ from tftool.ros.launch.scope import (
     remaps_in,
 )
 from tftool.ros.launch.substitutions import perform
-from tftool.ros.rclpy.node_parameters import Parameter
+from tftool.ros.rclpy.parameter import Parameter
 
 
 class ComposableNode:

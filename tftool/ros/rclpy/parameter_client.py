@@ -7,11 +7,8 @@ from typing import Any
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import names
 from tftool.ros.rclpy.futures import Future
-from tftool.ros.rclpy.node_parameters import (
-    PARAMETER_EVENTS,
-    Parameter,
-    parameter_dict_from_yaml_file,
-)
+from tftool.ros.rclpy.node_parameters import PARAMETER_EVENTS
+from tftool.ros.rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 from tftool.ros.rclpy.qos import (
     QoSProfile,
     qos_profile_parameter_events,

@@ -8,7 +8,8 @@ from typing import Any
 
 from tftool.messages.classes import INTERFACES
 from tftool.ros.rclpy.node import Node
-from tftool.ros.rclpy.node_parameters import Parameter, set_result
+from tftool.ros.rclpy.node_parameters import set_result
+from tftool.ros.rclpy.parameter import Parameter
 from tftool.ros.rclpy.qos import QoSProfile, ReliabilityPolicy
 from tftool.ros.rclpy.time import ClockType, ROSClock, Time
 
