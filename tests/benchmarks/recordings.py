@@ -108,7 +108,7 @@ def _write(kind: str, path: Path, per_message: int) -> None:
 
 
 def _write_big(path: Path, method: str) -> None:
-    """2 GB of images, of which a thousandth is transforms."""
+    """Write 2 GB of images, with a thousandth of transforms."""
     from tests.recordings import writers
 
     image = np.random.default_rng(3).integers(0, 255, 500_000, dtype=np.uint8).tobytes()
@@ -326,7 +326,7 @@ def _big(folder: Path) -> list[str]:
 
     container = Mcap(path)
     Recorded("big", container).transforms()
-    lines.append(f"  of which read: {container.read / 1e6:.1f} MB")
+    lines.append(f"  ours reads {container.read / 1e6:.1f} MB of the file")
     container.close()
     path.unlink()
     _write_big(path, "zstd")

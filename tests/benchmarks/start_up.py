@@ -18,7 +18,7 @@ LIBRARIES = {
     "import typer, numpy": [sys.executable, "-c", "import typer, numpy"],
     "import typer, rich.table": [sys.executable, "-c", "import typer, rich.table"],
 }
-"""What the commands cannot do without: the floor of their times."""
+"""Imports that each command needs: no command can start faster."""
 
 # What is run, and how many milliseconds it may take beyond the bare start.
 COMMANDS = {

@@ -74,7 +74,7 @@ def complete(words: Sequence[str], shell: str) -> None:
     """Print the completions of a command line, in the form that the shell's script reads.
 
     Args:
-        words: Words after `tftool`, of which the last one is being typed.
+        words: Words after `tftool`; the last word is being typed.
         shell: Name of the shell, whose script runs `tftool`.
     """
     offered: Sequence[Offer] = ()
@@ -97,7 +97,7 @@ def offers(words: Sequence[str]) -> list[Offer]:
     """Return the completions of a command line, in the order to show them.
 
     Args:
-        words: Words after `tftool`, of which the last one is being typed.
+        words: Words after `tftool`; the last word is being typed.
     """
     *before, current = words
     if not before:

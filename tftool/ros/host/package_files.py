@@ -14,7 +14,7 @@ from tftool.base.errors import InputError
 from tftool.base.named_files import read_named_text
 
 MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
-"""File names of which one makes a folder a package."""
+"""File names that mark a folder as a package; one is enough."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -106,7 +106,7 @@ class IfElseSubstitution(Substitution):
     """Substitution for one of two texts, chosen by a condition."""
 
     def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        """Create the choice between two texts, of which one may be missing.
+        """Create the choice between two texts; one of the two may be missing.
 
         Raises:
             RuntimeError: If both texts are missing.

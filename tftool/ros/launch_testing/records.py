@@ -24,7 +24,7 @@ NO_CMD_ARGS = object()
 
 
 class NoMatchingProcessException(Exception):
-    """Error for a process of which no event was recorded."""
+    """Error for a process without a recorded event."""
 
 
 class _Record:

@@ -212,7 +212,7 @@ class CallbackGroup:
 
 
 class MutuallyExclusiveCallbackGroup(CallbackGroup):
-    """Group of callbacks of which at most one runs at a time."""
+    """Group of callbacks that run one at a time."""
 
     def can_execute(self, entity: Any) -> bool:
         """Return whether no other callback of the group is running."""

@@ -272,7 +272,7 @@ def get_action_server_names_and_types_by_node(
 def get_action_client_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Return (name, types) of each action of which a ROS node in this process has a client.
+    """Return (name, types) of the action clients of a ROS node in this process.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.

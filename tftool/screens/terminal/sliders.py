@@ -56,7 +56,7 @@ class Slider:
 
 
 class Sliders:
-    """Sliders of a robot's movable joints, one of which is chosen.
+    """Sliders of a robot's movable joints, with one chosen joint.
 
     Attributes:
         robot: The robot.

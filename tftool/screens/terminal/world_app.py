@@ -68,7 +68,7 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
 
 
 class Panel(Widget):
-    """Panel of text lines, of which only changed ones are drawn again."""
+    """Panel of text lines that draws only changed lines again."""
 
     def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
         super().__init__(id=name)
