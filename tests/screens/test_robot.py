@@ -289,6 +289,7 @@ def test_a_robot_of_one_link_is_drawn_without_any_transform():
 
     assert solid_cells(lines) > 40
     assert "no joint that moves" in "".join(lines)
+    assert "↑↓" not in lines[-1]
 
 
 def test_a_short_table_of_links_has_the_chosen_link_and_counts_the_others(shown):

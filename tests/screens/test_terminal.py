@@ -368,6 +368,7 @@ def test_without_colours_turtles_are_arrows(danced):
 def test_for_teleop_the_field_fills_the_screen(danced):
     text = "\n".join(shown(danced, (100, 40), drive_only=True))
 
+    assert "3-D" not in text
     assert "L log" in text
     assert "Tree" not in text
     small = shown(danced, (80, 24), drive_only=True)

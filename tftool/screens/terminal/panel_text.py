@@ -365,7 +365,7 @@ def hints(
     past: bool,
     ascii_only: bool,
     chooses: bool = False,
-    in_space: bool = False,
+    in_space: bool | None = False,
     alone: bool = False,
 ) -> Sequence[Hint]:
     """Return the keys that matter now, the most important first.
@@ -376,7 +376,7 @@ def hints(
         past: Whether an earlier time is shown.
         ascii_only: Whether to write keys in ASCII.
         chooses: Whether another scenario can be chosen.
-        in_space: Whether the picture is in 3-D.
+        in_space: Whether the picture is in 3-D; None if it cannot be.
         alone: Whether there is no other panel.
     """
     arrows, updown = ("arrows", "up/down") if ascii_only else ("↑↓←→", "↑↓")
@@ -397,12 +397,11 @@ def hints(
         return [Hint(updown, "source"), Hint("x", "swap"), *always, end]
     if panel == "log":
         return [Hint(updown, "scroll"), *always, end]
-    view = (
-        [Hint("p", "top view"), Hint(f"Shift+{arrows}", "orbit")]
-        if in_space
-        else [Hint("p", "3-D")]
-    )
-    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom"), *view]
+    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom")]
+    if in_space:
+        look += [Hint("p", "top view"), Hint(f"Shift+{arrows}", "orbit")]
+    elif in_space is not None:
+        look.append(Hint("p", "3-D"))
     other = [Hint("o", "scenarios")] if chooses else []
     if not drives:
         return [*always, *look, *other, end]

@@ -319,19 +319,16 @@ class RobotApp(PanelApp):
         has_picture = self.query_one("#space", SpacePanel).in_space
         end = [Hint("Tab", "link"), *(turn if has_picture else [Hint("p", "picture")])]
         end += [Hint("?", "keys"), Hint("q", "quit")]
-        if not self.sliders.can_move:
-            return footer(
-                [Hint("up/down" if look.ascii_only else "↑↓", "joint"), *end], width, look
-            )
-        updown, sides = ("up/down", "left/right") if look.ascii_only else ("↑↓", "←→")
         if self.sliders.entry:
             return footer([Hint("Enter", "move there"), Hint("Esc", "cancel"), *end], width, look)
-        moves = [
-            Hint(updown, "joint"),
-            Hint(sides, "slide"),
-            Hint("0-9", "type"),
-            Hint("z c r", "zero, centre, random"),
-        ]
+        updown, sides = ("up/down", "left/right") if look.ascii_only else ("↑↓", "←→")
+        moves = [] if self.sliders.chosen is None else [Hint(updown, "joint")]
+        if moves and self.sliders.can_move:
+            moves += [
+                Hint(sides, "slide"),
+                Hint("0-9", "type"),
+                Hint("z c r", "zero, centre, random"),
+            ]
         return footer([*moves, *end], width, look)
 
     # Keys

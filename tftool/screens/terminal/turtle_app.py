@@ -300,7 +300,7 @@ class TurtleApp(PanelApp):
             past=self._question.at is not None,
             ascii_only=look.ascii_only,
             chooses=self.setting.scenarios is not None,
-            in_space=self.field.in_space,
+            in_space=None if self.setting.drive_only else self.field.in_space,
             alone=not self.query_one("#side").display,
         )
         self.panel("footer").show([panels.footer(hints, width, look)])
