@@ -27,7 +27,7 @@ class LaunchTestFailure(Exception):
 
 
 class LaunchTestItem(pytest.Item):
-    """pytest item of a file of launch tests: all its launches with their tests."""
+    """pytest item for one file of launch tests, which runs all launches and tests of the file."""
 
     def runtest(self) -> None:
         """Run the launches and their tests in a new world on simulated time.
@@ -65,7 +65,7 @@ class LaunchTestModule(pytest.Module):
     """Collector of a file that may describe a launch with tests."""
 
     def collect(self) -> Iterable[Any]:
-        """Return one item for a file of launch tests; for another file, its ordinary tests."""
+        """Return one item for a file that describes a launch; else the file's ordinary tests."""
         function = getattr(self.obj, MAKES, None)
         marks = {mark.name for mark in getattr(function, "pytestmark", ())}
         if marks.isdisjoint(MARKS):
@@ -85,7 +85,11 @@ def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> pytest.Module
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
-    """Collect a test with the mark `launch`, which runs beside a fixture's launch."""
+    """Return pytest's items for a test with the mark `launch`; None for another test.
+
+    A generator test whose launch lasts longer than the test gets a second item, for its part after
+    the `yield`.
+    """
     marks = [mark for mark in getattr(obj, "pytestmark", ()) if mark.name == "launch"]
     if not marks or not collector.funcnamefilter(name) or hasattr(obj, "launch_key"):
         return None
@@ -115,7 +119,10 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
 
 
 def _launch_of(item: Any) -> tuple[Any, ...] | None:
-    """Return a key of the launch that a test shares with others; None for other tests."""
+    """Return a key that is equal for all tests of one launch; None for a test without a launch.
+
+    The result is also None for a test that has a launch of its own.
+    """
     key = getattr(getattr(item, "obj", None), "launch_key", None)
     if key is None or fixtures.scope_of(item.obj) == "function":
         return None

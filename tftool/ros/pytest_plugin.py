@@ -1,9 +1,8 @@
 """pytest plugin for tests of ROS nodes without ROS.
 
 The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`: a simulated world. With `pytest
---ros-free` every test has one, and test files may `import rclpy` at their top. A fixture of a
-class, a module or the session that uses rclpy has one for its whole lifetime, and its tests share
-it.
+--ros-free` every test runs in such a world, and test files may `import rclpy` at their top. If a
+fixture of a class, a module or the session uses rclpy, all tests of this fixture share one world.
 """
 
 import sys
@@ -57,7 +56,11 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _provide(root: Path) -> None:
-    """Provide ROS 2's modules, and the packages of the workspace that contains a folder."""
+    """Make ROS 2's modules and the packages of a workspace importable.
+
+    Args:
+        root: Folder of the tests, inside the workspace.
+    """
     if not _imports:
         from tftool.ros.host import program
         from tftool.ros.host.importing import ros_modules
@@ -114,7 +117,10 @@ def pytest_fixture_setup(fixturedef: Any) -> Iterator[None]:
 
 
 def _program_of_fixture() -> Any:
-    """Return the program of a fixture that uses rclpy during its setup; None outside of one."""
+    """Create a world for the fixture that is being set up, and return its program.
+
+    Return None if no fixture is being set up.
+    """
     if not _set_up:
         return None
     from tftool.ros.testing import RosRuntime
@@ -134,7 +140,10 @@ def _program_of_fixture() -> Any:
 
 @pytest.fixture
 def ros_runtime() -> Iterator[Any]:
-    """Create a world on simulated time in which the test is a program that may use rclpy."""
+    """Yield a simulated world in which the test may use rclpy.
+
+    The world is a new one, unless a fixture that the test uses already has a world.
+    """
     from tftool.ros.testing import RosRuntime
 
     if _shared:

@@ -175,7 +175,7 @@ def _wait_until(found: Callable[[], object]) -> None:
 
 
 def _wanted_quality(asked: argparse.Namespace, otherwise: QoSProfile) -> QoSProfile:
-    """Return the QoS profile of the `--qos-…` options, with other settings from `otherwise`."""
+    """Return the QoS profile of the `--qos-…` options; `otherwise` gives the other settings."""
     profile = otherwise
     if asked.qos_profile:
         profile = copy(QoSPresetProfiles[asked.qos_profile.upper()].value)
@@ -196,7 +196,10 @@ _POLICIES: dict[str, Any] = {
 
 
 def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
-    """Subscribe to a topic with its publishers' QoS, or that of the `--qos-…` options."""
+    """Subscribe to a topic; call `callback` with each message that passes --filter.
+
+    The QoS profile is that of the `--qos-…` options; without options, it fits the publishers.
+    """
     name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
     ends = [one.qos_profile for one in node.get_publishers_info_by_topic(_full(asked.topic))]
     latched = bool(ends) and all(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in ends)
@@ -270,7 +273,10 @@ def _measured(
     value: Callable[[Any], Any],
     tell: Callable[[list[Any]], None],
 ) -> None:
-    """Collect a value of each message of a topic; once a second, call `tell` with the latest."""
+    """Compute `value` for each message of a topic; once a second, call `tell` with the values.
+
+    Only the last `--window` values are used.
+    """
     values: list[Any] = []
     _heard(node, asked, lambda message: values.append(value(message)))
 

@@ -27,7 +27,7 @@ TURTLE_TOPICS = frozenset(("turtle1/cmd_vel", "turtle1/pose", "turtle1/color_sen
 
 
 def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
-    """Raise the errors that `start_program` would raise, before a world is created.
+    """Raise an error if `start_program` would refuse these arguments; no world is needed.
 
     Raises:
         UsageError: If no executable is given, or it does not exist, or the part after
@@ -112,7 +112,10 @@ def start_program(
 
 
 def tell_unfound(workspace: Workspace, file: Path | None) -> str:
-    """Return a line with one reason why ROS 2 would not find a node or launch file; else ""."""
+    """Return a line with one reason why ROS 2 would not find a node or launch file.
+
+    Return "" if ROS 2 would find the file.
+    """
     for name, package in workspace.packages.items() if file is not None else ():
         if file is not None and file.is_relative_to(package.path):
             faults = faults_about(package, file, workspace.packages)
@@ -123,7 +126,7 @@ def tell_unfound(workspace: Workspace, file: Path | None) -> str:
 
 
 def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> Path | None:
-    """Return the file of a user's executable; None for tftool's nodes and for other words."""
+    """Return the file of a user's executable in a package; None for any other program."""
     package = None if is_file(target) or not rest else workspace.packages.get(target)
     if package is None:
         return None

@@ -30,7 +30,7 @@ DEFINED = (
 
 
 def missing_name(module: str, name: str, known: Sequence[str]) -> str:
-    """Return a sentence about a name that one of tftool's ROS modules lacks.
+    """Return the error text for importing a name that tftool's version of a ROS module lacks.
 
     Args:
         module: ROS name of the module, such as "rclpy.node".
@@ -56,13 +56,21 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
 
 
 def undeclared(parameter: str, known: Iterable[str]) -> str:
-    """Return a sentence about a parameter that was given to a node but never declared."""
+    """Return the warning about a parameter with a given value that its node never declared.
+
+    Args:
+        parameter: Name of the parameter.
+        known: Names of the parameters that the node declares, for "did you mean".
+    """
     hint = did_you_mean(parameter, known)
     return f"parameter '{parameter}' was given, but the node declares none of that name{hint}"
 
 
 def near_keyword(keyword: str, called: Any) -> str:
-    """Return "; did you mean …" with the keyword nearest to an unknown one, or ""."""
+    """Return "; did you mean …" with the parameter of `called` nearest to a wrong keyword.
+
+    Return "" if no parameter is similar.
+    """
     kinds = getattr(called, "__mro__", None)
     known: set[str] = set()
     for function in [called] if kinds is None else [vars(one).get("__init__") for one in kinds]:
@@ -74,7 +82,7 @@ def near_keyword(keyword: str, called: Any) -> str:
 
 
 def missing_module(name: str) -> str:
-    """Return a sentence about a missing module of a ROS package that tftool provides in part."""
+    """Return the error text for importing a module that tftool's part of a ROS package lacks."""
     package = name.partition(".")[0]
     known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
     near = near_names(name, known, alike=0.8)
@@ -83,7 +91,7 @@ def missing_module(name: str) -> str:
 
 
 def missing_package(name: str) -> str:
-    """Return a sentence about a package that is neither installed nor provided by tftool."""
+    """Return a remedy for importing a package neither installed nor provided by tftool."""
     packages = sorted(
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )
@@ -143,7 +151,10 @@ def _keywords_of_call(trace: TracebackType | None) -> list[str]:
 
 
 def _near_name(error: BaseException) -> str:
-    """Return "; did you mean …" with the known name nearest to a misspelt one, or ""."""
+    """Return "; did you mean …" for the misspelt name in an error of Python.
+
+    Return "" for other errors, and if no similar name exists where the error occurred.
+    """
     frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
     if not frames or "did you mean" in str(error):
         return ""

@@ -39,7 +39,7 @@ T = TypeVar("T")
 
 
 class HasItsOwnCommand(UsageError):
-    """Error for starting a program that needs the keyboard, for which tftool has a command."""
+    """Error for a program that reads the keyboard; the text names tftool's command for it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,8 @@ class Asked:
         name: Full name of the node.
         namespace: Namespace of the node.
         arguments: The program's arguments, without those of ROS.
-        parameters: Values given for the node's parameters; used ones are removed.
+        parameters: Values given for the node's parameters, by name. The methods below remove
+            each value that they return.
         options: All options after `--ros-args`.
     """
 
@@ -63,11 +64,11 @@ class Asked:
     options: RosOptions
 
     def text(self, name: str, default: str) -> str:
-        """Remove a text parameter and return it, or the default."""
+        """Remove the value of a text parameter and return it; return the default without one."""
         return str(self.parameters.pop(name, default))
 
     def take(self, name: str, default: T, fits: Callable[[Any], bool], what: str) -> T:
-        """Remove a parameter and return it, or the default.
+        """Remove the value of a parameter and return it; return the default without one.
 
         Raises:
             UsageError: If `fits` rejects the value; `what` describes valid values.
@@ -78,11 +79,11 @@ class Asked:
         return value
 
     def flag(self, name: str, default: bool) -> bool:
-        """Remove a boolean parameter and return it, or the default."""
+        """Remove the value of a boolean parameter and return it; see `take`."""
         return self.take(name, default, lambda _: True, "true or false")
 
     def number(self, name: str, default: float) -> float:
-        """Remove a finite number and return it, or the default."""
+        """Remove the value of a parameter, a finite number, and return it; see `take`."""
 
         def fits(value: Any) -> bool:
             return isinstance(value, int | float) and isfinite(value)
@@ -90,7 +91,7 @@ class Asked:
         return float(self.take(name, default, fits, "a number"))
 
     def channel(self, name: str, default: int) -> int:
-        """Remove a colour channel, 0 to 255, and return it, or the default."""
+        """Remove the value of a colour channel, 0 to 255, and return it; see `take`."""
 
         def fits(value: Any) -> bool:
             return isinstance(value, int) and 0 <= value <= 255
@@ -155,7 +156,9 @@ def _mimic(asked: Asked) -> Node:
 
 
 def _robot_of(asked: Asked) -> "Robot | None":
-    """Return a robot model from the parameter robot_description or a file's name, if given.
+    """Return the robot in the parameter robot_description, or in the URDF file of an argument.
+
+    Return None if neither is given.
 
     Raises:
         UsageError: If the description is not valid; the text lists the mistakes.
@@ -285,7 +288,7 @@ def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
 
 
 def check(workspace: Workspace, package: str, executable: str) -> None:
-    """Raise an error if a package has no such program.
+    """Raise an error unless `start` can run an executable of a package.
 
     Raises:
         HasItsOwnCommand: If the program needs a terminal of its own.

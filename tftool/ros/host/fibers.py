@@ -110,12 +110,12 @@ class Fiber:
         name: Name of the program whose code the fiber runs.
         interrupted: Whether the fiber was asked to end; each of its waits then raises
             KeyboardInterrupt.
-        error: Exception of the code, once it has ended; a StuckError if the code was stopped
-            because it ran on after it was asked to end without a signal.
+        error: Exception that ended the code; a StuckError if tftool stopped the code because the
+            code did not end at the end of the run; None otherwise.
         ended: Whether the code has ended.
         owner: Program that the fiber belongs to, for `current`.
         end: Function that returns the exception that waits raise after the fiber was asked to end.
-        on_interrupt: Called once in the fiber's thread before the first of these exceptions.
+        on_interrupt: Function called once in the fiber's thread, before the first such exception.
     """
 
     def __init__(
@@ -140,8 +140,8 @@ class Fiber:
             patience: See `on_busy`.
             give_up: Real seconds after which busy code is stopped in strict mode (by default
                 `GIVE_UP`).
-            clock: Clock of the world, which knows at once of a signal: the loop, blocked in strict
-                mode, learns of it only afterwards.
+            clock: Clock of the world. The clock reports a signal at once; the event loop, which
+                is blocked in strict mode, handles the signal only when the thread pauses.
         """
         self.name = name
         self.interrupted = False
@@ -295,7 +295,12 @@ class Fiber:
         )
 
     async def _turn(self, answer: tuple[Any, BaseException | None], *, go: bool) -> None:
-        """Let the thread run until its next request or the end of its code."""
+        """Let the thread run until its next request or the end of its code.
+
+        Args:
+            answer: Result and exception of the thread's last request.
+            go: Whether the thread waits for `answer`; false at an adopted thread's first turn.
+        """
         if self._strict:
             self._hand_over(answer, go)
             self._wait_for_rest()
@@ -346,7 +351,7 @@ class Fiber:
         )
 
     def _rests_within(self, limit: float) -> bool:
-        """Return whether the thread pauses within `limit` real seconds, or before a signal."""
+        """Wait until the thread pauses; return False after `limit` real seconds or at a signal."""
         while limit > 0.0 and not self._clock.interrupted:
             # In short parts, so that a signal that comes meanwhile is noticed.
             part = min(limit, GRACE)

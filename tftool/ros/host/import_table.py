@@ -1,12 +1,15 @@
 """Table of the ROS 2 modules and names that tftool provides, and where each is implemented.
 
-An entry has the form "ROS modules: tftool's module: names". A name is written once if ROS
-and tftool use it, else `rosname=ourname`; "*" means all public names of the module. Angle brackets
-contain the tags of an action in XML and YAML launch files, or of a substitution, `$(tag …)`. A
-module with a slash is a package of interfaces; a module with a leading dot is one of tftool outside
-of `tftool.ros`. As in ROS 2, the classes of some modules can also be imported from a module of
-their own, such as `launch.actions.execute_process`. Packages of interfaces (geometry_msgs and so
-on) need no entry: their modules follow from their definitions.
+An entry has the form "ROS modules: tftool's module: names". A name that differs between ROS and
+tftool is written `rosname=ourname`; "*" means all public names of the module. Angle brackets
+contain the tags of an action in XML and YAML launch files, or of a substitution, `$(tag …)`.
+
+tftool's module is a path below `tftool.ros`, such as `rclpy.node`. With a leading dot, the path is
+below `tftool`. With a slash, the entry is a package and kind of interfaces instead.
+
+As in ROS 2, each class of some modules can also be imported from a module with the class's name,
+such as `launch.actions.execute_process`. Packages of interfaces, such as geometry_msgs, need no
+entry: their modules follow from their definitions.
 """
 
 import re
@@ -296,7 +299,7 @@ WHOLE_PACKAGES = (
 
 
 def snake_case(name: str) -> str:
-    """Return a class's name in snake case, the name of its module: "execute_process"."""
+    """Convert a class's name to snake case: "ExecuteProcess" to "execute_process"."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
@@ -305,8 +308,8 @@ class ImportedName:
     """Implementation of one name of a ROS 2 module.
 
     Attributes:
-        module: Module of tftool, below `tftool.ros`; or "package/kind" of an interface.
-        name: Name in that module; "*" for all its public names.
+        module: Path of tftool's module below `tftool.ros`, or "package/kind" for an interface.
+        name: Name in tftool's module; "*" for all public names of the module.
         tags: Tags in XML and YAML launch files; tags of substitutions begin with "$".
     """
 
@@ -320,7 +323,10 @@ _ENTRY = re.compile(r"(?P<shown>\w+|\*)(?:=(?P<real>\w+))?(?:<(?P<tags>[^>]*)>)?
 
 @cache
 def table() -> Mapping[str, Mapping[str, ImportedName]]:
-    """Return every provided ROS 2 module with its names; parents of modules may have none."""
+    """Return the names in every ROS 2 module that tftool provides, by the module's ROS name.
+
+    A package that only contains other modules has no names.
+    """
     found: dict[str, dict[str, ImportedName]] = {}
     for entry in re.split(r"\n(?! )", _TABLE.strip()):
         modules, ours, names = (part.split() for part in entry.split(":"))
@@ -342,6 +348,6 @@ def table() -> Mapping[str, Mapping[str, ImportedName]]:
 
 @cache
 def tagged() -> Mapping[str, ImportedName]:
-    """Return the names that XML and YAML launch files use, by tag: "node", or "$var"."""
+    """Return the implementation of each tag in XML and YAML launch files: "node", or "$var"."""
     names = (one for names in table().values() for one in names.values())
     return {tag: one for one in names for tag in one.tags}

@@ -51,7 +51,7 @@ _LOADING = threading.RLock()
 
 
 class _StandInModule(ModuleType):
-    """Module with a ROS 2 name; each of tftool's names in it is loaded at its first use."""
+    """Module with the name of a ROS 2 module; it loads tftool's implementation at first use."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name, f"{name}, as far as it runs without ROS.")
@@ -60,7 +60,10 @@ class _StandInModule(ModuleType):
         return sorted({*vars(self), *_entries(self.__name__), *self._modules()} - {"*"})
 
     def _modules(self) -> list[str]:
-        """Return the submodules that are attributes of this package without being imported."""
+        """Return the names of submodules that a program may use after importing the package only.
+
+        Return an empty list for packages whose submodules a program must import, as in ROS 2.
+        """
         if self.__name__ not in import_table.WHOLE_PACKAGES:
             return []
         parts = (name.rpartition(".") for name in import_table.table())
@@ -97,7 +100,7 @@ _PARTS: Mapping[str, Sequence[str]] = MappingProxyType(
 
 
 def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
-    """Return the names in a ROS 2 module, or in a module of an interface package."""
+    """Return the implementation of each name in a ROS 2 module, such as `std_msgs.msg`."""
     package, _, below = module.partition(".")
     if package not in INTERFACES.packages():
         return import_table.table()[module]
@@ -191,7 +194,7 @@ class _Finder(MetaPathFinder):
     def _own(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Find a module in the user's folders."""
+        """Return the spec of a module in the user's folders; None if there is no such module."""
         if self.tested is not None:
             return self._tested(fullname, path, target)
         if fullname.partition(".")[0] not in TAKEN:
@@ -211,7 +214,11 @@ class _Finder(MetaPathFinder):
     def _tested(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Find a module of the tests, or of the code under test; load it with tftool's builtins."""
+        """Return the spec of any module; None if there is no such module.
+
+        A module below the tests' folder is loaded with builtins whose `import time` and the like
+        give tftool's versions.
+        """
         for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
             spec = finder.find_spec(fullname, path, target)
             if spec is None:
@@ -243,7 +250,10 @@ class _UserLoader(importlib.machinery.SourceFileLoader):
 
 
 class _TestedLoader(Loader):
-    """Loader that adds tftool's builtins to a module that pytest's or another loader loads."""
+    """Loader for tests: it calls another loader after replacing the module's builtins.
+
+    With these builtins, `import time` and the like give tftool's versions.
+    """
 
     def __init__(self, loader: Loader) -> None:
         self._loader = loader
@@ -260,7 +270,7 @@ class _TestedLoader(Loader):
 
 
 class _Arguments(UserList[str]):
-    """`sys.argv` that shows each program its own arguments."""
+    """Replacement of `sys.argv`: a list that shows each program its own arguments."""
 
     def __init__(self, otherwise: list[str]) -> None:
         super().__init__()
@@ -268,14 +278,14 @@ class _Arguments(UserList[str]):
 
     @property
     def data(self) -> list[str]:
-        """Arguments of the program that the calling thread belongs to."""
+        """Arguments of the calling thread's program; tftool's own arguments without a program."""
         fiber = fibers.current()
         owner = fiber.owner if fiber is not None else None
         return self._otherwise if owner is None else owner.argv
 
     @data.setter
     def data(self, value: list[str]) -> None:
-        """Refuse to replace the list: each program has its own arguments."""
+        """Do nothing: each program has its own list of arguments."""
 
     # A part must be a plain list: pytest shows all arguments of such a list.
 
@@ -308,7 +318,7 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
     """Provide ROS 2's modules inside this block, if no real ROS 2 is sourced.
 
     Args:
-        force: Whether to provide them even if a real ROS 2 is sourced.
+        force: Whether to provide the modules even if a real ROS 2 is sourced.
 
     Raises:
         UsageError: If a real ROS 2 is sourced and `force` is false.
@@ -325,10 +335,10 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
 
 @contextmanager
 def _environment() -> Iterator[None]:
-    """Set variables of a sourced ROS 2 inside this block.
+    """Set environment variables as a sourced ROS 2 does, inside this block.
 
-    `ROS_DISTRO`, which launch files read, keeps an existing value. If a child process runs `ros2`,
-    it gets tftool's command of that name, which queries this world in real time.
+    `ROS_DISTRO`, which launch files read, keeps an existing value. `PATH` begins with the folder of
+    tftool's `ros2` command, so that a child process finds this command.
     """
     commands = f"{Path(__file__).parent / 'bin'}{os.pathsep}{os.environ.get('PATH', '')}"
     wanted = {
@@ -394,7 +404,7 @@ def _file_of(module: ModuleType) -> Path:
 
 
 def _is_users(file: Path, roots: Iterable[Path]) -> bool:
-    """Return whether a module's file is below users' folders, not in a virtual environment."""
+    """Return whether a file is a user's module: below `roots`, not in a virtual environment."""
     if file.is_relative_to(_OURS):
         return False
     below = (file.relative_to(root) for root in roots if file.is_relative_to(root))
@@ -402,13 +412,17 @@ def _is_users(file: Path, roots: Iterable[Path]) -> bool:
 
 
 def look_in(root: Path) -> None:
-    """Search a folder first for users' modules."""
+    """Add a folder in which imports look for users' modules, before all other folders."""
     if _finder is not None and root not in _finder.roots:
         _finder.roots.insert(0, root)
 
 
 def look_behind(roots: Callable[[], Iterable[str]]) -> None:
-    """Search the folders that a function returns for users' modules, after the programs' own."""
+    """Add folders in which imports look for users' modules, after the programs' own folders.
+
+    Args:
+        roots: Function that returns the folders; it is called at the first import that needs them.
+    """
     if _finder is not None:
         _finder.behind.append(roots)
 

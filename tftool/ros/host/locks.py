@@ -72,7 +72,10 @@ class StateMonitor:
         return bool(owner.ask(lambda: self._wait(owner, take, length)))
 
     def sleep(self, owner: Any, length: Duration, is_over: Callable[[], bool]) -> None:
-        """Block a program's thread for a duration of tftool's clock, or until `is_over`."""
+        """Block a thread of the program `owner` for nanoseconds of tftool's clock.
+
+        Return earlier if `is_over`, called after every change of the state, returns True.
+        """
         if not owner.interrupted:
             owner.ask(lambda: self._wait(owner, is_over, max(0, length)))
 
@@ -122,7 +125,7 @@ class StateMonitor:
 
 
 def _limit(blocking: bool, timeout: float | None) -> float | None:
-    """Return the timeout for `StateMonitor.wait` that `acquire(blocking, timeout)` means.
+    """Convert the arguments of `Lock.acquire` to a timeout for `StateMonitor.wait`.
 
     Raises:
         ValueError: For the arguments that Python's own locks refuse.

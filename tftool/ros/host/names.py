@@ -33,7 +33,7 @@ class Fault(NamedTuple):
 
 
 def named_twice(name: str) -> str:
-    """Return the warning for a node with the name of a node in another process."""
+    """Return the warning that another process already has a node with this name."""
     return (
         f"another process of this session has a node named '{name}': both publish and answer. "
         "End one, or give this one a name of its own: --ros-args -r __node:=…"
@@ -42,7 +42,7 @@ def named_twice(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Remap:
-    """Remapping rule `node:old:=new`; without a node it applies to all nodes."""
+    """Remapping rule `node:old:=new`; a rule without a node applies to all nodes."""
 
     node: str | None
     old: str
@@ -70,12 +70,21 @@ class RosOptions:
     logs_to_rosout: bool = True
 
     def parameters_for(self, name: str, namespace: str) -> dict[str, Any]:
-        """Return the values given for a node's parameters, by parameter name."""
+        """Return the parameter values that these options give to one node, by parameter name."""
         full = join(namespace, name)
         return {key: value for node, key, value in self.parameters if _fits(node, full, name)}
 
     def remapped(self, full: str, name: str, namespace: str) -> str:
-        """Return the full name that a node's rules give to `full`, or `full` itself."""
+        """Apply a node's remapping rules to a full topic or service name.
+
+        Args:
+            full: Full name, without leading slash.
+            name: The node's name.
+            namespace: The node's namespace.
+
+        Returns:
+            The new full name; `full` if no rule matches.
+        """
         for rule in self.remaps:
             if rule.node is not None and rule.node.strip("/") not in (name, join(namespace, name)):
                 continue
@@ -316,7 +325,7 @@ def yaml_value(text: str) -> Any:
 
 
 def strict_yaml_value(text: str) -> Any:
-    """Parse a parameter's value as YAML, and raise for text that is not YAML.
+    """Parse a parameter's value as YAML; raise an error for text that is not YAML.
 
     Raises:
         ValueError: If the text is not YAML.

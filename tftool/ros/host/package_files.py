@@ -30,7 +30,8 @@ class Package:
         modules: Folders of Python packages that CMakeLists.txt installs
             (`ament_python_install_package`), relative to the source folder.
         programs: Python files that CMakeLists.txt installs (`install(PROGRAMS …)`), by name.
-        data_files: Files that setup.py installs; None if only running setup.py would tell.
+        data_files: Files that setup.py installs; None if the list is not a plain list of texts,
+            so that only running setup.py would give the files.
     """
 
     name: str
@@ -42,7 +43,10 @@ class Package:
     data_files: frozenset[str] | None = None
 
     def script_file(self, name: str) -> Path | None:
-        """Return a node's file by name, for packages that install scripts without setup.py."""
+        """Return the Python file of a node by the file's name, for packages without setup.py.
+
+        Return None if there is no such file.
+        """
         if name in self.programs:
             return self.programs[name]
         for folder in ("scripts", "nodes", self.name, "."):
@@ -53,11 +57,11 @@ class Package:
         return None
 
     def place_of_script(self, name: str) -> Path:
-        """Return the path at which a console script would be, installed below the source folder."""
+        """Return the path of a console script as if it were installed below the source folder."""
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
-        """Return the name of the executable with a path; None if there is none."""
+        """Return the name of the executable at a path; None if there is no executable."""
         if path.name in self.scripts and path == self.place_of_script(path.name):
             return path.name
         is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()
@@ -111,7 +115,7 @@ def read_package(folder: Path) -> Package | None:
 
 
 def _listed_files(data_files: Any) -> frozenset[str] | None:
-    """Return the files in a setup.py's `data_files`; None if they are not fully known."""
+    """Return the files in a setup.py's `data_files`; None if a part of the value is unknown."""
     if not isinstance(data_files, list):
         return None
     listed: set[str] = set()
@@ -127,10 +131,11 @@ def _listed_files(data_files: Any) -> frozenset[str] | None:
 def _installed_by_cmake(
     text: str, folder: Path, share: str
 ) -> Iterator[tuple[str, PurePosixPath, Path]]:
-    """Yield what a CMakeLists.txt installs: the kind, the place, and the file.
+    """Yield (kind, installed path, source file) of the files that a CMakeLists.txt installs.
 
-    Programs in `lib` have the kind PROGRAMS and a place below the prefix. All other files have a
-    place below the share directory; a file with the same path in the source folder is left out.
+    The kind is PROGRAMS for programs in `lib`, whose installed path is relative to the prefix. The
+    kind is FILES for all other files, whose installed path is relative to the share directory.
+    Files with the same relative path in the source folder are left out.
     """
     pattern = r"^[ \t]*install\(\s*(PROGRAMS|FILES|DIRECTORY)\s+([^)]*)\)"
     for kind, call in re.findall(pattern, re.sub(r"#.*", "", text), re.M):
@@ -240,7 +245,7 @@ class _Literals:
                 self._names[statement.targets[0].id] = self.value(statement.value)
 
     def value(self, node: ast.expr) -> Any:
-        """Return the value of an expression; None if only running the code would tell."""
+        """Return the value of an expression; None if only running the code would give the value."""
         match node:
             case ast.Constant():
                 return node.value

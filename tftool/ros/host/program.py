@@ -56,21 +56,21 @@ class Program(Node):
     """User's program that runs as a node of tftool's world.
 
     Attributes:
-        label: Name under which the program was started, used in log lines; its rclpy node may
-            have the same name.
+        label: Name of the program in log lines; the program's rclpy node may have the same name.
         argv: The program's `sys.argv`.
         options: Options after `--ros-args`.
         strict: Whether time stops while the program's code runs: true on the simulated clock.
         broadcasts: Whether the program publishes transforms.
         listens: Whether the program looks up transforms. In one instant, timers of programs that
             only publish run before those of other programs.
-        failure: Exception that ended the program; None if it ended well.
+        failure: Exception that ended the program; None if the program has not failed.
         status: Exit status once the program has ended; None before.
         nodes: State (`rclpy.seat.NodeSeat`) of each rclpy node; removed at the end.
         unserved: Destroyed nodes, with the number of callbacks that no executor ever served.
         event_loops: Event loops of asyncio that the program created, closed at the end.
         lines_with_angles: Lines of code whose angles were already checked for degrees.
-        advice: Functions that return a sentence about the program's lookups, or "", at the end.
+        advice: Functions called at the end of the run; each returns a hint about the program's
+            transform lookups, or "".
         on_print: Function that receives printed text, and whether it went to standard output.
     """
 
@@ -86,7 +86,7 @@ class Program(Node):
         options: RosOptions | None = None,
         on_exit: Callable[["Program"], object] | None = None,
     ) -> None:
-        """Add the program to a world; it starts when the world runs.
+        """Add the program to a world; the program starts when the world runs.
 
         Args:
             world: World to join.
@@ -143,7 +143,10 @@ class Program(Node):
 
     @property
     def turn(self) -> Phase:
-        """Turn of the program's timers within an instant of simulated time."""
+        """Phase of each simulated instant in which the program's timers run.
+
+        Programs that only publish transforms run first, so that lookups see their data.
+        """
         return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
 
     # The loop's side.
@@ -258,7 +261,7 @@ class Program(Node):
         return self.clock.now()
 
     def looked_in_vain(self) -> None:
-        """Count a query that failed without waiting, such as for a missing transform."""
+        """Count a transform lookup that failed at once, to recognise a loop that only polls."""
         self._count(1.0 / POLLS)
 
     def sleep(self, duration: Duration) -> None:
@@ -273,12 +276,12 @@ class Program(Node):
         until: Stamp | None = None,
         phase: Phase | None = None,
     ) -> bool:
-        """Wait in the event loop until one of some futures is done; none of them is cancelled.
+        """Wait in the event loop until one of some futures is done, without cancelling any future.
 
         Args:
             waits: Futures to wait for.
             until: Time at which to stop waiting; None for no limit.
-            phase: Turn within the instant `until`; by default this program's turn.
+            phase: Phase within the instant `until`; None for this program's phase (see `turn`).
 
         Returns:
             Whether one of the futures is done.
@@ -309,7 +312,11 @@ class Program(Node):
             self._note_polling(now)
 
     def _note_polling(self, start: Stamp) -> None:
-        """Log a warning, once, if a loop has polled for long while nothing happens."""
+        """Log a warning, once, if the code has polled in a loop for `GIVE_UP` real seconds.
+
+        Args:
+            start: Time on tftool's clock at which this poll began, nanoseconds.
+        """
         now = time.monotonic_ns()  # real, for simulated time hardly moves meanwhile
         if start != self._polled_until:
             self._polls_since = now
@@ -348,7 +355,11 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
 
 
 def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
-    """Set the function that returns the program of threads without a fiber; None removes it."""
+    """Set the function that returns the program of a thread that has no fiber.
+
+    Args:
+        found: The function, which may return None; None removes the function set before.
+    """
     global _outsiders
     _outsiders = found
 
@@ -357,7 +368,7 @@ _outsiders: "Callable[[], Program | None] | None" = None
 
 
 def running() -> Program | None:
-    """Return the program that the calling thread belongs to; None if there is none."""
+    """Return the program that the calling thread belongs to; None if it belongs to no program."""
     fiber = fibers.current()
     owner: Program | None = None if fiber is None else fiber.owner
     if owner is None and fiber is None and len(_living) == 1:

@@ -73,7 +73,7 @@ def _count(text: str) -> int:
 
 
 def _expression(text: str) -> Callable[[Any], bool]:
-    """Compile an expression about a message `m`, as given to --filter, to a function."""
+    """Return a function that evaluates a --filter expression for a message, named `m` in it."""
     try:
         code = compile(text, "--filter", "eval")
     except SyntaxError as error:

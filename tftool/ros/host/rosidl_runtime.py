@@ -67,7 +67,9 @@ def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) 
 
 
 def prototype(name: str) -> Any:
-    """Return a new message, request or goal with every field at its default.
+    """Return a new message of an interface, with every field at its default value.
+
+    For a service, the result is a request message; for an action, a goal message.
 
     Raises:
         UsageError: If there is no such interface; the text names a similar one.
@@ -168,7 +170,7 @@ def plain(
 
 
 def _summary(value: Any, kind: str) -> str:
-    """Return the type of a list, "double[36]" or "sequence<double>", and its length."""
+    """Return the text "<sequence type: double, length: 3>" for a list, as ROS 2 prints it."""
     if not kind.startswith("sequence<"):
         return f"<array type: {kind}>"
     element = kind.removeprefix("sequence<").removesuffix(">")

@@ -1,9 +1,14 @@
 """Replacements of five standard modules, and of `print`, in users' files.
 
-In users' files, `import time` gives a module with `sleep` and clocks of tftool's time, `import
-threading` one whose threads take turns and whose locks wait in tftool's time, `import queue` the
-standard queues with these locks, `import asyncio` one whose event loops wait in tftool's time, and
-`import signal` one whose handlers belong to the program. All other modules get Python's own.
+Users' files that import these modules get a version that works with tftool's clock:
+
+- `time`: `sleep` and the clocks use tftool's time.
+- `threading`: threads take turns, and locks wait in tftool's time.
+- `queue`: the standard queues, with these locks.
+- `asyncio`: event loops wait in tftool's time.
+- `signal`: handlers belong to one program instead of the process.
+
+Modules that are not users' files import Python's own versions.
 """
 
 import asyncio
@@ -33,7 +38,7 @@ _REAL_PRINT = print
 
 
 class _Shim(ModuleType):
-    """Module that has some names of its own and takes all others from a standard module."""
+    """Version of a standard module with some names replaced."""
 
     def __init__(self, real: ModuleType, replaced: dict[str, Any]) -> None:
         super().__init__(real.__name__, real.__doc__)
@@ -68,7 +73,7 @@ def _elapsed_ns() -> int:
 
 
 def _print(*values: object, **options: Any) -> None:
-    """Print as Python does, and pass the text to the launch that started the program."""
+    """Print as Python does, and pass the text to the program's `on_print`, if it is set."""
     _REAL_PRINT(*values, **options)
     owner = running_program()
     if owner is None or owner.on_print is None:
@@ -79,12 +84,12 @@ def _print(*values: object, **options: Any) -> None:
 
 
 class UserThread(threading.Thread):
-    """Replacement of `threading.Thread`: a further fiber of the user's program."""
+    """Replacement of `threading.Thread` that runs as a further fiber of the user's program."""
 
     _fiber: Fiber | None = None
 
     def start(self) -> None:
-        """Start the thread, in a program as one of the program's fibers."""
+        """Start the thread as a fiber of the calling program; without a program, as in Python."""
         owner = running_program()
         if owner is None:
             super().start()
@@ -95,7 +100,7 @@ class UserThread(threading.Thread):
         (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def _run_told(self) -> None:
-        """Run the thread's function; an exception is logged and ends only this thread."""
+        """Run the thread's function; log its exception, which ends only this thread."""
         try:
             self.run()
         except Exception as error:
@@ -137,7 +142,10 @@ def _handler_of(number: int) -> Any:
 
 
 def _set_handler(number: int, handler: Any) -> Any:
-    """Set a program's handler; the one of SIGINT is called when the program is asked to end."""
+    """Set the calling program's handler of a signal; return the previous handler.
+
+    The program's handler of SIGINT is called when tftool asks the program to end.
+    """
     owner, fiber = running_program(), current()
     if owner is None or fiber is None or fiber is not owner.fiber:
         return signal.signal(number, handler)
@@ -274,7 +282,10 @@ _replaced: list[asyncio.AbstractEventLoop] = []
 
 
 def _get_event_loop() -> asyncio.AbstractEventLoop:
-    """Return the thread's event loop, creating one if there is none, as in a main thread."""
+    """Return the thread's event loop; create a loop if the thread has none.
+
+    Python itself creates a loop in the main thread only, but a program runs in another thread.
+    """
     owner = running_program()
     try:
         found = asyncio.get_event_loop()

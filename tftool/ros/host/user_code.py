@@ -17,8 +17,8 @@ from tftool.ros.host.shims import builtins_for_users
 def file_body(path: Path) -> Callable[[], None]:
     """Return a function that runs a node's file as `python3 FILE` would.
 
-    A file that defines `main` but neither calls it nor `rclpy.init` is meant for a console script,
-    like the tutorials' files: then `main` is called.
+    The tutorials' files define `main` for a console script, but call neither `main` nor
+    `rclpy.init` themselves. For such a file, the returned function calls `main`.
 
     Raises:
         InputError: If the file cannot be read or is not valid Python; the text shows the line.
@@ -48,7 +48,7 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
     Args:
         path: Path of the file.
         name: Name of the module; by default the file's name without suffix.
-        code: Compiled code of the file, if it is compiled already.
+        code: Compiled code of the file; None to compile the file here.
 
     Raises:
         InputError: If the file cannot be read or is not valid Python; the text shows the line.
@@ -127,7 +127,7 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
 
 
 def _end_with(status: object) -> None:
-    """Raise SystemExit with the value that a console script's function returned, unless None."""
+    """Raise SystemExit with a value that a console script's function returned; not for None."""
     if status is not None:
         raise SystemExit(status)
 
@@ -146,7 +146,10 @@ def _warn_of_unserved(owner: program.Program) -> None:
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:
-    """Wrap a program's function so that everything it leaves open is closed when it ends."""
+    """Wrap a program's function so that a program asked to end destroys its nodes.
+
+    The wrapped function also logs a warning for nodes that the program never spun.
+    """
 
     def run() -> None:
         owner = program.current()

@@ -16,7 +16,7 @@ TF_TOPICS = ("tf", "tf_static")
 
 
 def carried(kind: type[Message], topic: str) -> type[Any]:
-    """Return the class of values that tftool's topic carries for a user's message class."""
+    """Return the class of the values on a topic of tftool for a user's message class `kind`."""
     if kind.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
         return TransformMessage
     plain = plain_name(kind.interface__)
@@ -24,7 +24,7 @@ def carried(kind: type[Message], topic: str) -> type[Any]:
 
 
 def pack(message: Any, kind: type[Any]) -> Any:
-    """Convert a user's message to a value for a topic that carries class `kind`, as a copy."""
+    """Copy a user's message to a value of class `kind`, for a topic of tftool."""
     return _pack_transforms(message) if kind is TransformMessage else recast(message, kind)
 
 

@@ -17,7 +17,10 @@ from tftool.ros.host.package_files import MARKS, Package, read_package, read_tex
 
 
 class ShareFolder:
-    """Temporary folder with links to a package's sources, and to some files at other paths as well.
+    """Temporary folder that imitates a package's installed share directory by symbolic links.
+
+    The folder contains links to the package's source files, and links at the paths under which
+    setup.py or CMakeLists.txt installs files.
 
     Attributes:
         path: Path of the folder, which is deleted with this object.
@@ -27,8 +30,8 @@ class ShareFolder:
         """Create the folder and the links in it.
 
         Args:
-            source: Source folder of the package, linked with its layout.
-            installed: Further files, by their path below the new folder.
+            source: Source folder of the package, whose files are linked under the same paths.
+            installed: Files to link under other paths, by their path below the new folder.
         """
         self.path = Path(tempfile.mkdtemp(prefix="tftool-share-")).resolve()
         weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
@@ -41,7 +44,13 @@ class ShareFolder:
                 _link(file, target)
 
     def _show(self, source: Path, below: str, parents: set[str]) -> None:
-        """Link the files of one source folder, except those of __pycache__ and hidden folders."""
+        """Link the entries of one source folder, except hidden entries and __pycache__.
+
+        Args:
+            source: Source folder of the package.
+            below: Path of the folder to link, relative to `source`.
+            parents: Relative paths of folders to leave out, because they get their own links.
+        """
         (self.path / below).mkdir(parents=True, exist_ok=True)
         there = source / below
         for one in there.iterdir() if there.is_dir() else ():
@@ -100,7 +109,7 @@ class Workspace:
 
     @property
     def skipped(self) -> list[str]:
-        """Sentence for each folder that was skipped, with the reason."""
+        """Sentences about folders that were skipped, each with the reason."""
         return list(dict.fromkeys(self._found[1]))
 
     @cached_property
@@ -137,7 +146,7 @@ class Workspace:
         return roots
 
     def module_folders(self) -> list[str]:
-        """Return the folders of the packages' Python modules, as if they were installed.
+        """Return the folders from which the packages' Python modules can be imported.
 
         A package named like a module of Python or tftool is left out, because it would hide that
         module.
@@ -155,7 +164,10 @@ class Workspace:
         return list(dict.fromkeys(folders))
 
     def folder_without_mark(self, name: str) -> Path | None:
-        """Return the folder `name` if it has Python files and lacks only a package.xml."""
+        """Return a folder `name` with Python files, for which the user forgot the package.xml.
+
+        Return None if there is no such folder.
+        """
         for root in self._roots():
             for folder in (Path(one) for one, _ in _folders(root, _DEPTH)):
                 if folder.name == name and any(
@@ -165,11 +177,11 @@ class Workspace:
         return None
 
     def file_named(self, path: Path) -> Path | None:
-        """Return a package's file, given by its path inside or beside the package's folder.
+        """Find a package's file by a path relative to the package or to the folder around it.
 
         Returns:
-            `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to `start` if the
-            file is below that folder; None if no package has such a file.
+            Path of the file, such as `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`;
+            relative to `start` if the file is below `start`. None if no package has such a file.
         """
         if path.is_absolute() or ".." in path.parts:
             return None
@@ -193,9 +205,10 @@ class Workspace:
         return found
 
     def share(self, name: str) -> Path:
-        """Return a package's share directory: its source folder, or a folder shipped with tftool.
+        """Return the folder that stands in for a package's share directory.
 
-        Files that setup.py installs under another path are there as well.
+        This is a folder shipped with tftool, or the package's source folder. For a package that
+        installs files under other paths, it is a temporary folder of links to its files.
 
         Raises:
             UsageError: If there is no such package.
@@ -214,7 +227,7 @@ _current: list[Workspace] = []
 
 
 def use(searched: Workspace) -> None:
-    """Search packages in a workspace from now on."""
+    """Make a workspace the one that `current` returns."""
     _current[:] = [searched]
 
 
@@ -226,7 +239,15 @@ def current() -> Workspace:
 
 
 def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ()) -> str:
-    """Return a sentence about an unknown package, with the known ones."""
+    """Return the error text for a package that is not in the workspace.
+
+    The text proposes a similar name or a missing package.xml, or lists the known packages.
+
+    Args:
+        name: Name of the unknown package.
+        workspace: Workspace that was searched.
+        ours: Names of the packages that tftool provides.
+    """
     known = [*workspace.packages, *ours]
     near = near_names(name, known)
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}"
@@ -244,7 +265,7 @@ def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ())
 
 
 def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
-    """Yield a folder and all folders below it, each with whether it contains a package's files.
+    """Yield (path, whether it is a package) for a folder and all folders below it.
 
     A home folder has many thousands of folders, so each folder is listed only once.
     """
@@ -300,10 +321,11 @@ def is_file(word: str) -> bool:
 
 
 def file_of(workspace: Workspace, word: str) -> Path:
-    """Return the path of the file that a word of the command line names.
+    """Return a word of the command line as a file's path.
 
     Raises:
-        InputError: If there is no such file but a package has one; the text gives its path.
+        InputError: If there is no such file, but a package has a file of that name. The text
+            proposes the path of the package's file.
     """
     path = Path(word)
     if not path.exists() and (near := workspace.file_named(path)) is not None:

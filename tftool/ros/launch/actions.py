@@ -86,7 +86,7 @@ class UnsetLaunchConfiguration(Action):
 
 
 class ResetLaunchConfigurations(Action):
-    """Action that replaces all launch arguments by the given ones, by default none."""
+    """Action that removes all launch arguments and sets the given ones, if any."""
 
     def __init__(
         self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any
@@ -95,7 +95,7 @@ class ResetLaunchConfigurations(Action):
         self.kept = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Replace all launch arguments by the given ones."""
+        """Remove all launch arguments, and set the given ones."""
         given = {perform(context, key): perform(context, one) for key, one in self.kept.items()}
         context.launch_configurations = given
 
@@ -120,7 +120,7 @@ class SetLogFolder(Action):
         self.new_log_dir = new_log_dir
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set ROS_LOG_DIR to the folder, which is relative to the present one."""
+        """Set ROS_LOG_DIR to the folder; a relative path is below the present ROS_LOG_DIR."""
         before = context.environment.get("ROS_LOG_DIR", "")
         folder = os.path.join(before, perform(context, self.new_log_dir))
         context.environment["ROS_LOG_DIR"] = folder
@@ -194,7 +194,10 @@ class ResetEnvironment(Action):
 
 
 class Push(Action):
-    """Action that opens a scope: arguments set from here on end with the scope."""
+    """Action that opens a scope, until the next Pop.
+
+    At the end of the scope, launch arguments and environment variables get their earlier values.
+    """
 
     def execute(self, context: LaunchContext) -> Any:
         """Open a scope for launch arguments and environment variables."""
@@ -247,7 +250,7 @@ class GroupAction(Action):
         self.launch_configurations = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return the actions of the group, between actions that open and close the scope."""
+        """Return the actions of the group, between a Push and a Pop if the group has a scope."""
         # Asked for outside, where they are passed from.
         inside: list[Any] = [
             SetLaunchConfiguration(perform(context, name), perform(context, value))
@@ -282,7 +285,7 @@ class IncludeLaunchDescription(Action):
         self.launch_arguments = list(launch_arguments or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return actions that set the file's arguments, followed by the file's actions."""
+        """Return actions that set the included file's arguments, followed by the file's actions."""
         description, path = self.source.load(context)
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         if path is None:
@@ -355,7 +358,7 @@ class RegisterEventHandler(Action):
         self.event_handler = event_handler
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """Return the handler's actions, as far as they are known before an event."""
+        """Return (class of the handler, its actions); no actions if a function returns them."""
         return [(type(self.event_handler).__name__, getattr(self.event_handler, "entities", []))]
 
     def execute(self, context: LaunchContext) -> Any:

@@ -54,12 +54,13 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
 def refuse_unknown(
     path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
 ) -> None:
-    """Raise an error for given arguments that a launch file neither declares nor mentions.
+    """Raise an error for a given argument that a launch file does not use.
 
-    An argument that the file's text mentions may be read by a LaunchConfiguration or a function.
+    A name that occurs in the file's text counts as used: a LaunchConfiguration or a function may
+    read it.
 
     Raises:
-        UsageError: If there is such an argument; the text names the nearest declared one.
+        UsageError: If an argument is not used; the text names the most similar declared argument.
     """
     names = [one.name for one in known]
     for name in given:
@@ -96,7 +97,7 @@ def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
 
 
 def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
-    """Return the launch file that the first one or two words name, and the remaining words.
+    """Find the launch file in `FILE …` or `PACKAGE FILE …`; return its path and the other words.
 
     Raises:
         UsageError: If there is no such launch file; the text lists the package's launch files.

@@ -1,8 +1,9 @@
 """Components of launch_ros: C++ nodes that are loaded into a container's process.
 
-tftool cannot run components itself. If the container runs elsewhere in the session, the launch
-requests it to load them; if this launch starts the container, the launch waits for it. Other
-components are left out, with a notice in the log.
+tftool cannot run components itself. If the session has a container, in this process or in another,
+the launch requests the container to load the components. If this launch starts the container, the
+request waits until the container is ready. Without a container, the launch logs a warning and goes
+on without the components.
 """
 
 from collections.abc import Iterable
@@ -143,7 +144,10 @@ class ComposableNodeContainer(Node):
         self.composable_node_descriptions = list(composable_node_descriptions or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the container, if it is a Python program, and load its components."""
+        """Start the container if it is a Python program; return the action that loads components.
+
+        Return None if the container has no components.
+        """
         self._perform_substitutions(context)
         reason = self._missing(context)
         if reason:
@@ -158,7 +162,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Return why the container cannot be started here; "" if it is a Python program."""
+        """Return the reason why tftool cannot start the container; "" if tftool can start it."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

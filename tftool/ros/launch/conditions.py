@@ -9,11 +9,14 @@ from tftool.ros.launch.substitutions import describe, is_true, perform
 
 
 class InvalidConditionExpressionError(UsageError):
-    """Error for a condition's text that means neither true nor false."""
+    """Error for a condition whose text is neither "true" or "1", nor "false" or "0"."""
 
 
 class Condition:
-    """Condition of an action, computed by a predicate; without a predicate it is false."""
+    """Condition of an action, which a predicate function computes.
+
+    A condition without a predicate is always false.
+    """
 
     def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
@@ -28,10 +31,10 @@ class Condition:
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bool:
-    """Return whether the text of an expression means true.
+    """Return True for an expression with the text "true" or "1", False for "false" or "0".
 
     Raises:
-        InvalidConditionExpressionError: If the text means neither true nor false.
+        InvalidConditionExpressionError: If the text is another one.
     """
     text = perform(context, expression)
     try:
@@ -57,11 +60,11 @@ class _TextCondition(Condition):
 
 
 class IfCondition(_TextCondition):
-    """Condition that is true if a text means true."""
+    """Condition that is true if a text is "true" or "1"."""
 
 
 class UnlessCondition(_TextCondition):
-    """Condition that is true if a text means false."""
+    """Condition that is true if a text is "false" or "0"."""
 
     wanted = False
 

@@ -19,8 +19,8 @@ class LaunchContext:
     """State of a running launch: arguments, environment variables, scopes and the current file.
 
     Attributes:
-        launch_configurations: Values of the launch arguments, by name; also the settings for
-            the scope's nodes, which `scope.py` stores here.
+        launch_configurations: Values of the launch arguments, by name. `scope.py` also stores
+            its settings for the scope's nodes here.
         environment: Environment variables for processes, a copy of those of tftool.
         environments: Environments saved by PushEnvironment, the newest last.
         files: Launch files that include each other; the current one is last.
@@ -57,14 +57,14 @@ class LaunchContext:
 
     @property
     def workspace(self) -> Workspace:
-        """Workspace in which packages are searched: the given one, else the command's."""
+        """Workspace of this launch, else the current workspace; packages are searched in it."""
         if self._workspace is None:
             self._workspace = current()
         return self._workspace
 
     @property
     def locals(self) -> SimpleNamespace:
-        """Local values by attribute: `event` in an event handler, and added ones."""
+        """Local values as attributes: `event` in an event handler, and those of `extend_locals`."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
@@ -122,7 +122,7 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """Return a number for a name, always the same for one name."""
+        """Return a number for a name; every name gets a different one and retains it."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:
@@ -133,14 +133,17 @@ class LaunchContext:
         """Make a launch file the current file.
 
         Raises:
-            UsageError: If too many launch files include each other.
+            UsageError: If the chain of launch files that include each other is too long.
         """
         if len(self.files) >= DEEPEST:
             raise UsageError(f"'{path}' is included {DEEPEST} deep: does it include itself?")
         self.files = (*self.files, path.absolute())
 
     def kept(self) -> tuple[Any, ...]:
-        """Return a copy of the current scope, for `back_to`."""
+        """Return a copy of the scope's state: arguments, environment, current file, local values.
+
+        `back_to` restores such a copy.
+        """
         return (
             dict(self.launch_configurations),
             dict(self.environment),
@@ -158,7 +161,7 @@ class LaunchContext:
 
     @contextmanager
     def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
-        """Use a scope returned by `kept` inside this block."""
+        """Restore the state that `kept` returned, inside this block only."""
         now = self.kept()
         self._restore(kept)
         try:

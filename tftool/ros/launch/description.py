@@ -82,14 +82,14 @@ class LaunchDescription(LaunchDescriptionEntity):
 
 
 class LaunchDescriptionSource:
-    """Source of a launch description: a description, or a file's path."""
+    """Source of a launch description: the description itself, or the path of a launch file."""
 
     def __init__(self, launch_description: Any = None, location: Any = "") -> None:
         self.description = launch_description
         self.location = location
 
     def load(self, context: LaunchContext) -> tuple[LaunchDescription, Path | None]:
-        """Return the description, and the path of its file (None without a file)."""
+        """Return the launch description, and the path of its file; None instead without a file."""
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))
@@ -110,9 +110,10 @@ AnyLaunchDescriptionSource = FrontendLaunchDescriptionSource = PythonLaunchDescr
 
 
 class Action(LaunchDescriptionEntity):
-    """Step of a launch: `execute` does the work and returns further actions, or None.
+    """Action of a launch: `execute` does the work, and returns further actions or None.
 
-    Work that takes long is passed to the launch (`context.launch`).
+    An action that takes long, such as a process, only starts in `execute`; the launch
+    (`context.launch`) then runs it.
 
     Attributes:
         condition: Condition for executing the action; None to execute it always.
@@ -152,9 +153,9 @@ class Action(LaunchDescriptionEntity):
 
     @classmethod
     def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
-        """Return class and arguments of the action from its element in an XML or YAML file.
+        """Return the class of the action and its keyword arguments from an XML or YAML element.
 
-        Subclasses of users extend this; the condition (`if`, `unless`) is read elsewhere.
+        Users' subclasses extend this method. Other code reads the attributes `if` and `unless`.
         """
         return cls, {}
 

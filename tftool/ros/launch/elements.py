@@ -26,8 +26,8 @@ class Element:
         values: Attributes and their values.
         children: Child elements.
         where: Position in the file, "file:line".
-        asked: Names of the attributes that were read, the only ones allowed.
-        known: Tags of the child elements that were read, the only ones allowed.
+        asked: Names of the attributes that the parser has read; `finish` refuses all others.
+        known: Tags of the child elements that the parser has read; `finish` refuses all others.
     """
 
     tag: str
@@ -56,20 +56,20 @@ class Element:
         raise InputError(f"{self.where}: '{self.tag}' needs '{names[0]}'")
 
     def inside(self, *tags: str) -> list["Element"]:
-        """Return the child elements with one of some tags."""
+        """Return the child elements whose tag is in `tags`."""
         self.known.update(tags)
         return [child for child in self.children if child.tag in tags]
 
     def all_inside(self) -> list["Element"]:
-        """Return all child elements."""
+        """Return all child elements; `finish` then accepts every tag."""
         self.known.update(child.tag for child in self.children)
         return self.children
 
     def finish(self) -> None:
-        """Raise an error if an attribute or child element was not read.
+        """Raise an error if the parser has not read an attribute or child element.
 
         Raises:
-            InputError: If there is one; the text names the nearest known word.
+            InputError: If there is an unread part; the text names the most similar allowed word.
         """
         for name in self.values:
             if name not in self.asked:
@@ -84,7 +84,13 @@ class Element:
         return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
 
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
-        """Return an error at this element's position, with the nearest known word."""
+        """Return an error with this element's position in the file.
+
+        Args:
+            what: The error as a sentence.
+            word: The wrong word.
+            known: Allowed words; the one most similar to `word` is added as "did you mean".
+        """
         hint = did_you_mean(word, known)
         return InputError(f"{self.where}: {what}{hint}")
 

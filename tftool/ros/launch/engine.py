@@ -74,7 +74,7 @@ class Launch(Node):
         contained: bool = False,
         keep_alive: bool = False,
     ) -> None:
-        """Read the launch file, if one is given; `run` executes it.
+        """Read the launch file, if `what` is a path; `run` executes the description.
 
         Args:
             world: World in which the nodes run.
@@ -85,8 +85,8 @@ class Launch(Node):
             context: State of the launch; None for a new one.
             name: Name of the launch's own node.
             contained: Whether an error in the description ends only the launch, not the world.
-                On simulated time, system commands then run beside the nodes, and time advances in
-                step with real time while they run.
+                For such a launch, simulated time advances with real time while a system command
+                runs; otherwise a system command takes no simulated time.
             keep_alive: Whether the launch goes on after its last process has ended.
 
         Raises:
@@ -220,7 +220,7 @@ class Launch(Node):
         self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
 
     def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
-        """Handle a line of output of a process or program."""
+        """Store a line of a process's output for its action, and emit a `ProcessIO` event."""
         action: Any = self._actions.get(label)
         if getattr(action, "cached_output", False):
             action.output_lines.append((to_stdout, f"{line}\n"))
@@ -248,13 +248,13 @@ class Launch(Node):
             program.current().ask(partial(self._wrote, label, line, to_stdout=is_stdout))
 
     def _of(self, label: str) -> dict[str, Any]:
-        """Return the arguments of a process's events: its action and details."""
+        """Return the keyword arguments for a `RunningProcessEvent` about a process."""
         action = self._actions.get(label)
         details = getattr(action, "process_details", None) or {"name": label}
         return {"action": action, **details}
 
     def _note_start(self, action: Any, label: str, words: Sequence[str], **details: Any) -> None:
-        """Log that a process has started, and emit its event."""
+        """Log that a process has started, and emit a `ProcessStarted` event."""
         action.process_details = {"name": label, "cmd": list(words), **details}
         shown = f": {shlex.join(words)}" if details else ""  # a node's are its package's business
         self._say("INFO", label, f"process started{shown}")
@@ -289,13 +289,13 @@ class Launch(Node):
         self._say("WARNING", "launch", text)
 
     def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
-        """Call `then` later, in the present scope, with True if a service exists, else False.
+        """Call a function when a service exists, or when no node of this launch can offer it.
 
         Args:
             service: Name of the service.
-            node_name: Full name of the node that serves it. While this launch runs a program with
-                that name, the call waits for the service.
-            then: Function to call.
+            node_name: Full name of the node that offers the service. The call waits for the
+                service only while this launch runs a program of that name.
+            then: Function called with whether the service exists, in the present scope.
         """
 
         def is_settled() -> bool:
@@ -345,7 +345,13 @@ class Launch(Node):
         self._start_task(work(), self._watches)
 
     def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
-        """Execute actions of `action` after `period` seconds, in the present scope."""
+        """Execute the actions of a timer after `period` seconds, in the present scope.
+
+        Args:
+            action: The timer action, which is complete after its actions.
+            period: Delay in seconds.
+            actions: Actions to execute.
+        """
         kept = self.context.kept()
 
         async def wait() -> None:
@@ -398,11 +404,11 @@ class Launch(Node):
     def start_process(
         self, action: Any, name: str, command: SystemCommand, respawn: float | None
     ) -> None:
-        """Start a system command; on simulated time, the command takes no time.
+        """Start a system command; on simulated time, it takes no time unless `contained`.
 
         Args:
             action: Action that starts the command, for events.
-            name: Name of the command in log lines, before the number.
+            name: Name of the command in log lines, to which a number is added.
             command: Command to start.
             respawn: Seconds until a restart; see `start_node`.
         """
@@ -584,7 +590,7 @@ class Launch(Node):
         return f"{name}-{self._count}"
 
     def label_of(self, record: LogRecord) -> str:
-        """Return the label, for log lines, of the program that a log record comes from."""
+        """Return the label (name in log lines) of the program that wrote a log record."""
         if record.program:
             return record.program
         for node in self.world.nodes:

@@ -32,8 +32,8 @@ class RunningProcessEvent(Event):
         action: Action that started the process.
         process_name: Name of the process in log lines.
         cmd: Command line; empty for a program that runs inside tftool.
-        cwd: Working directory; None for that of the launch.
-        env: Environment variables; None for those of the launch.
+        cwd: Working directory; None for the working directory of the launch.
+        env: Environment variables; None for the environment of the launch.
         pid: Process id; 0 for a program without a process of its own.
     """
 
@@ -94,7 +94,7 @@ class ProcessIO(RunningProcessEvent):
 
 
 class ShutdownProcess(Event):
-    """Event that requests some processes to end."""
+    """Event that requests the end of the processes that its matcher selects."""
 
     name = "launch.events.process.ShutdownProcess"
 
@@ -103,7 +103,7 @@ class ShutdownProcess(Event):
 
 
 class SignalProcess(ShutdownProcess):
-    """Event that requests a signal for some processes.
+    """Event that requests to send a signal to the processes that its matcher selects.
 
     Attributes:
         signal: The signal.
@@ -123,7 +123,7 @@ class SignalProcess(ShutdownProcess):
 
 
 def matches_action(target_action: Any) -> Callable[[Any], bool]:
-    """Return a function that is true for one action only."""
+    """Return a function that returns whether its argument is `target_action`."""
     return lambda action: action is target_action
 
 
@@ -143,7 +143,7 @@ def _entities(given: Any, event: Event, context: Any) -> Any:
 
 
 def _listed(given: Any) -> list[Any]:
-    """Return the actions given to an event handler; [] if a function will return them."""
+    """Return the actions of an event handler as a list; [] for a function that returns actions."""
     if given is None or callable(given):
         return []
     return list(given) if isinstance(given, Iterable) else [given]
@@ -153,7 +153,7 @@ class EventHandler:
     """Handler that executes actions when a matching event occurs.
 
     Attributes:
-        entities: Actions to execute, as far as known before the event.
+        entities: Actions to execute; empty if a function returns them at the event.
     """
 
     def __init__(
@@ -173,7 +173,7 @@ class EventHandler:
         return self._matcher(event)
 
     def handle(self, event: Event, context: Any) -> Any:
-        """Return the actions for an event; a handler with `handle_once` is removed."""
+        """Return the actions for an event; first remove the handler if `handle_once` is set."""
         context.extend_locals({"event": event})
         if self.handle_once:
             context.unregister_event_handler(self)
@@ -189,12 +189,12 @@ def _targets(action: Any, target: Any) -> bool:
 
 
 class TargetHandler(EventHandler):
-    """Base of handlers that react to one class of events, about one action or all.
+    """Base of handlers for one class of events, about one action or about every action.
 
     Attributes:
         event: Class of the events.
-        target: Action that the event must be about, a function that accepts an action, or None
-            for every action.
+        target: Action that the event must be about, or a function that returns whether it
+            accepts an action; None for every action.
     """
 
     event: type[Any]
@@ -260,7 +260,7 @@ class OnProcessIO(TargetHandler):
 
 
 class OnExecutionComplete(TargetHandler):
-    """Handler of an action's completion: its process has ended and is not started again."""
+    """Handler of an action's completion; for a process, its end without a further restart."""
 
     event = ExecutionComplete
 

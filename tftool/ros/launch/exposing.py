@@ -19,7 +19,7 @@ ACTIONS: dict[str, ParseMethod] = {}
 
 
 class Entity:
-    """Element of a launch file, as users' own parse functions see it.
+    """Element of a launch file, with the methods that users' own parse functions call.
 
     Attributes:
         type_name: Tag of the element.
@@ -44,7 +44,9 @@ class Entity:
         optional: bool = False,
         can_be_str: bool = True,
     ) -> Any:
-        """Return an attribute's value; with `List[Entity]`, the child elements of that name.
+        """Return an attribute's value; None if an optional attribute is missing.
+
+        With the data type `List[Entity]`, return the child elements whose tag is `name`.
 
         Raises:
             AttributeError: If the attribute is missing.
@@ -98,7 +100,10 @@ def parse_substitution(value: Any) -> list[Any]:
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """Parse a text into substitutions if it contains `$(`; of a list, parse each text."""
+    """Parse a text that contains `$(` into a list of substitutions; return other values as given.
+
+    The texts in a list are parsed one by one.
+    """
     if isinstance(value, list):
         return [parse_if_substitutions(one) for one in value]
     return parse_substitution(value) if isinstance(value, str) and "$(" in value else value

@@ -110,7 +110,7 @@ def _condition(element: Element) -> Any:
 
 
 def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
-    """Return the action that a user's own parse function makes of an element."""
+    """Return the action that a user's own parse function creates from an element."""
     try:
         kind, settings = read(exposing.Entity(element), Parser())
         return kind(**settings)
@@ -132,7 +132,10 @@ YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
 
 
 def _flag(element: Element, name: str, default: str) -> bool:
-    """Return an attribute's truth value, needed at once: a substitution is not allowed."""
+    """Return an attribute as True or False; raise InputError for any other text.
+
+    A substitution, `$(…)`, is not allowed: its value is not known before the launch runs.
+    """
     text = str(element.get(name, default))
     if (word := text.strip().lower()) in YAML_FLAGS:
         return YAML_FLAGS[word]
@@ -144,7 +147,10 @@ def _flag(element: Element, name: str, default: str) -> bool:
 
 
 def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
-    """Parse the child elements with some tags, and raise an error for unread parts of them."""
+    """Parse the child elements whose tag is in `tags`; return the results of `read`.
+
+    Raise InputError for an attribute or child element that `read` has not read.
+    """
     found = []
     for child in element.inside(*tags):
         found.append(read(child))
@@ -167,7 +173,7 @@ def _arg(element: Element) -> Any:
 
 
 def _startable(element: Element) -> dict[str, Any]:
-    """Return the arguments that elements of nodes and of commands have in common."""
+    """Return the arguments for `Startable` from an element of a node or a command."""
     for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout"):
         element.get(name)
     on_exit = element.get("on_exit")
@@ -375,7 +381,7 @@ _READERS: dict[str, Callable[[Element], Any]] = {
 
 
 def _plain(kind: Any, element: Element) -> Any:
-    """Return an action whose arguments are the attributes of the element."""
+    """Create an action of the class `kind`, with the element's attributes as its arguments."""
     given: dict[str, Any] = {}
     for one in inspect.signature(kind).parameters.values():
         if one.kind is not one.VAR_KEYWORD and one.name != "condition":

@@ -129,7 +129,7 @@ def change_state(node: str, transition: int) -> ExecuteProcess:
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
-    """Return a function that is true for the action of the node with a name."""
+    """Return a function that returns whether an action starts the node `node_name`."""
     full = make_namespace_absolute(node_name)
     return lambda action: getattr(action, "node_name", None) == full
 
@@ -153,7 +153,7 @@ class LifecycleTransition(Action):
             raise ValueError("a LifecycleTransition needs names of nodes, and transitions")
 
     def execute(self, context: LaunchContext) -> Any:
-        """Request each node's first transition, and a further one when the previous one is done."""
+        """Return actions that run the transitions of each node, each after the one before it."""
         numbers = [int(perform(context, one)) for one in self.transition_ids]
         for label in self.transition_labels:
             text = perform(context, label)
@@ -180,7 +180,7 @@ _REACHED = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive"}
 
 
 class _After(EventHandler):
-    """Handler of the event that a node has finished a certain transition."""
+    """Handler that executes actions once, when a node has reached a transition's goal state."""
 
     def __init__(self, node: str, transition: int, entities: Any) -> None:
         def matches(event: Event) -> bool:

@@ -58,7 +58,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """Folder of log files: the one that was set, else ROS 2's."""
+        """Folder of log files: the folder that was set, else ROS 2's default folder."""
         return self._log_dir or os.path.normpath(get_logging_directory())
 
     @log_dir.setter
@@ -77,11 +77,11 @@ class LaunchConfig:
         self._factory = factory or FileHandler
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Set the format of lines on the screen, by a name that launch knows or with braces."""
+        """Set the format of lines on the screen: a name such as "default", or "{levelname} …"."""
         self._screen.setFormatter(_formatter(screen_format, screen_style))
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Set the format of lines in log files, by a name that launch knows or with braces."""
+        """Set the format of lines in log files: a name such as "default", or "{levelname} …"."""
         if log_format == "default":
             # Alone on the screen it is plain.
             _formatter(log_format, log_style)
@@ -99,7 +99,7 @@ class LaunchConfig:
         return os.path.join(self.log_dir, file_name)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> Handler:
-        """Return the log handler that writes to a file, creating it at the first call."""
+        """Return the log handler that writes to a file; create the handler at the first call."""
         if file_name not in self._files:
             Path(self.log_dir).mkdir(parents=True, exist_ok=True)
             made = self._factory(self.get_log_file_path(file_name), encoding="utf-8")
@@ -109,7 +109,7 @@ class LaunchConfig:
 
 
 def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
-    """Set a format from an environment variable, or to launch's default."""
+    """Call `set_format` with an environment variable's value, or with "default" if it is unset."""
     given = os.environ.get(name) or "default"
     try:
         set_format(given)

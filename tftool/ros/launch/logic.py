@@ -11,10 +11,10 @@ _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 def _holds(context: LaunchContext, value: Any) -> bool:
-    """Return whether a text means true.
+    """Return True for the text "true" or "1", and False for "false" or "0".
 
     Raises:
-        SubstitutionFailure: If the text means neither true nor false.
+        SubstitutionFailure: If the text is another one.
     """
     try:
         return is_true(perform(context, value))
@@ -23,7 +23,10 @@ def _holds(context: LaunchContext, value: Any) -> bool:
 
 
 class EqualsSubstitution(Substitution):
-    """Substitution for whether two texts are equal; numbers and truth values compare by value."""
+    """Substitution with the text 'true' if two texts are equal, else 'false'.
+
+    Numbers are compared by value; 'true' equals '1', and 'false' equals '0'.
+    """
 
     def __init__(self, left: Any, right: Any) -> None:
         self.left, self.right = left, right
@@ -41,7 +44,7 @@ class EqualsSubstitution(Substitution):
 
 
 class NotEqualsSubstitution(EqualsSubstitution):
-    """Substitution for whether two texts differ."""
+    """Substitution with the text 'true' if two texts differ, else 'false'."""
 
     def perform(self, context: LaunchContext) -> str:
         """Return 'true' if the two texts differ, else 'false'."""
@@ -57,18 +60,18 @@ class _Several(Substitution):
         self.args = args
 
     def perform(self, context: LaunchContext) -> str:
-        """Return 'true' or 'false'; as in ROS 2, all values are evaluated."""
+        """Combine the truth values to 'true' or 'false'; as in ROS 2, all values are evaluated."""
         return str(self.judge([_holds(context, value) for value in self.args])).lower()
 
 
 class AnySubstitution(_Several):
-    """Substitution for whether at least one of several texts means true."""
+    """Substitution with the text 'true' if at least one of several texts is true."""
 
     judge = any
 
 
 class AllSubstitution(_Several):
-    """Substitution for whether all of several texts mean true."""
+    """Substitution with the text 'true' if all of several texts are true."""
 
     judge = all
 
@@ -80,33 +83,33 @@ class _Both(_Several):
 
 
 class AndSubstitution(_Both):
-    """Substitution for whether both of two texts mean true."""
+    """Substitution with the text 'true' if both of two texts are true."""
 
     judge = all
 
 
 class OrSubstitution(_Both):
-    """Substitution for whether at least one of two texts means true."""
+    """Substitution with the text 'true' if at least one of two texts is true."""
 
     judge = any
 
 
 class NotSubstitution(Substitution):
-    """Substitution for whether a text means false."""
+    """Substitution with the text 'true' if another text is false."""
 
     def __init__(self, value: Any) -> None:
         self.value = value
 
     def perform(self, context: LaunchContext) -> str:
-        """Return 'true' if the text means false, else 'false'."""
+        """Return 'true' if the given text is false, else 'false'."""
         return str(not _holds(context, self.value)).lower()
 
 
 class IfElseSubstitution(Substitution):
-    """Substitution for one of two texts, chosen by a condition."""
+    """Substitution with one of two texts, which a condition selects."""
 
     def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        """Create the choice between two texts; one of the two may be missing.
+        """Store the condition and the two texts; an empty text may be omitted.
 
         Raises:
             RuntimeError: If both texts are missing.
@@ -116,7 +119,7 @@ class IfElseSubstitution(Substitution):
         self.condition, self.if_value, self.else_value = condition, if_value, else_value
 
     def perform(self, context: LaunchContext) -> str:
-        """Evaluate the condition; return the text for true or the text for false."""
+        """Return `if_value` if the condition is true, else `else_value`."""
         word = perform(context, self.condition).strip().lower()
         chosen = _holds(
             context, {"on": "true", "yes": "true", "off": "false", "no": "false"}.get(word, word)

@@ -26,10 +26,10 @@ class Node(Startable):
     """Action that starts a node: a program of a package, or a file.
 
     Attributes:
-        node_name: Full name of the node, known when the launch runs.
-        expanded_node_namespace: Namespace when the launch runs; "" if none was given.
-        expanded_remapping_rules: Remappings of the node and its scope, once it is started; None
-            before.
+        node_name: Full name of the node; valid once the node is started.
+        expanded_node_namespace: Namespace of the node, once it is started; "" if none was given.
+        expanded_remapping_rules: Remappings of the node and its scope; None until the node is
+            started.
     """
 
     UNSPECIFIED_NODE_NAME: Final = "<node_name_unspecified>"
@@ -73,12 +73,12 @@ class Node(Startable):
 
     @property
     def node_package(self) -> Any:
-        """Package of the node, as given."""
+        """Package of the node, as passed to `__init__`."""
         return self.package
 
     @property
     def node_executable(self) -> Any:
-        """Executable of the node, as given."""
+        """Executable of the node, as passed to `__init__`."""
         return self.executable
 
     def is_node_name_fully_specified(self) -> bool:
@@ -143,7 +143,9 @@ class Node(Startable):
 
 
 def python_file(executable: str) -> str:
-    """Return the Python file of a node without a package, searched as a shell does.
+    """Return the path of a Python program for a node without a package.
+
+    The name is searched on the PATH, as a shell does.
 
     Raises:
         UsageError: If there is no such file, or it is not a Python program.
@@ -162,7 +164,7 @@ def python_file(executable: str) -> str:
 
 
 def _listed(given: Any) -> list[Any]:
-    """Return words as a list; a single text is split as a shell does."""
+    """Return arguments as a list; split a single text into words as a shell does."""
     if given is None:
         return []
     if isinstance(given, str):

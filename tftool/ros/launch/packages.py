@@ -33,7 +33,7 @@ def get_package_share_path(package_name: str, print_warning: bool = True) -> Pat
 
 
 def get_package_prefix(package_name: str) -> str:
-    """Return a package's install prefix; nothing is installed, so it is the share directory."""
+    """Return a package's share directory in place of its prefix, as nothing is installed."""
     return get_package_share_directory(package_name)
 
 
@@ -43,7 +43,7 @@ def get_packages_with_prefixes() -> dict[str, str]:
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """Return the resources of a type with their prefixes; only type "packages" has any."""
+    """Return the prefix of each resource, by name; empty for any type except "packages"."""
     return get_packages_with_prefixes() if resource_type == "packages" else {}
 
 

@@ -18,7 +18,7 @@ _SINGLE = (str, int, float, bool)
 
 
 class BadParameterError(UsageError, TypeError):
-    """Error for a value, found during the launch, that no parameter can have."""
+    """Error for a value, computed during the launch, that no parameter can have."""
 
 
 class ParameterValue:
@@ -108,7 +108,10 @@ class ParameterFile:
         return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the file's path; with `allow_substs`, that of a copy with `$(…)` replaced.
+        """Return the file's path.
+
+        With `allow_substs`, write a copy of the file in which every `$(…)` is replaced, and return
+        the path of the copy.
 
         Raises:
             InputError: If a `$(…)` is not known.
@@ -131,7 +134,7 @@ class ParameterFile:
 
 
 def normalize_parameters(parameters: Any) -> list[Any]:
-    """Check a node's parameters, and convert each mapping to one with dotted names.
+    """Check a node's parameters; flatten each nested mapping to a mapping with dotted names.
 
     Raises:
         TypeError: If the argument is not a list, or an item is not a mapping or a file.
@@ -150,7 +153,9 @@ def normalize_parameters(parameters: Any) -> list[Any]:
 
 
 def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], Any]:
-    """Flatten nested mappings of parameters: from the parts of a dotted name to its value.
+    """Flatten nested mappings of parameters to one mapping.
+
+    A key of the result is a dotted name as a tuple of substitutions.
 
     Raises:
         TypeError: If a name is not a string, or a value is of a type that parameters cannot have.
@@ -236,7 +241,10 @@ def _evaluated(context: LaunchContext, value: Any) -> Any:
 
 
 def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, str, Any]]:
-    """Return (node, name, value) of all parameters in normalised mappings and files."""
+    """Return (node, name, value) of all parameters in normalised mappings and files.
+
+    The node is "" for parameters that apply to any node.
+    """
     found: list[tuple[str, str, Any]] = []
     for one in given:
         if isinstance(one, ParameterFile):
@@ -253,7 +261,15 @@ def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, st
 
 
 def _typed(text: str, kind: Any) -> Any:
-    """Parse a text as a value of a type; None allows every type of a parameter."""
+    """Parse a text as a parameter's value.
+
+    Args:
+        text: The text.
+        kind: Type that the value must have; None for every type that a parameter can have.
+
+    Raises:
+        ValueError: If the text is not such a value.
+    """
     if kind is str:
         return text
     value = names.strict_yaml_value(text)

@@ -28,7 +28,7 @@ def parsed(text: Any, where: str) -> list[Any]:
 
 
 class _Quoted(list[Any]):
-    """Parts of a word that is in quotes."""
+    """Substitutions of one argument that was in quotes."""
 
 
 _ESCAPED = tuple("$()'\"\\")
@@ -68,7 +68,19 @@ def _parse(text: str, start: int, where: str, *, closing: bool) -> tuple[list[An
 
 
 def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
-    """Parse one `$(name argument argument)` from after its opening bracket; return its end too."""
+    """Parse one `$(name argument argument)` in a text.
+
+    Args:
+        text: The whole text.
+        start: Index of the character after "$(".
+        where: "file:line" for error texts.
+
+    Returns:
+        The substitution, and the index of the character after the closing bracket.
+
+    Raises:
+        InputError: If the brackets are not closed, or the name or its arguments are wrong.
+    """
     words: list[list[Any]] = []
     at = start
     while at < len(text) and text[at] != ")":
@@ -104,14 +116,17 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
 
 
 def _made(kind: Any, *words: list[Any]) -> Any:
-    """Create a substitution of a class, with the words as its arguments in order."""
+    """Create a substitution of the class `kind`, with the words as its arguments in order."""
     pairs = zip(inspect.signature(kind).parameters.values(), words, strict=False)
     named = {one.name: word for one, word in pairs if one.kind is one.KEYWORD_ONLY}
     return kind(*words[: len(words) - len(named)], **named)
 
 
 def _expression(*words: list[Any]) -> PythonExpression:
-    """Return the substitution for `$(eval …)`; a second quoted text lists modules to import."""
+    """Return the substitution for `$(eval …)`.
+
+    If it has exactly two quoted texts, the second text lists modules to import.
+    """
     if len(words) == 2 and all(isinstance(word, _Quoted) for word in words):
         plain = "".join(part.text for part in words[1] if isinstance(part, TextSubstitution))
         modules = [name.strip() for name in plain.split(",") if name.strip()]

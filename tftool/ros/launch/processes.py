@@ -39,8 +39,8 @@ class Executable:
         name: Name of the program in the package, or path of the file.
         arguments: The program's arguments, without those of ROS.
         options: Options after `--ros-args`.
-        label: Name of the program in log lines, before its number.
-        argv: Command line; None for the one that launch_ros gives a node.
+        label: Name of the program in log lines, to which a number is added.
+        argv: Command line; None for the command line that launch_ros would use for a node.
     """
 
     package: str | None
@@ -51,7 +51,7 @@ class Executable:
     argv: Sequence[str] | None = None
 
     def launched_argv(self) -> list[str]:
-        """Return the command line that launch_ros gives a node."""
+        """Return the command line that launch_ros would use for this node."""
         options = self.options
         argv = [self.name, *self.arguments, "--ros-args"]
         if options.name:
@@ -67,10 +67,11 @@ class Startable(Action):
     """Base of actions that start a process, which may be started again after its end.
 
     Attributes:
-        process_details: Name in log lines, and command line; None before the process is started.
+        process_details: Keyword arguments for events about the process, such as its name and
+            command line; None before the process is started.
         return_code: Exit status; None before the process has ended.
-        output_lines: With `cached_output`, the lines that the process has written, each with
-            whether it came from the standard output.
+        output_lines: (whether from standard output, line) for each line of the process's output;
+            empty unless `cached_output` is set.
     """
 
     takes_time: ClassVar[bool] = True
@@ -110,7 +111,7 @@ class Startable(Action):
         return "".join(line for _, line in self.output_lines)
 
     def handle_exit(self, context: LaunchContext) -> None:
-        """Register the actions given as `on_exit` for the end of the process."""
+        """Register a handler that executes the actions of `on_exit` when the process has ended."""
         if self.on_exit is not None:
             context.launch.handlers.append(
                 OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
@@ -127,7 +128,12 @@ class Startable(Action):
         return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
 
     def say_unused(self, context: LaunchContext, *names: str) -> None:
-        """Log a warning for given arguments of the action that have no effect here."""
+        """Log a warning for arguments that the user has set but tftool ignores.
+
+        Args:
+            context: State of the launch.
+            names: Names of the ignored arguments, besides `prefix`.
+        """
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
             verb = "has" if len(given) == 1 else "have"
@@ -138,8 +144,13 @@ class Startable(Action):
 def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
     """Evaluate a duration in seconds.
 
+    Args:
+        context: State of the launch.
+        value: Number, text or substitutions.
+        what: Name of the value, for the error text.
+
     Raises:
-        UsageError: If the value is not a number of seconds; the text names it by `what`.
+        UsageError: If the value is not a number of seconds.
     """
     text = perform(context, value)
     try:
@@ -278,7 +289,7 @@ def _rclpy_program(
 
 
 def _module_files(module: str, roots: Iterable[Path]) -> Iterator[Path]:
-    """Yield the existing files that a module's name can mean below some folders."""
+    """Yield the existing source files of a module, searched in the folders `roots`."""
     for root in roots:
         place = root.joinpath(*module.split("."))
         for file in (place.with_name(f"{place.name}.py"), place / "__init__.py"):

@@ -33,7 +33,10 @@ def make_namespace_absolute(ns: str | None) -> str | None:
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """Join two namespaces, unless the second is absolute; None means not given."""
+    """Join two namespaces; return the second namespace alone if it is absolute.
+
+    If one namespace is None, return the other namespace.
+    """
     if base_ns is None or ns is None:
         joined = base_ns if ns is None else ns
     elif is_namespace_absolute(ns) or not base_ns:
@@ -135,7 +138,7 @@ class PushRosNamespace(Action):
         self.namespace = namespace
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the scope's namespace, inside the present one."""
+        """Set the scope's namespace; a relative one is below the scope's present namespace."""
         namespace = namespace_in(context, self.namespace)
         if namespace is not None:
             context.launch_configurations[_NAMESPACE] = namespace
@@ -185,14 +188,14 @@ class SetUseSimTime(SetParameter):
 
 
 class SetParametersFromFile(Action):
-    """Action that sets the parameters of a file, for one node or all in the scope."""
+    """Action that sets the parameters in a file for the nodes started later in the scope."""
 
     def __init__(self, filename: Any, node_name: Any = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.filename, self.node_name = filename, node_name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the file's parameters in the scope, for one node or those that the file names."""
+        """Set the file's parameters: for the node `node_name`, or for the nodes in the file."""
         path = perform(context, self.filename)
         if self.node_name is None:
             _keep(context, _PARAMETERS, path)

@@ -16,7 +16,7 @@ from tftool.ros.launch.events import Event
 
 
 class LaunchService:
-    """Service that runs launch descriptions inside the program that created it.
+    """Service that runs launch descriptions inside the program that created the service.
 
     Attributes:
         errors: Sentences about errors of the launch itself and of its processes.
@@ -33,7 +33,7 @@ class LaunchService:
         self.errors: list[str] = []
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Add a launch description; it is executed with the others, or at once during a run."""
+        """Add a launch description for the next `run`; if a launch runs, execute it at once."""
         launch = self._launch
         if launch is None or self._owner is None:
             self._entities.append(launch_description)
@@ -58,7 +58,7 @@ class LaunchService:
         return int(bool(launch.failed))
 
     def begin(self, *, keep_alive: bool = False) -> Launch:
-        """Start the launch and return it; it goes on while the caller does other work.
+        """Start the launch without waiting for its end, and return it.
 
         Args:
             keep_alive: Whether the launch goes on after its last process has ended.
@@ -103,7 +103,7 @@ class LaunchService:
 
     @property
     def failed_itself(self) -> bool:
-        """Whether the launch itself has failed, and not only a process of it."""
+        """Whether the launch itself has failed, for example by an error in a description."""
         return self._launch is not None and "launch" in self._launch.failed
 
     def emit_event(self, event: Event) -> None:
@@ -116,10 +116,11 @@ class LaunchService:
         """End the launch, if it is running.
 
         Args:
-            force_sync: Whether to return None in every thread.
+            force_sync: Whether to return None in any case.
 
         Returns:
-            A coroutine to await, as in ROS 2, in the thread of the launch's event loop; else None.
+            As in ROS 2, a coroutine to await if called in the thread of the launch's event loop;
+            None in other threads, and if no launch is running.
         """
         launch = self._launch
         if launch is None or launch.ended.is_set():

@@ -70,10 +70,10 @@ def describe(value: Any) -> str:
 
 
 def is_true(text: str) -> bool:
-    """Return whether a text means true, by the rules of ROS's launch.
+    """Return True for the text "true" or "1", and False for "false" or "0".
 
     Raises:
-        UsageError: If the text means neither true nor false.
+        UsageError: If the text is another one.
     """
     word = text.strip().lower()
     if word in ("true", "1"):
@@ -202,7 +202,7 @@ class PathJoinSubstitution(Substitution):
 
 
 class PathSubstitution(PathJoinSubstitution):
-    """First part of a path; `/` adds others."""
+    """Substitution for a path, to which the operator `/` adds further parts."""
 
     def __init__(self, path: Any) -> None:
         super().__init__([path])
@@ -276,13 +276,13 @@ class ThisLaunchFileDir(Substitution):
 
 
 class AnonName(Substitution):
-    """Substitution for a name made unique by a number."""
+    """Substitution for a name with a number, so that it differs from other names."""
 
     def __init__(self, name: Any) -> None:
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the name with its number, the same throughout one launch."""
+        """Return "name_number"; within one launch, a name always gets the same number."""
         name = perform(context, self.name)
         return f"{name}_{context.number_of(name)}"
 
@@ -299,7 +299,7 @@ class FindPackageShare(Substitution):
 
     @staticmethod
     def find(package_name: str) -> str:
-        """Return a package's share directory at once, not only while the launch runs."""
+        """Return a package's share directory without a launch context."""
         return packages.get_package_share_directory(package_name)
 
     def describe(self) -> str:
@@ -317,7 +317,11 @@ class FindExecutable(Substitution):
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the command's path; `ros2` and `xacro`, which tftool runs itself, stay words."""
+        """Return the command's path; return "ros2" and "xacro" unchanged, as tftool runs them.
+
+        Raises:
+            SubstitutionFailure: If there is no such command.
+        """
         name = perform(context, self.name)
         if name in (ROS2, XACRO):
             # ExecuteProcess carries out the one itself, and Command the other.
@@ -351,7 +355,7 @@ class ExecutableInPackage(Substitution):
         self.executable, self.package = executable, package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the executable's path: its source file, or the path of a console script."""
+        """Return the path of the executable's source file, or of a console script if installed."""
         name = perform(context, self.executable)
         package = context.workspace.package(perform(context, self.package))
         if name in package.scripts:

@@ -52,7 +52,7 @@ def ready_actions(entities: Iterable[Any]) -> Iterator[ReadyToTest]:
 
 
 class Test(ExecuteProcess):
-    """Action that runs a test as a process, which is ended after `timeout` seconds."""
+    """Action that runs a test as a process, and ends the process after `timeout` seconds."""
 
     __test__ = False  # for pytest, which collects classes of that name
 
@@ -118,7 +118,7 @@ def _wait_for_end() -> None:
 
 
 class StdoutReadyListener(OnProcessIO):
-    """Event handler that executes actions when a process has written a text."""
+    """Event handler that executes actions when a line of a process contains `ready_txt`."""
 
     def __init__(self, *, target_action: Any = None, ready_txt: str, actions: Any) -> None:
         def check(event: Event) -> Any:
@@ -130,7 +130,7 @@ class StdoutReadyListener(OnProcessIO):
 
 
 class ReadyAggregator:
-    """Counter that calls a function at its n-th call."""
+    """Counter whose method `ready_fn` calls a function when called for the n-th time."""
 
     def __init__(self, ready_fn: Callable[[], object], num_to_aggregate: int) -> None:
         self._ready, self._left = ready_fn, num_to_aggregate
@@ -196,11 +196,11 @@ def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]
 
 
 def retry_on_failure(*, times: int, delay: float | None = None) -> Callable[[Any], Any]:
-    """Return a decorator that repeats a test until its assertions hold.
+    """Return a decorator that repeats a test while an assertion of the test fails.
 
     Args:
         times: Largest number of runs of the test.
-        delay: Seconds between two runs; None for none.
+        delay: Seconds between two runs; None for no pause.
     """
 
     def decorate(test: Any) -> Any:

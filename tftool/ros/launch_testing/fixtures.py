@@ -23,7 +23,7 @@ class LaunchedService(LaunchService):
     Attributes:
         event_loop: Event loop for tests that are coroutines; None once the launch has ended.
         auto_shutdown: Whether to shut the launch down after its tests.
-        waiting: Generator tests that continue after the launch's end, by their function.
+        waiting: Generators of tests that continue after the launch's end, by test function.
     """
 
     def __init__(self) -> None:
@@ -118,7 +118,9 @@ def fixture(
     auto_shutdown: bool = True,
     **kwargs: Any,
 ) -> Any:
-    """Declare a fixture that returns a launch description, alone or first in a sequence.
+    """Declare a fixture for a launch: a function that returns the launch description.
+
+    The function may also return a sequence whose first item is the description.
 
     Args:
         decorated: Function that returns the description.
@@ -227,7 +229,7 @@ def is_generator(test: Any) -> bool:
 
 
 def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
-    """Yield once for each `yield` of a synchronous or asynchronous generator."""
+    """Run a synchronous or asynchronous generator; yield at each of its `yield` statements."""
     if inspect.isgenerator(generator):
         yield from generator
         return

@@ -52,7 +52,10 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
 
 
 def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
-    """Return the coroutine function and the synchronous one that wait without a user's check."""
+    """Return a coroutine function that waits for a condition, and its synchronous version.
+
+    Unlike the functions of `_waits`, these take no check of the user as an argument.
+    """
     wait_checked, wait_checked_sync = _waits(lambda action, _: condition(action), lambda *_: None)
 
     async def wait(context: Any, action: Any, timeout: float | None = None) -> Any:

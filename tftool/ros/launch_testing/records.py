@@ -50,7 +50,7 @@ class _Record:
         return list(dict.fromkeys(event.process_name for event in self))
 
     def holds_within(self, check: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait until a check is true, at most for `timeout` seconds; return its result."""
+        """Wait until `check` returns True; return False after `timeout` seconds."""
 
         def holds() -> bool:
             try:
@@ -62,7 +62,7 @@ class _Record:
 
 
 class ProcInfoHandler(_Record):
-    """Record with the newest event, start or end, of each process."""
+    """Record with the newest event of each process: its start or its end."""
 
     def __iter__(self) -> Iterator[Any]:
         return iter({event.action: event for event in list(self._events)}.values())
@@ -182,7 +182,7 @@ def resolveProcesses(
     Raises:
         NoMatchingProcessException: If no process matches.
         ValueError: If a name matches several processes.
-        TypeError: If `process` is something else.
+        TypeError: If `process` has another type.
     """
     known = info_obj.processes()
     if process is None or isinstance(process, Startable):
@@ -306,10 +306,15 @@ def assertDefaultStream() -> str:
 
 
 class SequentialTextChecker:
-    """Search for texts in an output, where each must follow the text before it."""
+    """Search for several texts in an output, in which each text must follow the one before it."""
 
     def __init__(self, output: list[str]) -> None:
-        """Start at the beginning of an output in pieces; a text must be within one piece."""
+        """Prepare a search from the beginning of an output.
+
+        Args:
+            output: The output in parts, as written by the process. A text is found only if it is
+                within one part.
+        """
         self._output = output
         self._piece = self._column = 0
 
@@ -423,7 +428,7 @@ def launch_process(
     proc_output: IoHandler,
     **options: Any,
 ) -> Iterator[ProcessProxy]:
-    """Run a process during this block and yield its `ProcessProxy`, made with `options`."""
+    """Run a process during this block; yield a `ProcessProxy` of it, created with `options`."""
     launch_service.include_launch_description(LaunchDescription([process_action]))
     try:
         yield ProcessProxy(process_action, proc_info, proc_output, **options)

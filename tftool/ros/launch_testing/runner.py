@@ -27,7 +27,7 @@ STOPPED = "Launch stopped before the active tests finished."
 
 
 class TestResult(unittest.TextTestResult):
-    """Result of a run, which also lists the test cases."""
+    """Result of unittest that also lists the test cases that were run."""
 
     __test__ = False
 
@@ -49,7 +49,7 @@ class TestResult(unittest.TextTestResult):
 
 
 class _Loader(unittest.TestLoader):
-    """Loader of the test classes that run during the launch, or with `after_end` after its end."""
+    """Loader of the test classes that run beside a launch; with `after_end`, after its end."""
 
     def __init__(self, *, after_end: bool) -> None:
         super().__init__()
@@ -73,7 +73,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Bind the arguments of a function whose names are keys of `values`."""
+    """Return the function with those of its arguments bound whose names are keys of `values`."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 
@@ -128,7 +128,7 @@ class TestRun:
     def normalized_test_description(
         self, *, ready_fn: Callable[[], object]
     ) -> tuple[LaunchDescription, dict[str, Any]]:
-        """Return the launch description, and the values that the tests get.
+        """Return the launch description, and values by name for arguments of the tests.
 
         Args:
             ready_fn: Function to call when the tests may start.
@@ -229,7 +229,13 @@ def wait_for_first(
 def _run(
     tests: unittest.TestSuite, given: Mapping[str, Any], attributes: Mapping[str, Any]
 ) -> TestResult:
-    """Run tests that get values as arguments, and some values as attributes too."""
+    """Run tests and return their result.
+
+    Args:
+        tests: The tests.
+        given: Values for arguments of test methods, `setUp` and the like, by argument name.
+        attributes: Values that become attributes of the test classes.
+    """
     tests = copy.deepcopy(tests)
     classes = dict.fromkeys(type(case) for case in _cases(tests))
     for test_class in classes:

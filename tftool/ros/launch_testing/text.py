@@ -17,7 +17,13 @@ def without_escapes(text: str) -> str:
 
 
 def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..., Span]:
-    """Return a matcher for several items in order; with `strict`, without gaps between them."""
+    """Return a function that finds several items one after the other.
+
+    Args:
+        first: Function that finds the first item; see `build_text_match`.
+        others: Functions that find the other items.
+        strict: Whether each item must begin where the item before it ends.
+    """
 
     def match(actual: Any, start: int = 0) -> Span:
         found = first(actual, start)
@@ -35,7 +41,15 @@ def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..., Span]:
-    """Return a function that finds texts or patterns, one or a list, in a text from an index.
+    """Return a function that searches an output for a text, a pattern, or a list of both.
+
+    The function is called with the output and an index at which the search begins. It returns the
+    first and the last index of the match; None without a match.
+
+    Args:
+        expected_text: Text, pattern, or list of texts and patterns, which are found in order.
+        strict: Whether the match must begin at the index, without gaps between the items of a
+            list; a single text must match the whole rest of the output.
 
     Raises:
         ValueError: If `expected_text` is neither a text, nor a pattern, nor a list of both.
@@ -66,10 +80,15 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
 
 
 def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[..., Span]:
-    """Return a function that finds texts or patterns, one or a list, in lines from an index.
+    """Return a function that searches lines for a text, a pattern, or a list of both.
 
-    Each item of a list needs its own line; with `strict`, these lines follow one another. A single
-    item with `strict` must match every line.
+    The function is called with the lines and the index of the line at which the search begins. It
+    returns the first and the last index of the match; None without a match.
+
+    Args:
+        expected_lines: Text, pattern, or list of texts and patterns, each for a line of its own.
+        strict: Whether the lines of a list's items must follow one another, from the index on; a
+            single item must match every line.
 
     Raises:
         ValueError: If `expected_lines` is neither a text, nor a pattern, nor a list of both.
@@ -103,10 +122,18 @@ def expect_output(
     strip_ansi_escape_sequences: bool = True,
     strict: bool = False,
 ) -> bool:
-    """Return whether a text, or some lines, match what is expected.
+    """Return whether an output contains the expected texts or patterns.
+
+    Args:
+        text: The output as a text.
+        lines: The output as lines, in place of `text`.
+        expected_text: See `build_text_match`.
+        expected_lines: See `build_line_match`; in place of `expected_text`.
+        strip_ansi_escape_sequences: Whether to remove colours before the comparison.
+        strict: See `build_text_match` and `build_line_match`.
 
     Raises:
-        ValueError: Unless exactly one of `text` and `lines`, and one expectation, is given.
+        ValueError: If both or neither of two arguments are given that replace each other.
     """
     if (text is None) == (lines is None):
         raise ValueError("give either text or lines")

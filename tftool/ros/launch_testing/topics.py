@@ -42,7 +42,10 @@ class MessagePump:
 
 
 class WaitForTopics:
-    """Waiter for a message on each of some topics; its `with` block raises if one is missing."""
+    """Helper that waits for a message on each of several topics.
+
+    Used in a `with` statement, it waits on entry, and raises RuntimeError if a topic is silent.
+    """
 
     def __init__(
         self,
@@ -50,7 +53,7 @@ class WaitForTopics:
         timeout: float = 5.0,
         messages_received_buffer_length: int | None = 10,
     ) -> None:
-        """Create a node that only this helper uses.
+        """Create a node for this helper.
 
         Args:
             topic_tuples: Topics to wait for, each with its message type.
@@ -116,7 +119,7 @@ class WaitForTopics:
 
 
 class DataRepublisher:
-    """Helper of a node that publishes one topic's messages, changed by a function, on another."""
+    """Helper that receives a topic's messages, changes them and publishes them on another topic."""
 
     def __init__(
         self,
@@ -133,7 +136,7 @@ class DataRepublisher:
             listen_topic: Topic to receive from.
             publish_topic: Topic to publish on.
             msg_type: Message type of both topics.
-            transform_fn: Function that returns the changed message, or None to drop it.
+            transform_fn: Function that returns the changed message; None to publish nothing.
         """
         self._node, self._change = node, transform_fn
         self._received = 0

@@ -47,7 +47,7 @@ class _Feedback(NamedTuple):
 
 
 class ClientGoalHandle:
-    """Client's handle of one goal, with which it awaits the result or cancels the goal."""
+    """Client's handle of one goal, to await the goal's result or to cancel the goal."""
 
     def __init__(self, client: "ActionClient", goal_id: Any, goal: WorldGoal | None) -> None:
         self._client = client
@@ -138,14 +138,19 @@ class ActionClient(Requester):
         return self.promise(send)
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
-        """Send a goal; block until its result arrives, which is None if the goal is rejected."""
+        """Send a goal, block until its result arrives, and return it; None for a rejected goal."""
         future = self.send_goal_async(goal, **kwargs)
         wait_for(self.seat, future, None)
         handle = future.result()
         return None if handle is None or not handle.accepted else handle.get_result()
 
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
-        """Return a future of a goal's status and result; None if the goal is None."""
+        """Return a future of a goal's status and result.
+
+        Args:
+            handle: Handle whose status is set when the goal ends.
+            goal: The goal; None for a rejected goal, whose future never completes.
+        """
 
         async def wait() -> _Result | None:
             if goal is None:

@@ -94,7 +94,11 @@ class ServerGoalHandle:
         self._status = "canceled"
 
     def execute(self, execute_callback: Any = None) -> None:
-        """Start to execute the goal with `execute_callback`, else with the server's callback."""
+        """Start to execute the goal.
+
+        Args:
+            execute_callback: Function to call with this handle; None for the server's callback.
+        """
         self._executing = True
         self._server.execute(self, execute_callback)
 
@@ -223,7 +227,10 @@ class ActionServer(WorkQueue):
             goal.decide_cancel(False)
 
     def _decide(self, goal: WorldGoal, accepted: bool) -> bool:
-        """Send a goal's client the decision, unless it has one; return the decision that counts."""
+        """Decide on a goal, unless a decision was made before; return the first decision.
+
+        The client receives the decision. A rejected goal ends.
+        """
         decided = goal.decided
         assert decided is not None
         if not decided.done():
@@ -257,7 +264,15 @@ class ActionServer(WorkQueue):
             self.seat.program.ask(lambda: goal.decide_cancel(accepted))
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
-        """Execute a goal with `callback`, else the server's callback, on the node's executor."""
+        """Schedule the execution of a goal on the node's executor.
+
+        Args:
+            handle: Handle of the goal.
+            callback: Function to call with the handle; None for the server's callback.
+
+        Raises:
+            TftoolError: If the node has no executor.
+        """
         chosen = callback or self._execute
 
         async def work() -> None:

@@ -79,7 +79,7 @@ class Context:
         self._on_shutdown.append(callback)
 
     def on_change(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Register a function to call at shutdown; return a function that removes it again."""
+        """Register a function to call at shutdown; return a function that unregisters it."""
         self._listeners.append(callback)
         return lambda: self._listeners.remove(callback)
 
@@ -92,7 +92,7 @@ class Context:
         return self._domain or 0
 
     def destroy(self) -> None:
-        """Shut the context down, if it is not yet."""
+        """Shut the context down; do nothing if it is shut down already."""
         self.try_shutdown()
 
     def __enter__(self) -> "Context":

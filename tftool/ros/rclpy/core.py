@@ -60,7 +60,7 @@ def init(
     domain_id: int | None = None,
     signal_handler_options: Any = None,
 ) -> InitContextManager:
-    """Initialise rclpy in this program; return a context manager that shuts it down.
+    """Initialise rclpy in this program; return a context manager that shuts rclpy down.
 
     Raises:
         RuntimeError: If rclpy is initialised already.

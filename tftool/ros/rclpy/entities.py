@@ -27,13 +27,13 @@ MOST_WAITING: Final = 1000
 
 @contextmanager
 def required(require: Callable[[], object]) -> Iterator[None]:
-    """Call `require`, which raises if an entity is destroyed; then run the `with` block."""
+    """Call `require`, which raises an error for a destroyed entity, before the `with` block."""
     require()
     yield
 
 
 class NodeEntity:
-    """Base of a node's publishers, subscriptions, timers and servers, which executors wait for."""
+    """Base of the objects of a node that may have work for an executor, such as timers."""
 
     passes_busy_group = False
     is_a_callback = False
@@ -50,7 +50,7 @@ class NodeEntity:
         return False
 
     def take(self) -> Work:
-        """Remove the next piece of work and return it, for the executor to run."""
+        """Remove the next piece of work from this entity, and return it; the executor runs it."""
         raise NotImplementedError
 
     def withdraw(self) -> None:
@@ -127,9 +127,9 @@ class Requester(WorkQueue):
     def promise(self, request: Callable[[], Coroutine[Any, Any, Any]]) -> Future:
         """Start a request; return a future of its response.
 
-        If the request returns None, the future never completes. The request runs in the event loop
-        and is cancelled when this entity closes. The node's executor completes the future and runs
-        its callbacks.
+        The request runs in the event loop, and is cancelled when this entity closes. The node's
+        executor then completes the future and runs the future's callbacks. If the request returns
+        None, the future never completes.
         """
         future = Future(executor=self.seat.executor)
 
@@ -200,7 +200,7 @@ class CallbackGroup:
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Count a callback of this group as running; return False if it may not start now."""
+        """Count a callback of this group as running; return False if none may start now."""
         if not self.can_execute(entity):
             return False
         self.busy += 1
@@ -337,14 +337,14 @@ class Timer(NodeEntity):
 
 
 class RateTimer(Timer):
-    """Timer of a `Rate`: ends a `spin_once` at every period, as in ROS 2."""
+    """Timer of a `Rate`; as in ROS 2, each of its calls ends a `spin_once`."""
 
     only_ends_spin_once = True
     on_end: Callable[[], object] = staticmethod(lambda: None)
     """Function called when the timer is destroyed."""
 
     def withdraw(self) -> None:
-        """Close the timer and end its rate."""
+        """Close the timer, and call `on_end`."""
         super().withdraw()
         self.on_end()
 

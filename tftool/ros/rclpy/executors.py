@@ -47,7 +47,7 @@ class Executor:
     """Base of executors, which run the callbacks of the nodes added to them.
 
     Attributes:
-        spins_once: Whether the executor is inside `spin_once`, which any piece of work ends.
+        spins_once: Whether the executor is inside `spin_once`, which returns after any work.
     """
 
     def __init__(self, *, context: Context | None = None) -> None:
@@ -127,7 +127,10 @@ class Executor:
         return task
 
     def wake(self) -> None:
-        """Wake the threads that wait for work; called in the event loop's thread."""
+        """Wake the threads that wait for work of this executor.
+
+        Call this in the event loop's thread.
+        """
         for waker in self._wakers:
             if not waker.done():
                 waker.set_result(None)
@@ -185,7 +188,10 @@ class Executor:
         return deadline is not None and deadline + by <= self._program.clock.now()
 
     def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
-        """Execute one callback; return False if none was ready by the deadline or a wake-up."""
+        """Wait for one callback and execute it; return False if the wait ended without one.
+
+        The wait ends at the deadline, when the future is done, and at a shutdown.
+        """
         if self._tasks:
             self._advance(*self._tasks.popleft())
             return True
@@ -244,7 +250,16 @@ class Executor:
     async def _next(
         self, deadline: Stamp | None, future: Future | None, takes: bool = True
     ) -> tuple[NodeEntity, Work] | None:
-        """Wait for work; return the entity and its work, or None at the deadline or a wake-up."""
+        """Wait for work; return the entity that has it, and the work.
+
+        Args:
+            deadline: Time at which the wait ends; None for no limit.
+            future: Future whose completion ends the wait; None for no future.
+            takes: Whether to wait for work. If false, only other reasons end the wait.
+
+        Returns:
+            Entity and work; None if the wait ended without work.
+        """
         clock = self._program.clock
         if self._has_released:
             self._has_released = False
@@ -320,7 +335,7 @@ class Executor:
         return min(moments, default=None)
 
     async def _pause(self, waker: "asyncio.Future[None]", due: Stamp | None) -> None:
-        """Wait for the waker, or for this program's turn at the time `due`."""
+        """Wait until the future `waker` is done, or until the time `due`, if it is not None."""
         owner = self._program
         if due is None:
             await waker
@@ -424,7 +439,7 @@ def serving(executor: Any, node: Any) -> Iterator[None]:
 
 
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
-    """Block until a future is done; execute the node's callbacks here if it has no executor."""
+    """Block until a future of a node is done, and meanwhile execute the node's callbacks."""
     executor = seat.executor or executor_of(seat.program)
     if seat.executor is None and executor.context is not seat.context:
         with SingleThreadedExecutor(context=seat.context) as executor:

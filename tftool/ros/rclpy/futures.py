@@ -9,7 +9,11 @@ from typing import Any
 
 
 class _Stepping(threading.local):
-    """Per thread: the asyncio task in which an executor is running a step of a `Task`."""
+    """Thread-local state: the asyncio task in which an executor runs a part of a `Task`.
+
+    Attributes:
+        beneath: The asyncio task; None if no executor runs, or if it runs outside of asyncio.
+    """
 
     beneath: "asyncio.Task[Any] | None" = None
 
@@ -122,7 +126,10 @@ class Future:
         self._add(callback, self._callbacks, self._call)
 
     def watch(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback`, not as a task, in the thread that completes the future."""
+        """Call `callback` when the future is done, in the thread that completes the future.
+
+        Unlike `add_done_callback`, this calls it directly, not as a task of the executor.
+        """
         self._add(callback, self._watchers, lambda watcher: watcher(self))
 
     def _add(
@@ -187,7 +194,11 @@ class Task(Future):
             self._handler = lambda: function(*(args or ()), **(kwargs or {}))
 
     def __call__(self) -> Any:
-        """Run until the task waits or ends; return the object it waits for, if any."""
+        """Run the task until it waits or ends.
+
+        Returns:
+            The object for which the task waits; None if the task has ended.
+        """
         if self._done or self._cancelled:
             return None
         beneath, _STEPPING.beneath = _STEPPING.beneath, _asyncio_task()

@@ -132,7 +132,7 @@ class ManagedEntity:
     """Object that a lifecycle node notifies of every transition of the node."""
 
     def _succeed(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Return SUCCESS: the default callback of every transition."""
+        """Return SUCCESS; this is the default callback of every transition."""
         return SUCCESS
 
     on_configure = on_cleanup = on_shutdown = on_activate = on_deactivate = on_error = _succeed
@@ -162,7 +162,10 @@ class SimpleManagedEntity(ManagedEntity):
     def when_enabled(
         wrapped: F | None = None, *, when_not_enabled: Callable[[], object] | None = None
     ) -> Any:
-        """Decorate a method to run only while enabled; else `when_not_enabled` runs instead."""
+        """Decorate a method so that it runs only while the entity is enabled.
+
+    While the entity is not enabled, `when_not_enabled` is called instead, if it is given.
+    """
 
         def decorate(method: F) -> Any:
             @wraps(method)
@@ -196,7 +199,7 @@ def _telling(callback: str) -> Any:
         return SUCCESS
 
     tell.__name__ = callback
-    tell.__doc__ = "Tell its entities; the first that does not succeed is the answer."
+    tell.__doc__ = "Notify the managed entities; return the first result that is not SUCCESS."
     return tell
 
 
@@ -207,7 +210,7 @@ def _triggering(transition: str, change_of_state: str) -> Any:
         return change(self, transition)
 
     trigger.__name__ = f"trigger_{transition}"
-    trigger.__doc__ = f"Change from {change_of_state}; return its callback's result."
+    trigger.__doc__ = f"Change from {change_of_state}; return the result of the callback."
     return trigger
 
 

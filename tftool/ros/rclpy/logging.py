@@ -55,7 +55,7 @@ class RcutilsLogger:
         program.current().log_levels[self.name] = int(LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """Return the lowest severity that is logged, which a parent logger may set."""
+        """Return the lowest severity that is logged, set for this logger or a parent logger."""
         levels = program.current().log_levels
         name = self.name
         while name:
@@ -121,7 +121,11 @@ class RcutilsLogger:
     def _called(
         self, frame: FrameType | None, severity: int, name: str, settings: tuple[bool, bool, int]
     ) -> "_Call":
-        """Return the record of the user's line of code that logs, creating it at its first call."""
+        """Return the record of the user's line of code that logs; create it at its first call.
+
+        Raises:
+            ValueError: If severity, name or settings differ from those of the first call.
+        """
         # The last tells two calls on one line apart.
         place = (frame.f_code, frame.f_lasti) if frame is not None else None
         call = self._calls.get(place)
@@ -154,7 +158,7 @@ class RcutilsLogger:
 
 
 class _Call:
-    """Line of the user's code that logs: its severity, logger and filters, and their counts."""
+    """Record of one line of the user's code that logs: severity, logger, filters and counts."""
 
     def __init__(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
         self._severity = severity

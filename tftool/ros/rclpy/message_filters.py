@@ -112,7 +112,10 @@ class Cache(SimpleFilter):
         return [msg for stamp, msg in kept if fits(stamp)]
 
     def getLastestTime(self) -> Time | None:  # noqa: N802
-        """Return the time of the newest stored message. The method's spelling is ROS 2's."""
+        """Return the time of the newest stored message; None if there is none.
+
+        The method's misspelt name is ROS 2's.
+        """
         return self.cache_times[-1] if self.cache_times else None
 
     def getOldestTime(self) -> Time | None:  # noqa: N802

@@ -217,7 +217,10 @@ class Node(NodeGraph, NodeParameters):
     def __profile(
         self, kind: Any, full: str, given: QoSProfile | int, options: QoSOverridingOptions | None
     ) -> QoSProfile:
-        """Return an endpoint's QoS profile after declaring parameters that may change it."""
+        """Return the QoS profile for a new publisher or subscription.
+
+        With `options`, first declare parameters from which the user may change the profile.
+        """
         profile = profile_of(given)
         if options is not None:
             profile = copy.copy(profile)
@@ -239,7 +242,7 @@ class Node(NodeGraph, NodeParameters):
         clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
-        """Create a timer that calls `callback` every period; with None, it calls nothing."""
+        """Create a timer that calls `callback` every period; None for a timer without callback."""
         if callback is None:
             self._warn_of_missing_callback(user_line(sys._getframe(1)))
         else:
@@ -321,7 +324,7 @@ class Node(NodeGraph, NodeParameters):
     ) -> None:
         """Create the services that ROS 2 gives every node, such as those for its parameters.
 
-        If another node of the same name has them already, that node stays the one that responds.
+        If another node of the same name already offers such a service, that node responds to it.
         """
         seat, wanted = self._tftool, list(services)
         group = callback_group or self._default_callback_group

@@ -175,13 +175,13 @@ class NodeGraph:
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Return a description of each publisher of a topic in a ROS node."""
+        """Return a description of each publisher of a topic that belongs to a ROS node."""
         return [endpoint_info(end) for end in self.__ends(topic_name, PUBLISHER)]
 
     def get_subscriptions_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Return a description of each subscription to a topic in a ROS node."""
+        """Return a description of each subscription to a topic that belongs to a ROS node."""
         return [endpoint_info(end) for end in self.__ends(topic_name, SUBSCRIPTION)]
 
     def __ends(self, topic_name: str, role: Role) -> list[Endpoint]:
@@ -211,7 +211,11 @@ class NodeGraph:
         return self.__look(lambda: sum(name == full for name, _ in self.__called()))
 
     def __called(self, by: str | None = None) -> Iterator[tuple[str, str]]:
-        """Yield (name, type) of each service that this process's clients, or one node's, call."""
+        """Yield (name, type) of each service with a client in this process.
+
+        Args:
+            by: Full name of the node whose clients count; None for all nodes.
+        """
         for one in _entities(self._tftool, by):
             if isinstance(one, Client):
                 yield one.full, one.srv_type.interface__
@@ -286,7 +290,12 @@ def _node_names(seat: NodeSeat) -> list[str]:
 
 
 def _entities(seat: NodeSeat, by: str | None) -> Iterator[Any]:
-    """Yield the entities of this process's ROS nodes, or of the node with the full name `by`."""
+    """Yield the publishers, timers and other entities of this process's ROS nodes.
+
+    Args:
+        seat: tftool's state of a node of the same world.
+        by: Full name of the only node to include; None for all nodes.
+    """
     for program in seat.world.nodes:
         for other in program.nodes if isinstance(program, Program) else ():
             if by in (None, other.authority):
@@ -312,7 +321,11 @@ def _of_node(
     find: Callable[..., Iterable[tuple[str, str]]],
     *args: Any,
 ) -> NamesAndTypes:
-    """Return the (name, types) that `find` yields for a node; raise if the node does not exist."""
+    """Return the names and types that `find` yields for a node.
+
+    Raises:
+        NodeNameNonExistentError: If there is no such node.
+    """
     full = join(namespace, name)
 
     def found() -> NamesAndTypes:
@@ -324,7 +337,7 @@ def _of_node(
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
-    """Group (name, type) pairs by name, sorted; a name with an unknown type gets no type."""
+    """Group (name, type) pairs to (name, types), sorted by name; an unknown type is left out."""
     found: dict[str, set[str]] = {}
     for name, kind in pairs:
         found.setdefault(f"/{name}", set()).update([kind] if kind else [])

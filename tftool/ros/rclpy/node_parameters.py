@@ -200,7 +200,10 @@ class NodeParameters:
         return self.get_parameter(name).type_
 
     def describe_parameter(self, name: str) -> Any:
-        """Return a parameter's descriptor; an empty one for an undeclared, allowed parameter."""
+        """Return a parameter's descriptor.
+
+        If the node allows undeclared parameters, an undeclared one has an empty descriptor.
+        """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
         self.__known(name)
@@ -411,7 +414,7 @@ class NodeParameters:
 
 
 def _is_on_step(value: float, limits: Any) -> bool:
-    """Return whether a value is a whole number of steps above a range's start, or is its end."""
+    """Return whether a value fits a range's step: start plus a multiple of it, or the end."""
     if not limits.step or value == limits.to_value:
         return True
     if isinstance(value, int):
@@ -444,7 +447,10 @@ def _checked_descriptor(descriptor: Any) -> Any:
 
 
 def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, Any]:
-    """Return the type and default value of a parameter being declared; None without a default."""
+    """Return the type and the default value of a parameter to declare.
+
+    The value is None if the user gives only a type.
+    """
     if isinstance(declared, INTERFACES.message("rcl_interfaces/ParameterValue")):
         if not descriptor.dynamic_typing:
             raise ValueError(

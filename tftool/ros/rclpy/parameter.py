@@ -113,7 +113,10 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 
 
 def get_parameter_value(string_value: str) -> Any:
-    """Parse a text as YAML, and return the value, else the text, as a ParameterValue message."""
+    """Parse a text as YAML, and return the value as a ParameterValue message.
+
+    For a text without a value, such as "null", the message contains the text itself.
+    """
     value = names.yaml_value(string_value)
     return Parameter("", value=string_value if value is None else value).get_parameter_value()
 

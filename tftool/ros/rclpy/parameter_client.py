@@ -231,7 +231,10 @@ class ParameterEventHandler:
         _remove(self._of_all, handle)
 
     def configure_nodes_filter(self, node_names: Iterable[str] | None = None) -> bool:
-        """Return False if node names are given: filtering before delivery is not supported."""
+        """Return whether tftool can filter parameter events by node: False if names are given.
+
+        tftool delivers the events of all nodes to this handler.
+        """
         return not node_names
 
     def _resolve_path(self, node_name: str = "") -> str:

@@ -27,7 +27,7 @@ class _Policy(IntEnum):
 
 
 class HistoryPolicy(_Policy):
-    """Whether a queue keeps the last messages, as many as its depth, or all."""
+    """Whether a queue stores only its newest messages (as many as the depth), or all messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
@@ -142,12 +142,12 @@ class QoSProfile:
 
 
 def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
-    """Return the settings of a profile that decide on compatibility and stored messages.
+    """Return tftool's form of a QoS profile.
 
     Args:
         profile: Profile of a publisher or subscription.
-        offered: Whether the profile is a publisher's. "Best available" then means the strictest
-            setting; for a subscription it means the least strict one.
+        offered: Whether the profile belongs to a publisher. "Best available" then means the
+            strictest setting; for a subscription it means the least strict setting.
     """
     reliability, durability = profile.reliability, profile.durability
     asks_little = reliability is ReliabilityPolicy.BEST_AVAILABLE and not offered

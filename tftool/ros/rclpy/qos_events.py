@@ -114,7 +114,7 @@ class Silence:
         Args:
             seat: tftool's state of the node, whose clock is used.
             limit: Longest allowed silence in nanoseconds; None for no limit.
-            told: Function called in the event loop's thread, once per silence that is too long.
+            told: Function called in the event loop's thread when the limit has passed.
         """
         self._seat = seat
         self._limit = limit
@@ -123,7 +123,7 @@ class Silence:
         self._timer: asyncio.Future[None] | None = None
 
     def end(self) -> None:
-        """Record a sign of life: the time limit starts again."""
+        """Record a message or a sign of life; the time limit starts again."""
         self._last = self._seat.world.clock.now()
         if self._timer is None and self._limit is not None:
             self._wait(self._limit)

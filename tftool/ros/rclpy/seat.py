@@ -130,7 +130,10 @@ class NodeSeat:
         return entity
 
     def add(self, make: Callable[..., T], *args: Any) -> T:
-        """Create an entity by `make(*args)` and add it; called in the event loop's thread."""
+        """Create an entity by `make(*args)` and add it to the node.
+
+        Call this in the event loop's thread.
+        """
         entity = make(*args)
         self.entities.append(entity)
         self.wake()
@@ -178,7 +181,10 @@ class NodeSeat:
         self.world.remove(self._node)
 
     def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
-        """Return this process's latched messages for a new subscription, with their senders."""
+        """Return the latched messages of this process's publishers for a new subscription.
+
+        Each message comes with its publisher; None for the static transforms.
+        """
         if full == "tf_static":
             transforms = self.world.static_transforms()
             return [(TransformMessage(transforms, ""), None)] if transforms else []

@@ -22,7 +22,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class ServiceIntrospectionState(IntEnum):
-    """Parts of its requests and responses that a service publishes for debugging."""
+    """Amount of data about requests and responses that a service publishes for debugging."""
 
     OFF = 0
     METADATA = 1

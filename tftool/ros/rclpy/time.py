@@ -220,7 +220,7 @@ class Clock:
         return self._sleep(rel_time.nanoseconds, context)
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block for nanoseconds of this clock; return False if something ended it early."""
+        """Block for nanoseconds of this clock; return False if the sleep ended early."""
         _require_started(context)
         return self._block(duration, context)
 
@@ -247,7 +247,7 @@ class Clock:
         pre_callback: Callable[[], object] | None = None,
         post_callback: "Callable[[TimeJump], object] | None" = None,
     ) -> "JumpHandle":
-        """Register callbacks for time jumps, which only a clock with a time source makes.
+        """Register callbacks for jumps of this clock; only a clock with a time source jumps.
 
         Raises:
             ValueError: If neither callback is given.
@@ -350,7 +350,7 @@ class ROSClock(Clock):
 
 
 class ClockChange(IntEnum):
-    """Switch of a clock between the world's time and its time source."""
+    """Kind of a time jump: whether the clock was switched to its time source or away from it."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -377,14 +377,14 @@ class JumpThreshold:
 
 @dataclass(eq=False)
 class TimeJump:
-    """One jump of a clock: its length, and whether the clock's source was switched."""
+    """One jump of a clock: its length, and whether the jump switched the clock's source."""
 
     clock_change: ClockChange
     delta: Duration
 
 
 class JumpHandle:
-    """Registration of callbacks for a clock's jumps; they are called in order of registration."""
+    """Registration of callbacks for a clock's jumps; the oldest registration is called first."""
 
     def __init__(
         self,

@@ -1,7 +1,7 @@
-"""Source of rclpy.time_source, which sets clocks to the times of the topic `/clock`.
+"""Class TimeSource of rclpy.time_source, which sets clocks to the times of the topic `/clock`.
 
-A node's own clock needs none: it shows tftool's time. Programs that make a `TimeSource`
-themselves are mostly tests; their node's parameter `use_sim_time` switches it on.
+A node's own clock needs no `TimeSource`: it shows tftool's time. Mostly tests create a
+`TimeSource`; the parameter `use_sim_time` of its node switches the source on.
 """
 
 from typing import Any

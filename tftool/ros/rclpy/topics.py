@@ -142,7 +142,10 @@ class Publisher(NodeEntity):
 
 
 class MessageInfo(TypedDict):
-    """Stamps (nanoseconds) and sequence numbers of a message, for callbacks with two arguments."""
+    """Times (nanoseconds) and sequence numbers of a message.
+
+    A subscription's callback with two arguments gets this as its second argument.
+    """
 
     source_timestamp: int
     received_timestamp: int
@@ -254,7 +257,7 @@ class Subscription(NodeEntity):
 
 
 class RosoutPublisher(Publisher):
-    """Publisher on /rosout of the log messages of one node.
+    """Publisher of one node's log messages on /rosout.
 
     Attributes:
         logger: The name of the node's logger.
@@ -277,7 +280,14 @@ class RosoutPublisher(Publisher):
         return logger == self.logger or logger.startswith(f"{self.logger}.")
 
     def tell(self, level: int, logger: str, text: str, place: tuple[str, str, int]) -> None:
-        """Publish a log message; `place` is (file, function, line). Called in the loop's thread."""
+        """Publish a log message; call this in the event loop's thread.
+
+        Args:
+            level: Severity of the message.
+            logger: Name of the logger.
+            text: The message.
+            place: File, function and line that logs.
+        """
         file, function, line = place
         message = self.msg_type(
             stamp=values.time_message(self.seat.world.clock.now()),

@@ -105,10 +105,9 @@ class StaticTransformListener(TransformListener):
 
 
 class _Arrivals(NodeEntity):
-    """Transform listener as an entity of its node, that is, work for an executor.
+    """Entity that ends a `spin_once` of the node when transforms have arrived, as in ROS.
 
-    The buffer is filled without an executor; but as in ROS, a `spin_once` ends when transforms have
-    arrived.
+    The buffer itself is filled without an executor.
     """
 
     only_ends_spin_once = True
@@ -159,7 +158,7 @@ class TransformBroadcaster:
         timer.add_done_callback(lambda _: self._note_silence())
 
     def _note_silence(self) -> None:
-        """Log a warning if the broadcaster has sent nothing although its node was spun."""
+        """Log a warning if the broadcaster has sent no transforms although its node was spun."""
         lives = self._member in self._member.program.nodes
         if not self._has_sent and self._member.was_served and lives:
             kind = type(self).__name__
@@ -191,7 +190,7 @@ class TransformBroadcaster:
         seat.world.broadcast(sent, seat.authority, static=self._static)
 
     def _note_parent(self, parent: str, child: str) -> None:
-        """Log a warning, once, for exchanged frames or for a child with two parents."""
+        """Log a warning, once, if parent and child are exchanged or a child has two parents."""
         above = self._member.world.buffer.parent
         before = above(child)
         if above(parent) == child != parent:
@@ -215,7 +214,7 @@ class TransformBroadcaster:
             self._member.program.say("WARN", self._member.authority, fault)
 
     def _judge(self, sample: TransformStamped) -> None:
-        """Log a warning, once per child, for a missing stamp or a rotation likely to be wrong."""
+        """Log a warning, once per child, if a stamp is 0 or a rotation is probably wrong."""
         now = self._member.world.clock.now()
         if not (self._static or sample.stamp) and now > seconds(1.0):
             self._report_once(

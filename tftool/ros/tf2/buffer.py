@@ -101,7 +101,10 @@ def _of(registry: dict[Any, T], key: Any) -> T:
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """Convert `a` to another type: by a copy, a direct conversion, or through a message."""
+    """Convert `a` to the type `b_type` with the registered functions; copy an object of that type.
+
+    Without a function for this pair of types, the conversion goes through a message.
+    """
     if isinstance(a, b_type):
         return copy.deepcopy(a)
     direct = _convert.get((type(a), b_type))
@@ -115,16 +118,16 @@ NOW = Duration()
 
 
 class BufferInterface:
-    """Base of buffers: transforms stamped data; subclasses look the transforms up."""
+    """Base of buffers, with methods that transform stamped data; subclasses implement lookups."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
     def _refuse(self, *asked: Any, **named: Any) -> Any:
-        """Raise NotImplementedException: a subclass implements the lookup.
+        """Refuse a lookup that the subclass does not implement.
 
         Raises:
-            NotImplementedException: If the class does not implement it.
+            NotImplementedException: Always.
         """
         raise NotImplementedException
 
@@ -442,7 +445,10 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = NOW,
         return_debug_tuple: bool = False,
     ) -> Any:
-        """Return whether a lookup would succeed; with `return_debug_tuple`, the reason too."""
+        """Return whether a lookup would succeed.
+
+        With `return_debug_tuple`, return (whether, reason of the failure).
+        """
         asked = question(target_frame, source_frame, time)
         return self._can(asked, timeout, return_debug_tuple)
 
@@ -488,7 +494,7 @@ class Buffer(BufferCore, BufferInterface):
         return self.promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
-        """Return a future for a lookup at two times; else as `wait_for_transform_async`."""
+        """Return a future that completes with the transform between two times when available."""
         return self.promise(full_question(*asked, **named))
 
     def promise(self, asked: LookupRequest) -> Future:

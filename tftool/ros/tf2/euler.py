@@ -67,7 +67,10 @@ def euler_from_quaternion(
 
 
 def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, float]:
-    """Return the three Euler angles of a rotation matrix; if not unique, the last is 0."""
+    """Return the three Euler angles of a rotation matrix, in radians.
+
+    If several triples of angles describe the rotation (gimbal lock), the last angle is 0.
+    """
     return conversions.euler_from_matrix(matrix, axes)
 
 

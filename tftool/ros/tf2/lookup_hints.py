@@ -45,7 +45,7 @@ class LookupHints:
         program.advice.append(self.summary)
 
     def wait(self) -> None:
-        """Record that the program waits for transforms, or checks for them before a lookup."""
+        """Record that the program waits for transforms, or checks whether they are available."""
         self._waits = True
 
     def answer(self, target: str, source: str, time: Stamp) -> None:
@@ -83,7 +83,7 @@ class LookupHints:
                     self._say("early", self._early_text())
 
     def look_in_vain(self, target: str, source: str) -> None:
-        """Record a check for a transform that was not available."""
+        """Record a check that found no transform; log the reason if checks fail for long."""
         self._waits = True
         self._hint_that_nothing_arrives()
         now = self._program.clock.now()
@@ -97,7 +97,7 @@ class LookupHints:
                 pass
 
     def summary(self) -> str:
-        """Return a sentence about lookups at times not yet known; "" if there were few."""
+        """Return a sentence about lookups at times newer than the data; "" if there were few."""
         return self._early_text() if self._is_early else ""
 
     @property
@@ -115,7 +115,7 @@ class LookupHints:
         return f"{told}: use Time(), the latest, or a timeout"
 
     def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
-        """Yield the links above two frames that have only one, old sample."""
+        """Yield each ancestor edge of two frames that has only one sample, sent long ago."""
         infos = {info.frame: info for info in self._frames.snapshot(now).frames}
         for frame in (target, source):
             seen: set[str] = set()

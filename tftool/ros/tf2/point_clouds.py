@@ -19,7 +19,10 @@ _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"
 
 
 def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
-    """Return (name, (field, index)) of each element; a field x with three gives x_0, x_1, x_2."""
+    """Return (name, (field, index)) for each number of a point.
+
+    A field `x` with a count of 3 has three numbers, with the names x_0, x_1 and x_2.
+    """
     named = []
     for number, field in enumerate(fields):
         name = field.name or f"{DUMMY_FIELD_PREFIX}_{number}"
@@ -62,7 +65,7 @@ def dtype_from_fields(
 
 
 def rows_of(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.NDArray[Any]:
-    """Return a view of some fields in a cloud's data, of shape (height, width)."""
+    """Return a cloud's data as a structured array of some fields, shape (height, width)."""
     form = dtype_from_fields(fields, cloud.point_step, cloud.is_bigendian)
     steps = (cloud.row_step, cloud.point_step)
     return np.ndarray((cloud.height, cloud.width), form, data, 0, steps)

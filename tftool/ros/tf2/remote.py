@@ -191,7 +191,7 @@ class BufferServer:
         return result
 
     async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until the transform is found, at most for the duration `limit`."""
+        """Wait until the future `found` is done, at most for the duration `limit`."""
         if found.done() or limit.nanoseconds <= 0:
             return
         over = Future()
