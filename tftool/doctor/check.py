@@ -38,9 +38,9 @@ class Check:
     Attributes:
         id: Name of the check, which never changes.
         area: Subject of the check.
-        severity: Severity of the findings; a hit may have another severity.
+        severity: Severity of the findings, unless a hit has a severity of its own.
         summary: Description of the fault in one line: the docstring of the function.
-        run: Function that yields the hits.
+        run: Function that yields the hits (single observations) of the check.
         rule: Condition for a finding, with the thresholds as {names}.
         headline: Sentence about a finding. `{where}` becomes the names concerned, and
             `{concerned:one|many}` a word that depends on a number or on the length of a list.
@@ -52,11 +52,12 @@ class Check:
         limits: Thresholds by name; seconds, metres, radians, fractions, counts.
         needs: Keys of `NEEDS` without which the check cannot run.
         why: Reason for the rule and its thresholds; empty if obvious.
-        because_of: Pairs of a word and the ids of checks whose findings may explain a finding of
-            this check. The word names the subject that both findings must have in common: "edge",
-            "child" or "frame"; "stream", an edge or a topic; "path", an edge on the path to the
-            sensor, or the topic; "gap", as "path" if all late data is in gaps; "anything", none.
-            The first pair that fits is used.
+        because_of: Checks whose findings may explain a finding of this check, as pairs (common
+            subject, ids of the checks separated by blanks). The first pair that fits is used. The
+            subject is the thing that both findings must be about: "edge", "child" or "frame";
+            "stream" (an edge or a topic); "path" (an edge on the path to the sensor, or the
+            topic); "gap" (like "path", but only if all late data is in gaps); or "anything"
+            (the findings need not have anything in common).
     """
 
     id: str
@@ -77,7 +78,7 @@ class Check:
     because_of: tuple[tuple[str, str], ...] = ()
 
     def __call__(self, model: Model, limits: Limits | None = None) -> Iterator[Hit]:
-        """Yield the hits of the check, with its own thresholds unless others are given."""
+        """Yield the hits of the check; `limits` replaces the check's thresholds."""
         return self.run(model, self.limits if limits is None else limits)
 
 
@@ -93,7 +94,7 @@ class checks_of:  # noqa: N801 - a decorator
         self.checks: list[Check] = []
 
     def __call__(self, id: str, severity: Severity, **texts: Any) -> Callable[[Run], Check]:
-        """Return a decorator that declares a check; `texts` are the other attributes of `Check`."""
+        """Return a decorator that turns a function into a `Check`; `texts` are its attributes."""
 
         def keep(run: Run) -> Check:
             check = Check(id, self._area, severity, _summary(run), run, **texts)
@@ -104,7 +105,7 @@ class checks_of:  # noqa: N801 - a decorator
 
 
 def _summary(run: Run) -> str:
-    """Return a check's docstring as part of a sentence."""
+    """Return a check's docstring without the full stop and in lower case, for a sentence."""
     text = " ".join((run.__doc__ or "").split()).removesuffix(".")
     # Names such as NaN keep their capitals.
     return text if any(letter.isupper() for letter in text.split()[0][1:]) else _lowered(text)
@@ -115,12 +116,12 @@ def _lowered(text: str) -> str:
 
 
 def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hit:
-    """Return a hit about one edge or topic, for all of its time.
+    """Return a hit about all samples of one edge, or all messages of one topic.
 
     Args:
         stream: The edge, or the messages of the topic.
         facts: Facts of the hit; the name of the edge or topic is added.
-        **given: Attributes of `Hit` that replace those of the stream.
+        **given: Attributes of `Hit`; they replace attributes derived from the stream.
     """
     if isinstance(stream, Track):
         own = {"edges": (stream.edge,), "publishers": stream.nodes}

@@ -106,9 +106,10 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _placed(model: Model) -> list[Heard]:
-    """Return the messages with a position, which are looked up, and joint states.
+    """Return the streams of messages whose stamps matter for tf.
 
-    Messages without a position, such as diagnostics and logs, are never looked up.
+    These are messages with a position, whose frame a program looks up, and joint states. Nothing
+    looks up the frame of diagnostics or logs.
     """
     return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
 
@@ -205,7 +206,14 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_design(track: Track, ahead: int) -> bool:
-    """Whether a transform is stamped ahead on purpose: ROS 1 uses it until the next."""
+    """Whether a transform is stamped ahead of time on purpose.
+
+    In ROS 1, publishers stamp a transform ahead so that it is valid until the next one.
+
+    Args:
+        track: Samples of the edge.
+        ahead: Time by which stamps are later than reception, nanoseconds.
+    """
     if ahead <= 1.2 * track.period:
         return True
     return not track.moves and ahead <= CONSTANTS_AHEAD
@@ -421,7 +429,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tuple[Fix, ...], str]:
-    """Return remedies and evidence for edges that also have samples on the other streams' clock."""
+    """Return remedies and evidence for edges whose samples come from two clocks.
+
+    Such an edge has two publishers: one on the wrong clock, and one on the clock that the other
+    streams use.
+    """
     fixes, told = [], ""
     for track in streams:
         near = np.abs(4 * track.latency) < abs(0 if model.shift is None else model.shift.by)
@@ -441,7 +453,13 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tup
 
 
 def cures_of_offset(model: Model, ahead: Duration) -> tuple[Fix, ...]:
-    """Return the remedies for two clocks, or for old data if stamps are long before reception."""
+    """Return the remedies for stamps that differ from the time of reception.
+
+    Args:
+        model: The evidence, prepared.
+        ahead: Time by which stamps are later than reception, nanoseconds. A very long time means
+            replayed data rather than two unsynchronised clocks.
+    """
     if abs(ahead) < _PLAYED:
         return _SYNCHRONISE
     # What was recorded before is stamped before its reception.
@@ -500,7 +518,7 @@ def _is_one_period(stream: "Track | Heard") -> bool:
 
 
 def _offsets(model: Model) -> list[str]:
-    """Return sentences about groups of streams with similar latency, in steps of 20 ms."""
+    """Return a line for each group of streams whose latency, rounded to 20 ms, is equal."""
     grouped: dict[int, list[str]] = defaultdict(list)
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
     for one in streams:

@@ -29,7 +29,10 @@ _RADIAN = 0.5
 
 
 def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
-    """Return a warning for a conflict that hardly matters to a driving robot; None for an error."""
+    """Return WARNING for a conflict that hardly affects driving; None if the hit is an error.
+
+    Such a conflict is small, or concerns a frame in which no sensor or child frame is placed.
+    """
     worst, turned = hit.facts["worst"], hit.facts["most_turned"]
     assert isinstance(worst, float)
     assert isinstance(turned, float)
@@ -44,9 +47,10 @@ def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severit
 
 
 def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
-    """Return the finding about a joint that has one and the same value in every other sample.
+    """Return the hit about an edge whose samples alternate between one fixed pose and others.
 
-    One robot_state_publisher may send both values, if two sources of joint states feed it.
+    This happens if one robot_state_publisher gets joint states from two sources, one of which
+    always sends the same value. Return None for other edges.
     """
     if track.is_localisation or is_odometry(track) or hit.confidence is Confidence.CERTAIN:
         return None
@@ -74,7 +78,7 @@ def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
 
 
 def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if two publishers with known names disagree at the same time."""
+    """Return a hit if two publishers with known node names send different poses; else None."""
     places = track.by_stamp
     senders = track.senders[places]
     numbers, counts = np.unique(senders, return_counts=True)
@@ -111,7 +115,7 @@ def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 
 def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if stamps occur twice with different poses."""
+    """Return a hit if many stamps occur twice, with two different poses; else None."""
     if len(track.steps) == len(track.by_stamp) - 1:
         return None
     # A stamp that occurs more than twice does not change, which is another fault.
@@ -136,13 +140,14 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
 
 
 def _count_returns(track: Track, firsts: Places) -> int:
-    """Return at how many stamps with two values one of the two interrupts the motion of the other.
+    """Count the stamps with two poses at which one pose interrupts the motion of the other.
 
-    A node that sends its newest pose under an old stamp goes on from the second value instead.
+    Two publishers cause such an interruption. The alternative is one publisher that sends a newer
+    pose with an old stamp: its motion then continues from the second pose, which is not counted.
 
     Args:
         track: The edge's samples.
-        firsts: Places of the first of two samples in the order of stamps, shape (n,).
+        firsts: For each stamp, the index in `track.by_stamp` of its first sample, shape (n,).
     """
     firsts = firsts[(firsts > 0) & (firsts + 2 < len(track.by_stamp))]
     before, mine, theirs, after = (track.by_stamp[firsts + step] for step in (-1, 0, 1, 2))
@@ -163,7 +168,7 @@ def _count_returns(track: Track, firsts: Places) -> int:
 
 
 def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if an edge's poses form two alternating continuous motions."""
+    """Return a hit if an edge's poses alternate between two continuous motions; else None."""
     places = track.by_stamp[:MOST_FOLLOWED]
     if len(places) < max(2 * limits["samples"], 2):
         return None
@@ -191,13 +196,13 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
 def _alternating(
     track: Track, places: Places, owners: Places, together: Floats, limits: Limits
 ) -> tuple[Places, Places] | None:
-    """Return the samples of two alternating motions; None if a single motion explains all.
+    """Return the samples of two alternating motions; None if one motion explains all samples.
 
     Args:
         track: The edge's samples.
         places: Rows of the samples in the order of their stamps, shape (n,).
         owners: Number of the motion to which each sample is assigned, shape (n,).
-        together: Error of each sample if there is a single motion, shape (n,).
+        together: Error of each sample under the assumption of a single motion, shape (n,).
         limits: The thresholds.
     """
     turns = np.flatnonzero(np.diff(owners)) + 1
@@ -263,7 +268,11 @@ def _motion_errors(track: Track, places: Places) -> Floats:
 
 
 def _follow(track: Track, places: Places, limits: Limits) -> Places:
-    """Return the number of the motion (at most three) that best predicts each sample."""
+    """Assign each sample to one of at most three motions: the one that best predicts it.
+
+    Returns:
+        Number of the motion of each sample, shape (n,).
+    """
     stamps = (track.stamps[places] / NANOSECONDS).tolist()
     poses = np.hstack((track.translations[places], unit(track.rotations[places]))).tolist()
     reach, speed = limits["reach"], limits["speed"]
@@ -346,7 +355,10 @@ def is_odometry(track: Track) -> bool:
 
 
 def switches_off(track: Track) -> Fix:
-    """Return the remedy to switch off one of an edge's two publishers, by the edge's names."""
+    """Return the remedy to switch off one of an edge's two publishers.
+
+    The names of the edge's frames decide which setting the text names.
+    """
     if track.is_localisation:
         return Fix(
             "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "

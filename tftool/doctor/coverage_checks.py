@@ -200,13 +200,14 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Waits:
-    """Waiting times of a topic's messages, until each can be placed in a frame.
+    """Times that a topic's messages wait for tf: from arrival until a lookup succeeds.
 
     Attributes:
         stamps: The messages' stamps, shape (n,).
-        waits: Time from arrival until the message can be placed, nanoseconds, shape (n,); or NEVER.
-        link: The edge that delays lookups most.
-        links: The moving edges on the path.
+        waits: Time from the arrival of each message until the lookup at its stamp succeeds,
+            nanoseconds, shape (n,); NEVER if no lookup ever succeeds.
+        link: The edge that delays most lookups.
+        links: The moving edges on the path between the message's frame and the fixed frame.
     """
 
     stamps: Stamps
@@ -216,23 +217,26 @@ class Waits:
 
     @property
     def served(self) -> Stamps:
-        """Return the waits of the messages that can be placed at some time."""
+        """Return the waits without NEVER: those of messages whose lookup succeeds at some time."""
         served: Stamps = self.waits[self.waits != NEVER]
         return served
 
     def serves(self, percent: float) -> int:
-        """Return the timeout, nanoseconds, that is enough for a percentage of `served`."""
+        """Return the timeout, nanoseconds, after which `percent` % of `served` have succeeded."""
         return int(np.percentile(self.served, percent, method="higher"))
 
 
 def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Waits | None:
-    """Return the waits of a topic's messages to be placed in a frame; None if the chain is static.
+    """Return the times that a topic's messages wait for a lookup of their frame.
+
+    Return None if the frames are not connected, if all edges between them are static, or if there
+    are no messages to check.
 
     Args:
         model: The evidence, prepared.
         heard: The headers of the messages.
-        fixed: Frame in which messages are placed.
-        warm: Whether the first and the last second of the recording are left out.
+        fixed: Target frame of the lookups.
+        warm: Whether to leave out the first and the last second of the recording.
     """
     path = model.path(heard.frame, fixed)
     links = [track for track in path or () if not track.static and len(track.by_stamp)]
@@ -312,7 +316,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
-    """Yield the topics whose messages are looked up one by one, with their waits."""
+    """Yield the topics whose messages a program transforms one by one, with their waits."""
     fixed = model.sensor_frame
     around = {track.parent for track in model.above(fixed)}
     for heard in model.heard:
@@ -328,7 +332,7 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
 
 
 def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
-    """Whether two topics in one frame wait for the same link, for as long and as often."""
+    """Whether two topics wait alike: they have one frame, the same edge delays them, as long."""
     (heard, waits), (also, its) = first, other
     if heard.frame != also.frame or waits.link is not its.link:
         return False
@@ -340,7 +344,7 @@ def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
 
 
 def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> Hit | None:
-    """Return the hit about topics that wait alike; None if all waits are short."""
+    """Return the hit about a group of topics that wait alike; None if all waits are short."""
     heard, waits = max(group, key=lambda one: int(one[1].served.max(initial=0)))
     served = waits.served
     never = 1.0 - len(served) / len(waits.waits)
@@ -395,7 +399,7 @@ _WORLDS = frozenset({"map", "world", "earth"})
 
 
 def _only_in_holes(waits: Waits, wait: float) -> bool:
-    """Whether nearly all messages that wait too long are stamped in a gap of a link."""
+    """Whether nearly all messages that wait longer than `wait` seconds fall into an edge's gap."""
     late = waits.waits > wait * NANOSECONDS
     for link in waits.links:
         for begin, end in holes(link, gap.limits):
@@ -404,7 +408,13 @@ def _only_in_holes(waits: Waits, wait: float) -> bool:
 
 
 def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
-    """Return remedies: a timeout that is enough for all messages in `served`, if waiting helps."""
+    """Return the remedies for messages that arrive before their transforms.
+
+    Args:
+        heard: Headers of the messages.
+        waits: Waiting times of the messages.
+        wait: Time that the listener waits, seconds.
+    """
     worst = int(waits.served.max(initial=0))
     if worst < 10_000_000:
         return ()
@@ -440,12 +450,12 @@ def rounded_up(nanoseconds: int) -> int:
 
 
 def least_rate(link: str, period: int, later: int, wait: float) -> str:
-    """Return a sentence with the rate at which an edge is fast enough; empty if it already is.
+    """Return a sentence with the rate that an edge needs; empty if its rate is high enough.
 
     Args:
         link: Name of the link that delays a lookup.
         period: Period of the edge, nanoseconds; 0 if unknown.
-        later: Latency of the edge minus that of the message, nanoseconds.
+        later: Latency of the edge minus the latency of the message, nanoseconds.
         wait: Time that the listener waits, seconds.
     """
     left = wait - later / NANOSECONDS

@@ -86,7 +86,10 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
-    """Return the links below a joint, and below the joints that mimic it: all that it places."""
+    """Return all links of the robot whose pose depends on a joint.
+
+    These are the links below the joint, and the links below all joints that mimic it.
+    """
     joints_below: dict[str, list[RobotJoint]] = {}
     followers: dict[str, list[RobotJoint]] = {}
     for other in robot.joints.values():

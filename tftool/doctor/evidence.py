@@ -55,10 +55,10 @@ class Evidence:
         timed: Whether log times are known; a buffer has none.
         recorded: Whether the evidence is a recording, which can be played.
         joints: Joint names in all joint states; None if none were recorded.
-        robot: Robot of the given or recorded description; None without a readable description.
+        robot: Robot model from the given or recorded description; None without a readable one.
         mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None without odometry.
-        mounts: Mounts measured from motion; None if not requested.
+        mounts: Sensors' mounts (static poses) measured from motion; None if not requested.
     """
 
     name: str
@@ -105,7 +105,7 @@ def described_by(path: str | Path) -> Described:
 
     Raises:
         InputError: If the file cannot be read.
-        UsageError: If the description needs xacro, and it is not installed.
+        UsageError: If the description needs xacro, and xacro is not installed.
     """
     try:
         return Described(load_urdf(path))
@@ -139,7 +139,7 @@ class Moment(Protocol):
     """A time as given by the user: seconds since the start, or a stamp."""
 
     def stamp(self, epoch: Stamp) -> Stamp:
-        """Return the stamp of the time, in a source that begins at `epoch`."""
+        """Return the time as a stamp, for a source that begins at the stamp `epoch`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -317,7 +317,7 @@ def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
 
 
 def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
-    """Return the indices of each distinct name; fast for a single name."""
+    """Return an array of indices for each distinct name; fast if all names are equal."""
     if not len(names) or bool((names == names[0]).all()):
         return [np.arange(len(names), dtype=np.int32)] if len(names) else []
     found: dict[str, list[int]] = {}
@@ -406,7 +406,7 @@ def evidence_of(
 
 
 def _beside(evidence: Evidence, described: Described | None) -> Evidence:
-    """Return the evidence with the robot of the given description, if any."""
+    """Return the evidence with the given description's robot; unchanged without a description."""
     if described is None:
         return evidence
     return replace(evidence, robot=described.robot, mistakes=described.mistakes)

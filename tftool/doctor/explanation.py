@@ -119,7 +119,10 @@ def misnamed(trace: LookupTrace) -> Reason | None:
 
 
 def _described(model: Model, name: str) -> str | None:
-    """Return a sentence on why tf lacks a described link; None if there is no such link."""
+    """Return a sentence on why tf lacks a frame that the robot description defines.
+
+    Return None if the description has no such link.
+    """
     robot, states = model.evidence.robot, model.evidence.joints
     if robot is None or name not in robot.links or name == robot.root:
         return None
@@ -185,7 +188,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return notes on a successful lookup: reasons why it may fail in other places."""
+    """Return the reason for a successful lookup: why the same lookup may fail in a user's node."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)
@@ -269,7 +272,10 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
 
 
 def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
-    """Return why a path across two clocks fails (see the check `clock-offset`); else None."""
+    """Return the reason for a failed lookup whose path has edges on two clocks; else None.
+
+    See the check `clock-offset`.
+    """
     moving = [track for track in way if not track.static]
     off = [track for track in moving if track in model.unshifted]
     if not off or len(off) == len(moving):
@@ -345,7 +351,10 @@ def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Sta
 
 
 def _goes_on(trace: LookupTrace, track: Track) -> bool:
-    """Whether a link's samples continue to the end of the source, by the rule of `edge-stopped`."""
+    """Whether an edge's samples continue to the end of the recording or scenario.
+
+    The thresholds are those of the check `edge-stopped`.
+    """
     evidence, limits = trace.model.evidence, edge_stopped.limits
     least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
     ends = evidence.recorded or evidence.kind == "scenario"
@@ -427,7 +436,12 @@ def _waits(trace: LookupTrace, heard: Heard) -> Waits | None:
 
 
 def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
-    """Return the remedy to wait: the timeout for this lookup, and for all messages of its topic."""
+    """Return the remedy to wait, with the timeout that this lookup needs.
+
+    Args:
+        known: The traced lookup.
+        heard: Messages of the looked-up topic, whose needed timeouts are added; None for none.
+    """
     trace = known.trace
     if known.begin is None:
         text = "a timeout does not help: by the time the one end comes, the other is pruned"
@@ -592,12 +606,12 @@ MOMENTS = 1000
 
 
 def over_time(model: Model, question: Question, found: Explanation) -> Explanation:
-    """Return an explanation with the fraction of time in which the lookup would have failed.
+    """Add to an explanation the fraction of the session in which the lookup would have failed.
 
     Args:
         model: The evidence of a session.
         question: The lookup at the end of the session.
-        found: Explanation of this lookup.
+        found: Explanation of the lookup at the end of the session.
     """
     trace = LookupTrace(model, question)
     way = None if misnamed(trace) is not None else trace.way()
@@ -618,7 +632,7 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
 def _holds(
     way: Sequence[Track], asks: Stamps, question: Question
 ) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
-    """Return a mask of the log times at which the lookup succeeds, for a path of edges."""
+    """Return a mask of the log times `asks` at which the lookup succeeds, shape of `asks`."""
     holds = np.ones(len(asks), dtype=bool)
     newest, oldest = [], []
     for track in way:
@@ -644,7 +658,7 @@ def _holds(
 def _misleading(
     links: tuple[TracedLink, ...], quoted: tuple[str | None, Stamp] | None
 ) -> tuple[str, ...]:
-    """Return a note if tf2's error is about a link outside the path, else nothing."""
+    """Return a note if tf2's error text is about an edge outside the path; else an empty tuple."""
     if quoted is None or not links or quoted[0] in {link.child for link in links}:
         return ()
     frame, stamp = quoted

@@ -118,7 +118,10 @@ class Finding:
 
     @property
     def fingerprint(self) -> str:
-        """Return a key that a finding has in all recordings: from check and names, not numbers."""
+        """Return a key of the check and the names, which is the same in all recordings.
+
+        A baseline report recognises known findings by this key. Numbers do not change it.
+        """
         return fingerprint(self.id, self.frames, self.edges, self.topics)
 
     def __repr__(self) -> str:
@@ -129,7 +132,7 @@ class Finding:
 def fingerprint(
     check: str, frames: Iterable[str], edges: Iterable[Iterable[str]], topics: Iterable[str]
 ) -> str:
-    """Return the key shared by findings of one check about the same names."""
+    """Return a hash of a check's id and names; it identifies a finding across recordings."""
     named = [check, sorted(frames), sorted(list(edge) for edge in edges), sorted(topics)]
     return hashlib.sha256(json.dumps(named).encode()).hexdigest()[:16]
 

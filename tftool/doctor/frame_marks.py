@@ -1,7 +1,7 @@
-"""Marks of frames that have findings, for screens.
+"""Marks that screens show beside frames with findings.
 
-For a buffer without possible faults this module imports neither numpy nor the checks, whose import
-takes as long as everything else that is needed to show a tree.
+For a buffer without possible faults, this module does not import numpy and the checks: that import
+takes as long as all other work for showing a tree.
 """
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
@@ -25,7 +25,7 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
 
 
 def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
-    """Whether no check can match: one parent per frame, one clock, and no late link."""
+    """Whether no check can find a fault: one parent per frame, one clock, and no late edge."""
     moving = [info for info in snapshot.frames if info.samples and not info.is_static]
     if not moving:
         return True
@@ -39,8 +39,8 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
     """Return the marks of the frames in a buffer that may contain faults; see `marks`.
 
-    A frame is marked `edge-stopped` if its newest sample is older than the newest of all, on the
-    same clock, by more than ten of its periods and a second.
+    A frame is marked `edge-stopped` if the newest sample on its clock is newer than the frame's own
+    newest sample by more than ten of the frame's periods, and by more than one second.
     """
     from tftool.doctor.clock_checks import clock_mixture
     from tftool.doctor.evidence import evidence_of_buffer

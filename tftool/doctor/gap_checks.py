@@ -20,7 +20,7 @@ def _least_gap(track: Track, limits: Limits) -> float:
 
 
 def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the gaps that are too long for an edge's period, as pairs of stamps."""
+    """Return the gaps of an edge that are too long for its period, as (last stamp, next stamp)."""
     # A stamp that is wrong by years does not make a gap.
     stamps = track.sorted_stamps
     if track.wild.any():
@@ -97,7 +97,10 @@ _SEEN = re.compile(
 
 
 def _is_detection(model: Model, track: Track) -> bool:
-    """Whether an edge is a camera's detection: a leaf with such a name or rate."""
+    """Whether an edge is probably an object that a camera detects, such as a marker.
+
+    Its child has no children and no messages, and its name or its irregular rate fits a detection.
+    """
     if len(model.below(track.child)) > 1 or any(h.frame == track.child for h in model.heard):
         return False
     steps = track.steps
@@ -236,7 +239,14 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
-    """Whether a stream has a gap of stamps about a time when nothing arrived."""
+    """Whether a stream's stamps also have a gap at a time when nothing arrived.
+
+    Args:
+        stream: The stream.
+        begin: Log time at which nothing arrived any more.
+        end: Log time at which data arrived again.
+        least: Smallest difference between two stamps that counts as a gap, nanoseconds.
+    """
     stamps = np.sort(stream.stamps)
     steps = np.diff(stamps)
     delay = stream.arrivals - stream.logs

@@ -1,7 +1,7 @@
-"""Joints between two links of a robot description, and what a lookup between the links lacks.
+"""Explanation of a lookup between two links of a robot description: the joints between them.
 
-A description is valid at all times. So a lookup can lack only a frame name, or the position of a
-joint, which comes from a publisher.
+A description has no times. So a lookup in it can fail for two reasons only: the description has no
+such link, or a joint between the links has no position.
 """
 
 import shlex
@@ -24,9 +24,10 @@ class ChainLink:
     Attributes:
         joint: The joint.
         position: Joint position, radians or metres; None if the joint is fixed.
-        is_given: Whether the position was given, for the joint or for its leader.
-        leader: Name of the joint that determines the position: the joint itself, or its leader.
-        is_known: Whether the pose of the child is known; it is not for a floating joint.
+        is_given: Whether the user gave the position, of the joint or of the joint it mimics.
+        leader: Name of the joint that determines the position: the joint itself, or the joint
+            that it mimics.
+        is_known: Whether the pose of the child link is known; False for a floating joint.
     """
 
     joint: RobotJoint
@@ -73,7 +74,7 @@ def chained(
 
     Args:
         robot: The description.
-        given: Positions by joint.
+        given: Positions that the user gave, by joint name.
         target: Target of the lookup.
         source: Source of the lookup.
         name: Name of the description on the command line.

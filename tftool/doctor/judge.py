@@ -67,7 +67,10 @@ class Diagnosis:
 
     @property
     def worst(self) -> Severity | None:
-        """Return the worst severity of new findings that are not consequences, if there are any."""
+        """Return the worst severity of new findings; None if there are none.
+
+        Consequences of other findings and findings of the baseline do not count.
+        """
         found = [f.severity for f in self.findings if f.because_of is None and not f.known]
         return min(found, key=lambda severity: severity.rank, default=None)
 
@@ -137,7 +140,7 @@ def _has(evidence: Evidence, need: str) -> bool:
 
 
 def _named(words: Sequence[str]) -> list[str]:
-    """Return the ids of the checks that words name, by id or area."""
+    """Return the ids of all checks that the words select; a word is a check's id or an area."""
     areas = {area.value.replace(" ", "-"): area for area in Area}
     found: list[str] = []
     for word in words:
@@ -223,7 +226,9 @@ def _findings(
 def _cause_of(
     number: int, hits: list[tuple[Check, Hit]], of_check: Mapping[str, Sequence[int]]
 ) -> str | None:
-    """Return the id of the finding that explains a hit: the first that is itself unexplained.
+    """Return the id of the finding that explains a hit; None if there is none.
+
+    If several findings could explain the hit, this is the first one without a cause of its own.
 
     Args:
         number: Index of the hit.
@@ -321,7 +326,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits, words: Mapping[str, s
 
 
 def _concerned(hits: list[Hit]) -> list[str]:
-    """Return the names for a headline: of the edges, else of the topics, else of the frames."""
+    """Return the names of the hits' edges for a headline; without edges, topics or frames."""
     edges = dict.fromkeys(f"{child} in {parent}" for hit in hits for parent, child in hit.edges)
     topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
     frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)

@@ -61,7 +61,7 @@ def steps_of(model: Model, target: str = "", source: str = "") -> tuple[Localisa
     Args:
         model: The evidence, prepared.
         target: One end of the chain. If both ends are empty, the edges from map to odometry are
-            used, or those from the robot's base up.
+            used; without such edges, the edges from the robot's base up to the root.
         source: The other end of the chain.
 
     Raises:
@@ -124,11 +124,11 @@ def _steps(track: Track) -> list[LocalisationStep]:
 
 
 def _unexplained(changes: Floats, gaps: Floats) -> tuple[Floats, float]:
-    """Return the part of each change that the velocities around it do not explain, and the noise.
+    """Return the part of each change that the motion around it does not explain, and the noise.
 
-    A change between the velocities before and after is acceleration, not a step. Since stamps may
-    be less regular than the motion, this is computed per second and per sample; the smaller part
-    is returned.
+    If a change is between the velocities before and after it, it is acceleration and no step. The
+    velocities are computed per second and per sample, because stamps may be less regular than the
+    motion; the smaller of the two unexplained parts is returned.
 
     Args:
         changes: Change from each sample to the next, shape (n, 3).

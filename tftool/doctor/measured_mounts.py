@@ -72,7 +72,9 @@ class MeasuredMount:
 def measured_mounts(
     model: "Model", before: Sequence[MeasuredMount] = ()
 ) -> tuple[MeasuredMount, ...]:
-    """Return all mounts that two independently recorded chains of one body determine.
+    """Measure the mounts of all sensors whose motion is recorded independently of the body's.
+
+    A mount is the constant pose of the sensor on the body, computed from the two motions.
 
     Args:
         model: The evidence of a recording.
@@ -139,7 +141,10 @@ def _between(path: TransformArray, begin: int, end: int) -> TransformArray:
 
 
 def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Transform]]:
-    """Yield two independently measured motions of one body, and the mount between them."""
+    """Yield (motion, motion, mount) for two frames that are mounted on one rigid body.
+
+    The two motions are recorded independently of each other; the mount is the published one.
+    """
     edges = model.evidence.transforms.edges
     moving = {one.child: one for one in edges if not one.static and len(one) >= _LEAST}
     static = {one.child: one for one in edges if one.static and len(one)}
@@ -165,7 +170,7 @@ def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Tra
 
 
 def _climbed(frame: str, static: dict[str, Edge]) -> tuple[str, Transform]:
-    """Follow static links up from a frame; return the last frame, and the frame's pose in it."""
+    """Follow static edges up from a frame; return the topmost frame reached, and the pose in it."""
     mount = Transform.identity()
     seen = {frame}
     while frame in static and static[frame].parent not in seen:

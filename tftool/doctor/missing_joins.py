@@ -94,7 +94,7 @@ def is_world(name: str) -> bool:
 
 
 def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
-    """Return a proposal from the description's joint above a root, if it leads to other frames."""
+    """Propose the description's joint above a root; None unless its parent is in `others`."""
     joint = model.joint_above.get(root)
     if joint is None or model.prefix + joint.parent not in others:
         return None
@@ -106,7 +106,7 @@ def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
 
 
 def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
-    """Return a proposal from Odometry messages that relate a frame of each tree."""
+    """Propose the edge of an Odometry message between the two trees; None without such an edge."""
     odometry = model.evidence.odometry
     if odometry is None:
         return None
@@ -125,7 +125,7 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
 
 
 def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
-    """Return a proposal if the child of a transform between the trees later got another parent."""
+    """Propose an edge that connected the trees until its child got another parent; else None."""
     for track in model.tracks:
         ends = {model.tree_of[name].root for name in track.edge}
         if ends == {main.root, lesser.root}:
@@ -139,7 +139,11 @@ def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
 
 
 def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Track]) -> Fix | None:
-    """Propose that a moving edge ends at the root of a child's mounts, not at the child."""
+    """Propose another child for a moving edge whose child also has static parents.
+
+    The moving edge should end at the root of the static mounts instead. Return None if that
+    would not give a tree.
+    """
     if {track.parent for track in moving} & {track.parent for track in statics}:
         return None
     # The newest parent of the frame may be either; the root of the mount is above that.
@@ -155,7 +159,7 @@ def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Tr
 
 
 def _localised(tree: Tree, other: Tree) -> Join | None:
-    """Return a proposal for odom in map (REP-105) if one tree has a map, and the other odom."""
+    """Propose the edge from map to odom (REP-105) if `other` has map and `tree` begins at odom."""
     if not last_part(tree.root).startswith(("odom", "camera_init")):
         return None
     maps = sorted(frame for frame in other.frames if last_part(frame) == "map")
@@ -167,7 +171,10 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
 
 
 def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
-    """Return a proposal if another tree has a similar name for the root, such as base_footprint."""
+    """Propose an edge to a tree's root from a frame with a similar name, or return None.
+
+    For example, base_footprint and base_link are similar names.
+    """
     root = tree.root
     for name in sorted(other.frames):
         if _prefix(name) != _prefix(root) or distinctive_words(name) != distinctive_words(root):
@@ -179,7 +186,11 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
 
 
 def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | None = None) -> Fix:
-    """Return the remedy for a missing mount: publish it, unless no statics were recorded."""
+    """Return the remedy for a missing static transform.
+
+    If the recording has no static transforms at all, the remedy is to record or add them, not to
+    publish this one.
+    """
     if not model.lacks_statics or not model.evidence.recorded:
         return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
     if model.lacks_state_publisher:
@@ -220,7 +231,7 @@ def _prefix(name: str) -> str:
 
 
 def base_of(tree: Tree) -> str:
-    """Return the name of a tree's base frame (with the sensors); empty if there is none."""
+    """Return the name of a tree's base frame, such as base_link; empty if there is none."""
     for name in (*BASES, "body"):
         found = sorted(frame for frame in tree.frames if last_part(frame) == name)
         if found:
@@ -231,7 +242,10 @@ def base_of(tree: Tree) -> str:
 def static_publisher(
     parent: str, child: str, pose: Transform | None = None, *, ros1: bool = False
 ) -> str:
-    """Return the command that publishes a static transform, with letters for an unknown pose."""
+    """Return the command that publishes a static transform.
+
+    If the pose is unknown, the command contains letters such as X and YAW in place of numbers.
+    """
     if ros1:
         known = () if pose is None else (*pose.translation, *pose.rotation)
         numbers = " ".join(f"{one:.9g}" for one in known) or "X Y Z YAW PITCH ROLL"

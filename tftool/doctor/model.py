@@ -40,7 +40,7 @@ class Settings:
     Attributes:
         cache_time: Cache time of the listener's buffer, nanoseconds.
         fixed_frame: Frame in which to place sensors; empty for the usual frame.
-        limits: Thresholds by check and name, instead of the defaults.
+        limits: Thresholds that replace the defaults, by check and name.
         tf_topics: Topics of transforms to which the listener subscribes; empty for the usual
             topics.
     """
@@ -65,7 +65,7 @@ class Shift:
     Attributes:
         by: Time from stamp to reception of most messages, nanoseconds; negative if the stamps are
             later.
-        spread: Deviation of `by`: the median of the streams, nanoseconds.
+        spread: Median deviation of the streams from `by`, nanoseconds.
         streams: Number of streams with this shift.
         of: Number of all streams.
     """
@@ -78,7 +78,7 @@ class Shift:
 
 @dataclass(frozen=True, slots=True)
 class Lap:
-    """A time at which the clock jumped back, so that a new lap begins.
+    """A time at which the clock jumped back, as when a bag is played in a loop.
 
     Attributes:
         log: Log time of the jump.
@@ -114,11 +114,11 @@ class Model:
     Attributes:
         evidence: The evidence.
         settings: Settings of the listener.
-        tracks: One track for each edge that a listener can use (see `nameless`).
-        nameless: Edges with an empty name, or whose ends are the same frame.
+        tracks: Samples of each edge, without the edges in `nameless`.
+        nameless: Edges that no listener can use: a frame name is empty, or both names are equal.
         heard: Headers of messages, one stream for each topic and frame.
         laps: Times at which the clock jumped back. All other data is from before the first jump.
-        reference: Sentence about the clock from which latencies are measured; empty if usual.
+        reference: Sentence about the clock used for latencies; empty for the recorder's clock.
         shift: Constant by which all stamps differ from their reception; None if there is none.
     """
 
@@ -146,17 +146,17 @@ class Model:
 
     @cached_property
     def dynamic(self) -> tuple[Track, ...]:
-        """Edges whose transforms came on a topic for moving transforms."""
+        """Edges whose transforms came on a topic for moving transforms, such as /tf."""
         return tuple(track for track in self.tracks if not track.static)
 
     @cached_property
     def statics(self) -> tuple[Track, ...]:
-        """Edges whose transforms came on a static topic."""
+        """Edges whose transforms came on a topic for static transforms, such as /tf_static."""
         return tuple(track for track in self.tracks if track.static)
 
     @cached_property
     def unshifted(self) -> tuple[Track, ...]:
-        """Moving edges on the recorder's clock, in a recording whose other stamps are shifted."""
+        """Moving edges on the recorder's clock, if most other stamps are shifted; else empty."""
         if self.shift is None:
             return ()
         by = self.shift.by
@@ -168,12 +168,15 @@ class Model:
 
     @cached_property
     def words(self) -> Mapping[str, str]:
-        """Commands and settings for texts, for ROS 1 or ROS 2, whichever made the recording."""
+        """Commands and settings for texts, of the ROS version that made the recording."""
         return ros_words(self.evidence)
 
     @cached_property
     def lacks_statics(self) -> bool:
-        """Whether there are no static transforms, and no constant ones on /tf (early ROS 1)."""
+        """Whether the data has no static transforms.
+
+        Constant transforms on /tf, as in early ROS 1, count as static ones.
+        """
         if self.statics or not self.tracks:
             return False
         if any(topic.static for topic in self.evidence.topics):
@@ -182,7 +185,7 @@ class Model:
 
     @cached_property
     def lacks_state_publisher(self) -> bool:
-        """Whether there are joint states, but only odometry and localisers send transforms."""
+        """Whether joint states arrived, but all transforms come from odometry or localisers."""
         came = any(h.type == JOINT_STATES and len(h) for h in self.evidence.headers.values())
         return came and all(
             track.is_localisation or last_part(track.parent).startswith("odom")
@@ -233,7 +236,7 @@ class Model:
 
     @cached_property
     def prefix(self) -> str:
-        """Return the prefix of frame names before the description's link names; usually empty."""
+        """Return the prefix that frame names have before the link names; usually empty."""
         robot = self.evidence.robot
         if robot is None:
             return ""
@@ -241,7 +244,7 @@ class Model:
 
     @cached_property
     def joint_above(self) -> Mapping[str, RobotJoint]:
-        """Joint above each frame in the robot description, by name; empty without a description."""
+        """Joint above each frame, by the frame's name; empty without a robot description."""
         robot = self.evidence.robot
         joints = () if robot is None else robot.joints.values()
         return {self.prefix + joint.child: joint for joint in joints}
@@ -302,7 +305,7 @@ class Model:
         return path is not None and all(track.static for track in path)
 
     def below(self, frame: str) -> frozenset[str]:
-        """Return a frame and all its descendants by the newest parents."""
+        """Return a frame and all its descendants, as connected by the newest edges."""
         found: set[str] = set()
         waiting = [frame]
         while waiting:
@@ -321,12 +324,15 @@ class Model:
 
     @cached_property
     def sensor_frame(self) -> str:
-        """Return the frame to place sensor data in: as requested, else odom, map, world, a root."""
+        """Return the target frame for sensor data: the requested one, odom, map, world or a root.
+
+        The first that exists is used.
+        """
         return self._fixed("odom", "map", "world")
 
     @cached_property
     def fixed_frame(self) -> str:
-        """Return the fixed frame: as requested, else map, odom, world, a root."""
+        """Return the fixed frame: the requested one, else the first of map, odom, world, a root."""
         return self._fixed("map", "odom", "world")
 
     def _fixed(self, *usual: str) -> str:
@@ -346,7 +352,7 @@ class Model:
 
     @cached_property
     def warm(self) -> tuple[Stamp, Stamp]:
-        """Return the log times between which coverage is checked: without `WARM_UP` at the ends."""
+        """Return the log times between which coverage is checked: `WARM_UP` from both ends."""
         return self.start + WARM_UP, self.end - WARM_UP
 
     def log_of(self, stamp: Stamp) -> Stamp:
@@ -360,7 +366,7 @@ class Model:
         return int(through_clock(np.array([stamp]), received, read)[0])
 
     def _streams(self) -> list[Stream]:
-        """Return the streams whose stamps can step back: moving, with several items."""
+        """Return the streams that can show a backward jump: not static, and with several items."""
         streams: list[Stream] = [
             track for track in self.tracks if not track.static and len(track.stamps) > 1
         ]
@@ -471,7 +477,10 @@ class Model:
 
     @cached_property
     def _clock(self) -> tuple[Stamps, Stamps]:
-        """Return times of the simulation's clock (estimated without `/clock`), and log times."""
+        """Return times of the simulation's clock, and the log times at which they were read.
+
+        Without messages on `/clock`, the times are estimated.
+        """
         kept: list[tuple[Stamps, Stamps]] = []
         offset, steady = 0, True
         streams = [
@@ -501,7 +510,7 @@ class Model:
 
 
 def _copies(one: Stream, other: Stream) -> bool:
-    """Whether two streams have the same stamps, as a message and what is computed from it."""
+    """Whether most stamps of two streams are equal, as if one were computed from the other."""
     shares = (np.isin(one.stamps, other.stamps), np.isin(other.stamps, one.stamps))
     return all(float(share.mean()) > 0.5 for share in shares)
 
@@ -511,7 +520,10 @@ def _is_nameless(track: Track) -> bool:
 
 
 def _steps_back(stamps: Stamps) -> list[int]:
-    """Return the stamps after a backward step larger than `LAP`, for stamps of one clock."""
+    """Return the indices of stamps that are older than the stamp before by more than `LAP`.
+
+    A step between a simulation's clock and the wall clock does not count.
+    """
     stamped = np.flatnonzero(stamps != 0)
     kept = stamps[stamped]
     back = np.flatnonzero(

@@ -88,7 +88,15 @@ def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
-    """Return the change of the mount at a window, and its 95 % half-widths, shape (6,) each."""
+    """Return the change of a mount between two parts of a recording, and its uncertainty.
+
+    Args:
+        one: The mount, measured over several windows of the recording.
+        split: Index of the first window after the change.
+
+    Returns:
+        Change in metres and degrees, and half-widths of its 95 % interval, shape (6,) each.
+    """
     shifts = np.array([window.shift for window in one.windows])
     weights = np.array([window.widths for window in one.windows]) ** -2.0
     means, spreads = [], []
@@ -102,7 +110,10 @@ def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
 
 
 def _outside(shift: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
-    """Return the axes on which a difference exceeds the limit; NaN (undetermined) never does."""
+    """Return a sentence for each axis on which a mount differs by more than the limit.
+
+    An undetermined difference (NaN) never exceeds the limit.
+    """
     said = []
     for place, name in enumerate((*AXES, *ANGLES)):
         is_length = place < len(AXES)

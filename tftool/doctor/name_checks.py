@@ -99,7 +99,7 @@ _PLACED = frozenset({"LaserScan", "MultiEchoLaserScan", "PointCloud", "PointClou
 
 
 def _sharing(heards: Iterable[Heard]) -> list[str]:
-    """Return the namespaces of robots with the same topic in one frame; empty for one robot."""
+    """Return the namespaces of the robots that publish the same topic; empty for one robot."""
     robots: dict[str, set[str]] = defaultdict(set)
     for heard in heards:
         robot, _, topic = heard.topic.removeprefix("/").partition("/")
@@ -115,7 +115,7 @@ def _is_scoped(model: Model, name: str) -> bool:
 
 
 def _slashed(heard: Heard, model: Model) -> Iterable[str]:
-    """Return the known frames if a topic's frame has a slash, which `slash-twins` reports."""
+    """Return all known frames if a topic's frame has a leading slash; else an empty tuple."""
     return model.frames if heard.frame.startswith("/") else ()
 
 
@@ -127,14 +127,14 @@ def alike_frames(model: Model, name: str) -> list[str]:
 
 
 def _near(model: Model, name: str) -> list[str]:
-    """Return known names that have a distinctive word of an unknown name, or resemble it."""
+    """Return known frames that share a distinctive word with an unknown name, or resemble it."""
     words = {word for word in distinctive_words(name) if not word.isdigit()}
     found = near_names(last_part(name), sorted(model.frames), 3)
     return [one for one in found if words & distinctive_words(one) or distance(name, one, 1) <= 1]
 
 
 def _fitting(model: Model, kind: str) -> list[str]:
-    """Return leaf frames that no message uses, whose name fits a type of sensor message."""
+    """Return frames whose name fits a message type, without children and without messages."""
     used = {heard.frame for heard in model.heard}
     parents = {track.parent for track in model.tracks}
     words = _KINDS.get(last_part(kind), ())
@@ -329,7 +329,8 @@ def distance(one: str, other: str, most: int) -> int:
     Args:
         one: The first word.
         other: The second word.
-        most: Largest distance of interest; for larger ones, any larger number is returned.
+        most: Largest distance of interest; for a larger distance, the result is any number
+            above `most`.
 
     Source:
         Damerau, "A technique for computer detection and correction of spelling errors",
@@ -474,7 +475,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Return a name for each frame that is the same for all frames connected with it."""
+    """Return a key for each frame; frames that edges connect have the same key."""
     above: dict[str, str] = {}
 
     def top(name: str) -> str:

@@ -368,7 +368,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_waited_for(model: Model, track: Track) -> bool:
-    """Whether messages must wait for an edge: they often arrive before its sample."""
+    """Whether messages below an edge often arrive before the edge's sample for their stamp."""
     if track.median_latency >= 0:
         return True
     below = model.below(track.child)
@@ -400,9 +400,10 @@ def _could_move(model: Model, track: Track) -> bool:
 
 
 def _joints_by_statics(model: Model) -> list[Track]:
-    """Return the moving edges whose child is the parent in a message with several fixed joints.
+    """Return the moving edges whose child is a link of a robot_state_publisher's robot.
 
-    robot_state_publisher sends all fixed joints in one message, and movable ones on /tf.
+    robot_state_publisher sends all fixed joints in one static message. So a frame that is a parent
+    in such a message is a link of the robot, and a moving edge to it is a joint.
     """
     counts = Counter(number for one in model.statics for number in one.messages.tolist())
     carriers = {
@@ -456,7 +457,14 @@ def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]
 
 
 def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
-    """Return the number of parent changes, seconds between them, and log time of the first."""
+    """Return how often a frame changed its parent, the mean seconds between, and the first time.
+
+    Args:
+        tracks: The edges from the parents to the frame.
+
+    Returns:
+        Number of changes, seconds, and log time of the first change (0 without a change).
+    """
     stamps = np.concatenate([track.sorted_stamps for track in tracks])
     logs = np.concatenate([track.logs[track.by_stamp] for track in tracks])
     owner = np.repeat(np.arange(len(tracks)), [len(track.by_stamp) for track in tracks])
@@ -468,7 +476,7 @@ def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
 
 
 def _root(model: Model, frame: str, without: str) -> str:
-    """Return the topmost frame above `frame`, on the path up to but not including `without`."""
+    """Return the topmost ancestor of `frame`; stop below `without` if that is an ancestor."""
     for track in model.above(frame):
         if track.parent == without:
             break

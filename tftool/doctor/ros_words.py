@@ -61,12 +61,17 @@ def is_ros1(evidence: Evidence) -> bool:
 
 
 def ros_words(evidence: Evidence) -> Mapping[str, str]:
-    """Return the words for the ROS version of a recording; ROS 2's if unknown."""
+    """Return the commands and settings of a recording's ROS version; ROS 2's if it is unknown."""
     return _ROS1 if is_ros1(evidence) else _ROS2
 
 
 def in_words(text: str, words: Mapping[str, str] = _BOTH) -> str:
-    """Return a check's text with placeholders replaced by words; by default for ROS 1 and 2."""
+    """Replace the placeholders of commands in a check's text.
+
+    Args:
+        text: The text.
+        words: Text for each placeholder; by default a text that names both ROS 1 and ROS 2.
+    """
     for name, word in words.items():
         text = text.replace(f"{{{name}}}", word)
     return text

@@ -165,7 +165,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def nothing_says(model: Model, root: str) -> Fix:
-    """Return the remedy for a root without evidence for its parent: the places to search."""
+    """Return the remedy if no data shows where to connect a root: the nodes to check."""
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
     return Fix(
@@ -175,7 +175,10 @@ def nothing_says(model: Model, root: str) -> Fix:
 
 
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
-    """Whether a tree without messages only repeats a frame with other axes: odom, odom_ned."""
+    """Whether a tree only has a frame and its versions with other axes, such as odom_ned.
+
+    A tree whose frames have messages is never such a tree.
+    """
     others = {f"{tree.root}_{axes}" for axes in ("ned", "enu", "frd", "flu")}
     return not topics and len(tree.frames) > 1 and tree.frames <= {tree.root, *others}
 

@@ -100,12 +100,20 @@ def _unfreeze(model: Model, stream: Track | Heard) -> Fix:
 
 
 def stands_still(stream: Track | Heard) -> bool:
-    """Whether `frozen-stamp` reports a stream, so that advice about clocks and caches is wrong."""
+    """Whether the check `frozen-stamp` reports a stream, because its stamp does not change.
+
+    Advice about clocks and caches would be wrong for such a stream.
+    """
     return _frozen(stream, _FROZEN) is not None
 
 
 def _frozen(stream: Track | Heard, limits: Limits) -> tuple[int, int, int] | None:
-    """Return a repeated stamp, its count, and its duration on the clock of the stamps; or None."""
+    """Return the stamp that a stream repeats most; None if no stamp is repeated for long.
+
+    Returns:
+        The stamp, the number of its samples, and the time between the first and the last of them,
+        nanoseconds.
+    """
     stamps = stream.stamps
     if limits["times"] > 1 and not (stamps[1:] == stamps[:-1]).any():
         return None
@@ -260,7 +268,10 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _newest_before(tracks: list[Track]) -> tuple[Stamps, Stamps]:
-    """Return stamps in order of arrival, and the newest stamp of the same clock up to each."""
+    """Return all stamps in order of arrival, and for each the newest stamp that had arrived.
+
+    Stamps of a simulation's clock and of the wall clock are compared separately.
+    """
     stamps = np.concatenate([track.stamps for track in tracks])
     if len(tracks) > 1:
         logs = np.concatenate([track.logs for track in tracks])

@@ -43,10 +43,10 @@ class Stream:
     """Stamped items (samples or headers) in the order of their log times.
 
     Attributes:
-        stamps: Stamps of the first lap, nanoseconds, shape (n,).
-        logs: Log times of the first lap, nanoseconds, shape (n,).
-        lap: Number of items in the first lap, before the clock jumped back.
-        arrivals: Log times on the clock of the stamps; set once the clocks are known.
+        stamps: Stamps before the clock first jumped back (the first lap), nanoseconds, shape (n,).
+        logs: Log times of these items, nanoseconds, shape (n,).
+        lap: Number of items n in the first lap.
+        arrivals: Log times converted to the clock of the stamps, once `Model` knows both clocks.
     """
 
     def __init__(self, stamps: Stamps, logs: Stamps) -> None:
@@ -84,9 +84,9 @@ class Stream:
 
     @cached_property
     def wild(self) -> Mask:
-        """Return a mask of single stamps far from the arrivals around them, shape (n,).
+        """Return a mask of single stamps that differ much from their arrival, shape (n,).
 
-        If there are many such stamps, the mask is empty, because the stamps are of another clock.
+        If many stamps differ, no stamp is marked: the stamps come from another clock.
         """
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:
@@ -145,23 +145,23 @@ class Track(Stream):
 
     @cached_property
     def translations(self) -> Floats:
-        """Translations of the first lap, metres, shape (n, 3)."""
+        """Translations of the samples in `stamps`, metres, shape (n, 3)."""
         return self.in_order(self._edge.translations)[: self.lap]
 
     @cached_property
     def rotations(self) -> Floats:
-        """Rotations of the first lap as recorded, x y z w, shape (n, 4)."""
+        """Rotations of the samples in `stamps` as recorded, x y z w, shape (n, 4)."""
         return self.in_order(self._edge.rotations)[: self.lap]
 
     @cached_property
     def senders(self) -> npt.NDArray[np.int32]:
-        """Index of each sample's publisher, shape (n,), in the first lap."""
+        """Index of the publisher of each sample in `stamps`, shape (n,)."""
         senders: npt.NDArray[np.int32] = self.in_order(self._transforms.senders_of(self._edge))
         return senders[: self.lap]
 
     @cached_property
     def messages(self) -> Places32:
-        """Number of each sample's message, shape (n,), in the first lap."""
+        """Number of the message of each sample in `stamps`, shape (n,)."""
         return self.in_order(self._edge.messages)[: self.lap]
 
     @cached_property
@@ -194,7 +194,7 @@ class Track(Stream):
 
     @cached_property
     def finite(self) -> Mask:
-        """Return a mask of the samples with finite numbers only, shape (n,)."""
+        """Return a mask of the samples without NaN and infinity, shape (n,)."""
         if self.is_orderly:
             return np.ones(self.lap, dtype=np.bool_)
         finite = np.isfinite(self.translations).all(axis=1)
@@ -213,7 +213,8 @@ class Track(Stream):
     def usable(self) -> Mask:
         """Return a mask of the samples that tf2 would store.
 
-        Their numbers are finite, their quaternions not zero, and their stamps not 0 unless static.
+        tf2 stores samples with finite numbers and a quaternion that is not zero. A moving sample
+        also needs a stamp that is not 0.
         """
         if self.is_orderly:
             return self.finite
@@ -222,7 +223,7 @@ class Track(Stream):
 
     @cached_property
     def by_stamp(self) -> npt.NDArray[np.intp]:
-        """Indices of usable samples in the order of stamps; for equal stamps, of arrival."""
+        """Indices of usable samples in the order of stamps; equal stamps in order of arrival."""
         if self.is_orderly:
             return np.arange(self.lap)
         places = np.flatnonzero(self.usable)
@@ -231,7 +232,7 @@ class Track(Stream):
 
     @property
     def last(self) -> int:
-        """Return the index of the newest usable sample; if static, of the last to arrive.
+        """Return the index of the newest usable sample; for a static edge, of the last arrived.
 
         Raises:
             IndexError: If no sample is usable.
@@ -240,7 +241,7 @@ class Track(Stream):
 
     @cached_property
     def sorted_stamps(self) -> Stamps:
-        """Stamps of usable samples, ascending, nanoseconds, shape (k,)."""
+        """Stamps of the k usable samples, ascending, nanoseconds, shape (k,)."""
         stamps: Stamps = self.stamps if self.is_orderly else self.stamps[self.by_stamp]
         return stamps
 
@@ -258,13 +259,16 @@ class Track(Stream):
 
     @cached_property
     def first_arrivals(self) -> Stamps:
-        """Return for each sorted stamp when a sample at or after it first arrived, shape (k,)."""
+        """Return, for each of `sorted_stamps`, the first arrival of a sample not older than it.
+
+        The shape is (k,).
+        """
         arrivals = self.arrivals[self.by_stamp]
         earliest: Stamps = np.minimum.accumulate(arrivals[::-1])[::-1]
         return earliest
 
     def served_from(self, stamps: Stamps) -> Stamps:
-        """Return for each stamp the time from which the edge has data for it, or NEVER."""
+        """Return the time from which a lookup at each stamp can succeed on this edge; or NEVER."""
         if self.static:
             return np.full(len(stamps), np.iinfo(np.int64).min)
         places = np.searchsorted(self.sorted_stamps, stamps, side="left")
@@ -273,31 +277,32 @@ class Track(Stream):
         return served
 
     def apart(self, some: Places, others: Places) -> Floats:
-        """Return the distances between samples `some` and `others`, metres, row by row."""
+        """Return the distance between each sample in `some` and its partner in `others`, metres."""
         away = self.translations[some] - self.translations[others]
         apart: Floats = np.sqrt(np.einsum("ij,ij->i", away, away))
         return apart
 
     @cached_property
     def strides(self) -> Floats:
-        """Distances between samples neighbouring by stamp, metres, shape (k - 1,)."""
+        """Distances between usable samples that follow one another by stamp, metres, (k - 1,)."""
         return self.apart(self.by_stamp[1:], self.by_stamp[:-1])
 
     def turned(self, some: Places, others: Places) -> Floats:
-        """Return the angles between samples `some` and `others`, radians, row by row."""
+        """Return the angle between each sample in `some` and its partner in `others`, radians."""
         return angles_between(unit(self.rotations[some]), unit(self.rotations[others]))
 
     def has_turns(self, some: Places, others: Places, radians: float) -> bool:
-        """Whether an angle between `some` and `others` exceeds `radians`; faster than `turned`."""
+        """Whether one of the angles that `turned` returns exceeds `radians`; computed faster."""
         dots = np.einsum("ij,ij->i", self.rotations[some], self.rotations[others])
         lengths = np.sqrt(self.squares[some] * self.squares[others])
         return bool((np.abs(dots) < math.cos(radians / 2.0) * lengths).any())
 
     @cached_property
     def is_localisation(self) -> bool:
-        """Whether REP-105 permits jumps of the edge: the pose of odom or map in a larger frame.
+        """Whether a localiser publishes the edge, so that REP-105 permits jumps.
 
-        Some localisers publish the inverse: map in odom.
+        Such an edge is the pose of odom or map in map, earth or world. Some localisers publish the
+        inverse: map in odom.
         """
         parent, child = last_part(self.parent), last_part(self.child)
         if parent.startswith("odom"):
@@ -353,7 +358,7 @@ class Heard(Stream):
 
 
 def bounded(stamps: Stamps) -> Stamps:
-    """Return stamps clipped so that differences fit into 64 bits; ROS's stamps always do."""
+    """Clip stamps so that differences fit into 64 bits; valid stamps of ROS do not change."""
     if len(stamps) and (stamps.max() > FAR or stamps.min() < -FAR):
         return np.clip(stamps, -FAR, FAR)
     return stamps
@@ -439,7 +444,10 @@ _FAMILY = re.compile(
 
 
 def family(name: str) -> str:
-    """Return a frame name without numbers and words for a side, to find families of frames."""
+    """Return a frame name with "#" for numbers and for words such as left and front.
+
+    Frames of the same kind, such as four wheels, get the same result.
+    """
     return _FAMILY.sub("#", name.lower())
 
 

@@ -1,4 +1,4 @@
-"""State of an assumed listener's buffer at one time, and each link's outcome for its lookup."""
+"""Buffer of an assumed listener at the time of one lookup, and the outcome at each edge."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ MOST_SET = 200_000
 
 
 class LinkVerdict(Enum):
-    """Outcome of a lookup at one link."""
+    """Outcome of a lookup at one edge (link) of its path."""
 
     ANSWERS = "answers"
     FORWARD = "forward"
@@ -35,7 +35,7 @@ class LinkVerdict(Enum):
 
 @dataclass(frozen=True, slots=True)
 class TracedLink:
-    """One link of the path, with the samples of the assumed listener.
+    """One edge (link) of a lookup's path, with the samples that the assumed listener has.
 
     Attributes:
         parent: Parent frame.
@@ -78,14 +78,14 @@ class TracedLink:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """A lookup, with the assumed listener that makes it.
+    """A lookup, with the settings of the assumed listener that makes the lookup.
 
     Attributes:
         target: Target frame.
         source: Source frame.
         stamp: Time of the lookup; 0 for the latest.
-        asked: Log time at which the lookup is made; None for the arrival of the message with that
-            stamp in the source frame, or without such a message for the stamp itself.
+        asked: Log time at which the lookup is made. None for the arrival of the message in the
+            source frame whose stamp is `stamp`; without such a message, the time `stamp`.
         settings: Settings of the listener.
         timeout: Time that the listener waits, nanoseconds.
         topic: Topic of the message that is looked up; empty if there is none.
@@ -101,7 +101,12 @@ class Question:
 
 
 def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Stamp]:
-    """Return the message of a topic with the stamp nearest to a time; the first if `near` is None.
+    """Find the message of a topic whose stamp is nearest to a time.
+
+    Args:
+        model: The evidence, prepared.
+        topic: Name of the topic.
+        near: The time; None for the topic's first message.
 
     Returns:
         The stream with the message, and the message's stamp.
@@ -128,7 +133,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
 
 
 class LookupTrace:
-    """Trace of one lookup of an assumed listener through its links."""
+    """Trace of one lookup of an assumed listener along the edges of the path."""
 
     def __init__(self, model: Model, question: Question) -> None:
         self.model = model
@@ -140,7 +145,10 @@ class LookupTrace:
         self.asked, self.because, self.after = self._asked()
 
     def _message(self) -> Heard | None:
-        """Return the stream of the message to look up: of the given topic, or source frame."""
+        """Return the messages in the source frame that the lookup is about; None without any.
+
+        They are on the question's topic, or on the first topic that has the question's stamp.
+        """
         for heard in self.model.heard:
             if heard.frame != self.question.source or not len(heard.stamps):
                 continue
@@ -167,14 +175,17 @@ class LookupTrace:
     # Samples in the buffer
 
     def arrived(self, track: Track) -> "np.ndarray[tuple[int], np.dtype[np.intp]]":
-        """Return the indices of an edge's usable samples that had arrived."""
+        """Return the indices of an edge's usable samples that arrived before the lookup."""
         places: np.ndarray[tuple[int], np.dtype[np.intp]] = np.flatnonzero(
             track.usable & (track.logs <= self.asked)
         )
         return places
 
     def held(self, track: Track) -> Stamps:
-        """Return the sorted stamps of an edge in the buffer: arrived and not pruned."""
+        """Return the sorted stamps of an edge's samples in the buffer at the lookup.
+
+        They have arrived, and tf2 has not pruned them.
+        """
         stamps = track.stamps[self.arrived(track)]
         if not track.static and len(stamps) > 1:
             # tf2 prunes before it inserts: by the newest stamp before the last sample.
@@ -183,11 +194,11 @@ class LookupTrace:
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """Return the newest of all stamps but the last one; a single stamp is returned."""
+        """Return the newest stamp, ignoring the last one received unless it is the only one."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:
-        """Return the edges from source to target at that time; None without a path."""
+        """Return the edges from source to target at the lookup's time; None without a path."""
         legs = up_to_join(
             self.question.source,
             self.question.target,
@@ -196,7 +207,10 @@ class LookupTrace:
         return None if legs is None else [*legs[0], *reversed(legs[1])]
 
     def _parent(self, frame: str) -> Track | None:
-        """Return the edge above a frame at the lookup's time; of several the nearest in time."""
+        """Return the edge above a frame at the lookup's time; None if there is none.
+
+        If the frame has several parents, this is the edge with the sample nearest in time.
+        """
         tracks = [t for t in self.model.edges_above.get(frame, ()) if len(t.by_stamp)]
         if len(tracks) < 2:
             return tracks[0] if tracks else None
@@ -270,7 +284,7 @@ class LookupTrace:
         return buffer
 
     def settle(self, way: Sequence[Track]) -> None:
-        """Replace a time of 0 (the latest) by the newest time at which all edges have data."""
+        """Set `moment` for a lookup of the latest time: the newest time that all edges have."""
         if self.stamp == LATEST:
             newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
             self.moment = min(newest, default=LATEST)
@@ -278,7 +292,10 @@ class LookupTrace:
     # Times at which the lookup succeeds
 
     def answerable(self, tracks: Sequence[Track]) -> tuple[Stamp | None, Stamp | None]:
-        """Return the log times between which the lookup can succeed."""
+        """Return the first and the last log time at which the lookup can succeed.
+
+        The first is None if it never can; the last is None if it can until the end.
+        """
         begins: list[int] = []
         ends: list[int] = []
         for track in tracks:
@@ -306,4 +323,4 @@ class LookupTrace:
 
 
 def _silent(_level: str, _text: str) -> None:
-    """Ignore log lines of the buffer that imitates a listener: the checks report its failures."""
+    """Ignore a log line of the buffer that imitates a listener; the checks report its faults."""

@@ -314,7 +314,7 @@ _UPRIGHT = 0.7
 
 
 def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
-    """Return the directions of a frame's y and z axes on the robot; None if unknown."""
+    """Return a frame's y and z axes as vectors in the robot's base frame; None if unknown."""
     if frame not in model.frames:
         return None
     turn = IDENTITY
@@ -369,7 +369,10 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_same_base(model: Model, told: Track) -> bool:
-    """Whether tf only has other frames of the robot's base between a message's child and parent."""
+    """Whether a message's child and parent are both frames of the robot's base.
+
+    All frames between them in tf must be base frames too, such as base_footprint.
+    """
     above = model.above(told.child)
     parents = [track.parent for track in above]
     if told.parent not in parents:
@@ -405,7 +408,18 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
 def _disagreement(
     track: Track, told: Track, topic: str, end: Stamp, limits: Limits
 ) -> "Hit | None":
-    """Return a hit if tf and a message's poses differ too much, too often, at equal stamps."""
+    """Return a hit if an edge and an odometry topic often have different poses at one stamp.
+
+    Args:
+        track: The edge in tf.
+        told: The poses in the odometry messages.
+        topic: Name of the odometry topic.
+        end: Log time after which messages are ignored.
+        limits: The thresholds.
+
+    Returns:
+        The hit; None if few poses differ, or the edge is static.
+    """
     if track.static:
         return None
     places = told.by_stamp[told.logs[told.by_stamp] <= end]

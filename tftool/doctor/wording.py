@@ -52,7 +52,7 @@ def moment(stamp: int) -> str:
 
 
 def dated(stamp: int) -> str:
-    """Format a stamp with its date; mark a stamp of a simulation."""
+    """Format a stamp in seconds, with its date or with "(simulation)"."""
     if stamp < SIMULATED_BELOW:
         return f"{moment(stamp)} (simulation)"
     day = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=stamp // 1000)
@@ -170,7 +170,7 @@ def _facts(hit: Hit) -> dict[str, Fact]:
 
 
 def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
-    """Whether two hits have the same publishers and kind, and nearly equal facts."""
+    """Whether two hits have the same publishers and kind, and nearly equal facts in `told`."""
     kinds = [(bool(one.edges), bool(one.topics), one.publishers) for one in (first, other)]
     if kinds[0] != kinds[1]:
         return False
@@ -187,7 +187,7 @@ def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
 
 
 def _line(name: str, rest: str, hits: Sequence[Hit], told: Sequence[tuple[str, str]]) -> str:
-    """Return the common line of evidence of similar hits."""
+    """Return one line of evidence for several similar hits; differing numbers become a range."""
     facts = _facts(hits[0])
     for key, _ in told:
         values = [_facts(hit).get(key) for hit in hits]
