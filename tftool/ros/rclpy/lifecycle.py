@@ -164,8 +164,8 @@ class SimpleManagedEntity(ManagedEntity):
     ) -> Any:
         """Decorate a method so that it runs only while the entity is enabled.
 
-    While the entity is not enabled, `when_not_enabled` is called instead, if it is given.
-    """
+        While the entity is not enabled, `when_not_enabled` is called instead, if it is given.
+        """
 
         def decorate(method: F) -> Any:
             @wraps(method)
