@@ -1,4 +1,4 @@
-"""Calibrations of a sensor's mount, as text lines and as JSON."""
+"""Results of a sensor's calibration (mounting pose, clock offset), as text lines and as JSON."""
 
 import math
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from tftool.geometry.rigid import Transform
 
 
 def lines(found: Calibration, width: int | None = None) -> str:
-    """Return a calibration as text: the mount as tf2 prints it, the clock offset, and a verdict.
+    """Return a calibration as text: mounting pose in tf2's format, clock offset, verdict.
 
     Args:
         found: The calibration.
@@ -89,7 +89,8 @@ def as_object(found: Calibration, check: dict[str, object] | None = None) -> dic
 
     Args:
         found: The calibration.
-        check: Comparison with a published mount, if there is one.
+        check: Comparison with the mounting pose that the recording publishes; None if it publishes
+            none.
     """
     clock = None
     if found.clock_offset is not None and found.clock is not None:

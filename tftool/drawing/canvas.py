@@ -1,7 +1,7 @@
 """Canvas that draws frames on a plane as coloured text lines, at any size.
 
 Trails, axes and lines to parents are drawn in braille (eight dots to a cell), turtles in blocks or
-as arrows. Scales account for cells that are twice as high as wide. The values to draw are a frozen
+as arrows. Scales account for cells that are twice as high as wide. The data to draw are a frozen
 `PlanePicture`, independent of buffers and simulators.
 """
 
@@ -61,7 +61,7 @@ class _KeptDrawing:
 
 
 class Canvas:
-    """Drawer of pictures of one size, which stores the trails it has drawn so far.
+    """Drawer of pictures of one size, which keeps the dots of the trails for the next picture.
 
     Args:
         columns: Width of the picture in cells, including the scale.
@@ -72,7 +72,7 @@ class Canvas:
         scaled: Whether to write metres at the left and below, if there is room.
 
     Attributes:
-        asked: Width and height in cells, as given.
+        asked: Width and height in cells, including the scale.
         columns: Width in cells without the scale.
         rows: Height in cells without the scale.
         gutter: Cells at the left that the scale takes.
@@ -103,7 +103,7 @@ class Canvas:
         self._sheet: CellSheet | None = None
 
     def lines(self, picture: PlanePicture, view: Viewport) -> list[Line]:
-        """Draw a picture; return as many lines, each of as many cells, as were requested."""
+        """Draw a picture; return it as one line of text per row of the canvas."""
         if not self.columns or not self.rows:
             return [[] for _ in range(self.rows)]
         if view != self._view:
@@ -137,7 +137,7 @@ class Canvas:
     # The ground and what is drawn on it
 
     def _ends(self, lines: Points) -> Points:
-        """Convert lines in metres, shape (n, 4) or (n, 2, 2), to dots, shape (n, 2, 2)."""
+        """Convert the ends of lines, shape (n, 4) or (n, 2, 2), from metres to dots, (n, 2, 2)."""
         view = self._view
         with np.errstate(all="ignore"):
             ends = (lines.reshape(-1, 2, 2) - (view.left, view.bottom)) * (4.0 / view.per_row)
@@ -145,7 +145,7 @@ class Canvas:
         return ends
 
     def _gridded(self) -> Dots:
-        """Draw the grid: faint lines, or without colours, dots where the lines cross."""
+        """Draw the grid as faint lines or, without colours, as dots where lines would cross."""
         dots, view = Dots(self.columns, self.rows), self._view
         right = view.left + 0.5 * view.per_row * self.columns
         top, step = view.bottom + view.per_row * self.rows, grid_step(view.per_row)
@@ -171,7 +171,7 @@ class Canvas:
         return inside
 
     def _ground_color(self, role: str, field: TurtleField | None) -> Numbers | int:
-        """Return the colour with a role of `PaperColors`, by cell: beside the field and on it."""
+        """Return a colour of `PaperColors`, such as "grid", for cells on the field and outside."""
         beside = packed(getattr(self._paper, role))
         if field is None:
             return beside
@@ -180,7 +180,7 @@ class Canvas:
     def _grow(
         self, kept: "_KeptDrawing", drawn: Drawn, place: object, field: TurtleField | None = None
     ) -> None:
-        """Draw the new strokes of a drawing; start again if it was moved, replaced or shortened."""
+        """Draw the new strokes of a drawing; draw all if it was moved, replaced or shortened."""
         key, total = (place, drawn.edition), drawn.forgotten + len(drawn.strokes)
         if kept.key != key or total < kept.done:
             kept.key, kept.done = key, 0
@@ -331,7 +331,7 @@ class Canvas:
         return sprites.badge(*place, one.theta, color, per_metre, blocks=not self._ascii)
 
     def _ink_of(self, one: PlaneFrame, *, on_field: bool) -> Color:
-        """Return a frame's colour for its background; amber or red if the frame is stale."""
+        """Return a frame's colour, readable on or beside the field; amber or red if stale."""
         palette = theme.DARK if on_field else self._palette
         return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
 
@@ -387,7 +387,7 @@ class Canvas:
 
 
 def axis_length(view: Viewport, rows: int) -> float:
-    """Return the length in metres of drawn axes: about a tenth of the picture."""
+    """Return the length in metres at which frames' axes are drawn: a tenth of the picture."""
     return view.per_row * min(4.0, max(1.6, rows / 10.0))
 
 
@@ -399,7 +399,7 @@ def metres(value: float, step: float) -> str:
 
 
 def _by_weight(picture: PlanePicture) -> list[PlaneFrame]:
-    """Sort frames by the importance of their names: the chosen pair, turtles, other frames."""
+    """Sort frames by the importance of their labels: the chosen pair, turtles, other frames."""
     return sorted(
         picture.frames,
         key=lambda one: (one.name not in picture.pair, not one.is_turtle, one.parent is None),
@@ -412,7 +412,7 @@ def _multiples(first: float, last: float, step: float) -> Iterator[float]:
 
 
 def _crossings(corners: Sequence[Point], row: float) -> tuple[float, float] | None:
-    """Return the columns where a row enters and leaves a convex shape; None without a crossing."""
+    """Return the columns where a row enters and leaves a convex shape; None if the row misses."""
     found = []
     for (x0, y0), (x1, y1) in zip(corners, (*corners[1:], corners[0]), strict=True):
         if min(y0, y1) <= row < max(y0, y1):
@@ -435,7 +435,7 @@ _SIDES: Final = {
 
 
 def _dashes(start: Point, end: Point, dot: float) -> Iterator[tuple[float, float, float, float]]:
-    """Yield the dashes of a line, which distinguish it from a trail; a long line is one dash."""
+    """Yield a straight line's dashes (x1, y1, x2, y2); a line of over 400 dashes is one dash."""
     length = math.hypot(end[0] - start[0], end[1] - start[1])
     if not dot < length <= FARTHEST:
         return

@@ -1,6 +1,6 @@
 """Arrays of a terminal's cells: braille dots, letters and colours, converted to rich's lines.
 
-A colour is packed in one number, red in the highest byte; `NONE` stands for the terminal's default.
+A colour is packed in one number, red in the highest byte. `NONE` is the terminal's default colour.
 """
 
 from collections.abc import Iterator, Sequence
@@ -42,7 +42,7 @@ _SIGNS: Final = {
 
 
 class Cell(NamedTuple):
-    """Content of one cell; without a background colour, the colour below the cell shows."""
+    """Content of one cell; if its background is None, the background already there is kept."""
 
     text: str
     ink: Color | None = None
@@ -56,7 +56,7 @@ def packed(color: Color | None) -> int:
 
 
 def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
-    """Mix packed colours with one colour; `share` is one number for all, or one per colour."""
+    """Mix packed colours with `end`, whose fraction `share` is one number, or one per colour."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
     mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
@@ -183,10 +183,11 @@ class Dots:
 
 
 def merged(layers: Sequence[Dots]) -> Dots:
-    """Lay curves into one picture; a cell that several share has the dots of all and one colour.
+    """Merge several curves into one picture; a cell crossed by several curves has one colour.
 
-    A curve that changes its line of cells is preferred to a level one, then the curve with the
-    fewest cells of its own. The order is the same in all cells, so no line has several colours.
+    The colour is of a curve that is not level, if one crosses the cell; among such curves, of the
+    one with the fewest cells that no other curve crosses. The order is the same in all cells, so a
+    curve's colour does not alternate.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.
@@ -223,7 +224,7 @@ class CellSheet:
         self._lines: list[Line] = []
 
     def lay(self, dots: Dots, colors: Numbers | int | None = None, *, ascii_only: bool) -> Mask:
-        """Write the characters of some dots; return a mask of the cells that have dots.
+        """Write dots into the sheet as characters; return a mask of the cells that have dots.
 
         Args:
             dots: The dots.

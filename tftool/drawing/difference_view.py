@@ -1,4 +1,4 @@
-"""Differences of two sets of frames, and errors of a trajectory, as text lines and as JSON."""
+"""Differences of two frame trees, and errors of a trajectory, as text lines and as JSON."""
 
 from typing import Final
 
@@ -22,12 +22,12 @@ HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
 def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
-    """Return differences as text: a line for each link that differs, and a summary.
+    """Return differences as text: a line for each edge that differs, and a summary.
 
     Args:
         found: The differences.
-        width: Longest line in cells: further text goes below its link. None for no limit.
-        everything: Whether to include the links that do not differ.
+        width: Longest line in cells: an edge's further text goes below its line. None for no limit.
+        everything: Whether to include the edges that do not differ.
     """
     told = found.links if everything else found.changed
     text = [f"A {visible(found.first)}", f"B {visible(found.second)}"]
@@ -53,7 +53,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 
 
 def summary(found: Differences) -> str:
-    """Return one sentence: how many links differ, by which tolerance."""
+    """Return one sentence with the number of edges that differ, and the tolerance."""
     count, total = len(found.changed), len(found.links)
     limit = found.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
@@ -229,7 +229,7 @@ _FIGURES: Final = ("rmse", "mean", "median", "std", "min", "max")
 
 
 def error_lines(found: TrajectoryErrors, names: tuple[str, str], width: int | None = None) -> str:
-    """Return the errors as text: both trajectories, their matching, and a line per kind of error.
+    """Return errors as text: both trajectories, number of matched poses, a line per kind of error.
 
     Args:
         found: The errors.

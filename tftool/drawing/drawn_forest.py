@@ -1,4 +1,4 @@
-"""Order of the frames in a drawing: children below parents, with the guides and facts of each row.
+"""Order of the frames in a drawing: children below parents, with tree lines and facts of each row.
 
 A buffer holds a forest, but data from elsewhere may contain loops. A frame that is its own ancestor
 must not make a drawing endless.
@@ -17,9 +17,10 @@ class Forest:
 
     Attributes:
         roots: Frames without a parent, and one frame of every loop.
-        loops: Roots that have a parent: the link to that parent closes a loop.
+        loops: Those `roots` that have a parent; the edge to that parent closes a loop, and is not
+            drawn.
         children: Children to draw of every drawn frame, in order of registration.
-        hidden: Number of frames left out below a drawn frame, by its name.
+        hidden: Number of frames left out below a drawn frame, by the drawn frame's name.
         info: Every frame of the snapshot by its name.
     """
 
@@ -52,7 +53,7 @@ def grow(snapshot: Snapshot, *, most: int | None = None) -> Forest:
     for name in info:
         if name not in reached:
             loops.append(name)
-            # The link that closes the loop is cut here, so that the rest is a tree.
+            # The edge that closes the loop is cut here, so that the rest is a tree.
             parent = info[name].parent
             assert parent is not None
             children[parent].remove(name)
@@ -98,7 +99,7 @@ DEEPEST = 64
 
 @dataclass(frozen=True, slots=True)
 class Guides:
-    """The four guide texts of a tree drawing, equally wide, and the gap before a name."""
+    """Lines that draw a tree before names, such as "├── ", all of one width, and a gap."""
 
     child: str
     last: str
@@ -107,12 +108,12 @@ class Guides:
     gap: str = ""
 
     def lead(self, branch: "Branch", most: int | None = None, more: str = "…") -> str:
-        """Return the text before a frame's name: guides, or the depth as a number and one guide.
+        """Return the text before a frame's name: tree lines, or the depth as a number if too deep.
 
         Args:
-            branch: Frame with its place in the tree.
-            most: Most cells for guides; None for as many as `DEEPEST` levels take.
-            more: Sign for guides that are left out.
+            branch: Frame with its position in the tree.
+            most: Most cells for tree lines; None for as many as `DEEPEST` levels take.
+            more: Sign after the number, for the lines left out.
         """
         if not branch.depth:
             return ""
@@ -122,7 +123,7 @@ class Guides:
         return "".join(self.blank if last else self.past for last in branch.turns[:-1]) + own
 
     def width(self, depth: int) -> int:
-        """Return the width in cells of the guides before a name at a depth."""
+        """Return the width in cells of the tree lines before the name of a frame at a depth."""
         return len(self.child) * depth + len(self.gap) if depth else 0
 
 
@@ -144,14 +145,14 @@ ASCII = (
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """Frame with its place in the tree.
+    """Frame with its position in the tree.
 
     Attributes:
         info: The frame.
         depth: Number of levels below the root.
-        turns: For each frame from the root's child to this one, whether it is the last of its
-            siblings; for a deep frame, only the last `DEEPEST` of these.
-        closes_loop: Whether the link above this frame closes a loop, where the drawing cuts it.
+        turns: For each frame on the path from the root's child to this frame, whether it is its
+            parent's last child; for a deep frame, only the last `DEEPEST` of these.
+        closes_loop: Whether the edge to this frame's parent closes a loop, and so is not drawn.
     """
 
     info: FrameInfo
@@ -161,7 +162,7 @@ class Branch:
 
 
 def branches(forest: Forest) -> Iterator[Branch]:
-    """Yield every frame of a forest with its place, parents before children."""
+    """Yield every frame of a forest with its position, parents before children."""
     waiting: list[tuple[str, int, tuple[bool, ...]]]
     waiting = [(root, 0, ()) for root in reversed(forest.roots)]
     loops = frozenset(forest.loops)
@@ -174,7 +175,7 @@ def branches(forest: Forest) -> Iterator[Branch]:
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Facts of one link as text, without trailing zeros as in rqt_tf_tree."""
+    """Broadcaster, rate, and stamps of an edge as text; numbers have no trailing zeros."""
 
     broadcaster: str
     rate: str
@@ -183,7 +184,7 @@ class Facts:
     oldest: str
 
     def lines(self, *, units: bool) -> tuple[str, str, str, str, str]:
-        """Return five lines in rqt_tf_tree's words, with units on request."""
+        """Return five lines in rqt_tf_tree's words; with `units`, "Hz" and "s" are added."""
         hertz, second = (" Hz", " s") if units else ("", "")
         return (
             f"Broadcaster: {self.broadcaster}",
@@ -195,7 +196,7 @@ class Facts:
 
 
 def facts(frame: FrameInfo) -> Facts:
-    """Format the facts of the link from a frame to its parent."""
+    """Format the facts of the edge from a frame to its parent, as rqt_tf_tree does."""
     return Facts(
         broadcaster=frame.authority or "no recorded authority",
         rate=str(float(f"{frame.rate:.3f}")),

@@ -69,8 +69,8 @@ _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w
 def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
     """Return the lines of `block` for a terminal, with x, y and z in the colours of the axes.
 
-    Roll, pitch and yaw have the colours of their axes. So have the matrix's columns, which are the
-    source's axes in the target.
+    Roll, pitch and yaw have the colours of their axes. The matrix's columns have these colours too,
+    because they are the source's axes in the target.
     """
     from rich.text import Text
 
@@ -127,7 +127,7 @@ def failure(now: Stamp, error: TransformException, frames: str) -> str:
 def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
     """Return a transform as a mapping, for --json.
 
-    Numbers have full precision, the stamp is exact, and NaN is null.
+    Numbers have full precision, the stamp is in whole nanoseconds, and NaN becomes null.
     """
     pose = found.transform
     rpy = rpy_from_quaternion(pose.rotation)

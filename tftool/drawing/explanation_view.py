@@ -26,7 +26,7 @@ _WORDS = {
 
 
 def render(found: Explanation) -> RenderableType:
-    """Return an explanation for a terminal: lookup, tf2's error, links, cause, remedies."""
+    """Return an explanation for a terminal: lookup, tf2's error, edges, cause, remedies."""
     facts = Table.grid(padding=(0, 2), pad_edge=False)
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
@@ -71,7 +71,7 @@ def reasons(
 
 
 def so_far(found: Explanation) -> list[Text]:
-    """Return lines on whether a lookup succeeds so far, and why not, while data still arrives."""
+    """Return lines for a live view: whether the lookup succeeds so far, and why not."""
     line = Text(visible(f"so far: {found.source} in {found.target} "))
     line.append(*(("answers", "green") if found.available else ("is refused", "bold red")))
     return [line, *(Text(visible(f"        {why}")) for why in found.why)]
@@ -91,7 +91,7 @@ def _headline(found: Explanation) -> Text:
 
 
 def _later(found: Explanation) -> str:
-    """Return the end of a sentence on when the lookup would succeed, or would have succeeded."""
+    """Return the end of a sentence: when the lookup would succeed instead; "" if unknown."""
     if found.answerable_from is None:
         return ", and would be at any later time"
     late = found.answerable_from - found.asked
@@ -103,7 +103,7 @@ def _later(found: Explanation) -> str:
 
 
 class _Links:
-    """Table with a row for each link; if rows are too wide, a link's message goes below it."""
+    """Table with a row for each edge; if rows are too wide, the message goes below its row."""
 
     def __init__(self, found: Explanation) -> None:
         self._found = found
@@ -174,7 +174,7 @@ def _refusal(link: TracedLink) -> str:
 
 
 def _base(found: Explanation) -> Stamp:
-    """Return the time that is 0 in the table: that of --at, or the recording's start, or 0."""
+    """Return the time shown as 0: the time of --at, else the recording's start, else 0."""
     if found.stamp and found.stamp < SIMULATED_BELOW:
         return 0
     return found.epoch if found.epoch >= SIMULATED_BELOW else 0

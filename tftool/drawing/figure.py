@@ -1,6 +1,6 @@
 """Figures made with matplotlib: curves over time, and a path seen from above.
 
-matplotlib is an extra, imported when something is drawn.
+matplotlib is optional (the extra `plot`), and imported only when a figure is drawn.
 """
 
 from collections.abc import Sequence
@@ -89,17 +89,18 @@ def plot(
     start: Stamp | None = None,
     dark: bool = False,
 ) -> "Figure | Axes":
-    """Draw one or several pairs of frames over time as a matplotlib figure.
+    """Draw the pose of `source` in `target`, or some series of poses, as a matplotlib figure.
 
         tftool.plot(recording, "map", "base_link").savefig("path.svg")
         path = recording.buffer.lookup_transforms("map", "base_link", stamps, missing="nan")
         tftool.plot(path, ax=axes, what="yaw")
 
     Args:
-        frames: Opened frames, a recording, a buffer or a robot, whose pair is looked up at the
-            stamps of the fastest link between the two frames; or one or several series of poses.
-        target: Frame in which the poses of a pair are expressed.
-        source: Frame whose poses are drawn.
+        frames: Opened frames, a recording, a buffer or a robot; or one or several series of poses.
+            Frames are looked up at every stamp of the edge with the most samples between `source`
+            and `target`.
+        target: Frame in which the poses are expressed; None with series of poses.
+        source: Frame whose poses are drawn; None with series of poses.
         ax: Axes for one panel; None for a new figure with all panels.
         what: "position", "rotation", "distance", "speed", "turn rate", or a single curve such as
             "x" or "yaw". If empty, a new figure has all panels, and `ax` has the position.
@@ -111,9 +112,8 @@ def plot(
         The new figure, or `ax`.
 
     Raises:
-        TransformException: If a frame of the pair is unknown, or the two frames are never
-            connected.
-        TypeError: If a pair is given with poses, or frames are given without a pair.
+        TransformException: If `target` or `source` is unknown, or the frames are never connected.
+        TypeError: If `target` and `source` are given with series of poses, or missing without them.
         UsageError: If there is nothing to draw, or the extra `plot` is not installed.
     """
     found = _trajectories(frames, target, source)
@@ -146,7 +146,7 @@ def _trajectories(
     target: str | None,
     source: str | None,
 ) -> list[Trajectory]:
-    """Return the poses of a pair of frames, or the given poses as trajectories."""
+    """Return the poses of `source` in `target`, or the given series, as trajectories."""
     if isinstance(frames, TransformArray | Trajectory | Sequence):
         if target is not None or source is not None:
             raise TypeError(
@@ -246,7 +246,7 @@ def _figure_of_panels(
     make: Any,
     named: bool = True,
 ) -> "Figure":
-    """Return a figure with panels below each other; with `named`, each has its own legend."""
+    """Return a figure with panels below each other; if `named`, each panel has a legend."""
     figure = _empty_figure(1.0 + 1.7 * len(drawn), dark, make)
     with _needed("matplotlib").rc_context(_settings(dark)):
         figure.suptitle(_plain(title), fontsize=11)

@@ -63,7 +63,7 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
 
 
 def so_far(diagnosis: Diagnosis) -> list[Text]:
-    """Return a line for each finding that is a cause, worst first, while data still arrives."""
+    """Return lines for a live view: the findings that no other finding explains, worst first."""
     found = [finding for finding in diagnosis.findings if finding.because_of is None]
     return [_first_line(one) for one in sorted(found, key=lambda one: one.severity.rank)]
 
@@ -91,7 +91,7 @@ def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
         shown.append(f"and {hidden} more (--verbose shows them)")
     lines += [Padding(Text(text), (0, 0, 0, 7)) for text in shown]
     if verbose and len(finding.edges) > MOST_IN_LINE:
-        # A line of evidence may be about many links without naming them.
+        # A line of evidence may be about many edges without naming them.
         edges = ", ".join(f"{child} in {parent}" for parent, child in finding.edges)
         lines.append(Padding(Text(visible(f"transforms: {edges}")), (0, 0, 0, 7)))
     if finding.publishers and verbose:
@@ -110,7 +110,7 @@ def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
 
 
 def head(model: Model) -> str:
-    """Return a line with the source's name and size: duration, frames, links, topics."""
+    """Return a line with the source's name, duration, and numbers of topics, frames and so on."""
     material = model.evidence
     facts = [material.kind]
     if material.end > material.start and material.timed:
@@ -135,7 +135,7 @@ def _last_arrival(model: Model) -> Stamp:
 
 
 def areas(diagnosis: Diagnosis) -> str:
-    """Return a line with the areas in which nothing was found."""
+    """Return a line with the areas (groups of checks) that have no finding."""
     wrong = {finding.area for finding in diagnosis.findings}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -194,7 +194,7 @@ def brief(diagnosis: Diagnosis) -> str:
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
-    """Group the findings that are consequences by the check that explains them, with counts."""
+    """Return, by the check of a cause, the checks of the findings that it explains, with counts."""
     counts: dict[str, dict[str, int]] = {}
     for finding in diagnosis.findings:
         if finding.because_of is not None:
@@ -207,7 +207,7 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
 
 
 def compared(rows: Sequence[tuple[str, Diagnosis | str]]) -> Table:
-    """Return a table of several sources: the findings of each, or why it could not be read."""
+    """Return a table with a row per source: its findings, or the reason why it is unreadable."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("source", overflow="fold")
     for severity in Severity:
@@ -232,7 +232,7 @@ def compared(rows: Sequence[tuple[str, Diagnosis | str]]) -> Table:
 
 
 def statistics(model: Model) -> Table:
-    """Return a table of rate, latency and largest gap of every link and topic."""
+    """Return a table of rate, latency and largest gap of every edge and topic."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("transform or topic", overflow="fold")
     for column in ("kind", "count", "rate", "latency p50", "p95", "worst gap"):
@@ -283,11 +283,11 @@ def listing() -> Table:
 
 
 def explained(check: Check, width: int | None = None) -> str:
-    """Return everything about one check as text.
+    """Return the full description of one check as text.
 
     Args:
         check: The check.
-        width: Longest line in cells; longer ones are wrapped between words. None for no limit.
+        width: Longest line in cells; longer lines are wrapped between words. None for no limit.
     """
     lines = [
         f"{check.id}: {check.summary}",
@@ -366,7 +366,7 @@ def _marked(text: str) -> str:
 
 
 def _general(text: str) -> str:
-    """Return a check's message template with the facts' names in place of their values."""
+    """Return a message template whose placeholders are replaced by names in capitals."""
     parts = []
     for literal, name, spec, _ in Formatter().parse(in_words(text)):
         parts.append(literal)
@@ -453,7 +453,7 @@ def as_markdown(diagnosis: Diagnosis) -> str:
 
 
 def _published(finding: Finding) -> str:
-    """Return the publishers of a finding's links or topics, as the end of a sentence."""
+    """Return the publishers of a finding's edges or topics, as the end of a sentence."""
     by = f"published by {', '.join(finding.publishers)}"
     if not finding.topics or not finding.edges:
         return by

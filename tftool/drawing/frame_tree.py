@@ -1,7 +1,7 @@
 """Trees of frames: as full text, fitted to a terminal's width, or as data for --json.
 
 In a narrow terminal, parts are dropped one by one: first the least useful columns, then the middle
-of the broadcasters' names, wide guides, and the middle of the frames' names.
+of the broadcasters' names, wide tree lines, and the middle of the frames' names.
 """
 
 import re
@@ -26,7 +26,7 @@ from tftool.geometry.rigid import Transform
 
 NOTHING = "No tf data received"
 
-# Text for a missing fact: a static link has no rate and no age.
+# Text for a missing fact: a static edge has no rate and no age.
 NONE = "-"
 
 ROBOT_HEADINGS = ("", "link", "joint")
@@ -52,9 +52,9 @@ def render(
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Text:
-    """Return every tree as text with all facts of each link, at any width.
+    """Return every tree as text with all facts of each edge, in lines of any width.
 
-    `compact` fits the trees to a terminal's width. The arguments are those of `pieces`.
+    The arguments are those of `pieces`. To fit the trees to a terminal's width, use `compact`.
 
     Returns:
         Lines in which control characters are replaced.
@@ -70,12 +70,12 @@ def pieces(
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Iterator[tuple[str, str]]:
-    """Yield the text of every tree in pieces, so that a large tree starts to appear at once.
+    """Yield the text of every tree bit by bit, so that a large tree starts to appear at once.
 
     Args:
         snapshot: Frames to draw.
         ascii_only: Whether to draw the branches in ASCII.
-        moving: For a robot description, the frames whose joint moves; None for other frames.
+        moving: Frames whose joint moves, if the frames are of a robot description; else None.
         marks: Ids of the doctor's findings about each frame.
 
     Yields:
@@ -109,7 +109,7 @@ def pieces(
 
 
 def advice(marks: Marks) -> str:
-    """Return a sentence with the command that explains the first of the findings."""
+    """Return a sentence with the command that explains the first of the doctor's findings."""
     first = next(iter(marks.values()))[0]
     return f"'tftool doctor --explain {first}' tells more."
 
@@ -117,7 +117,7 @@ def advice(marks: Marks) -> str:
 def as_object(
     snapshot: Snapshot, moving: Collection[str] | None = None, marks: Marks = NO_MARKS
 ) -> dict[str, Any]:
-    """Return the trees as a mapping, for --json: nanoseconds, and null for unknown facts."""
+    """Return the trees as a mapping, for --json: times in nanoseconds, null for unknown values."""
     if moving is not None:
         told = as_object(snapshot, marks=marks)
         for frame in told["frames"]:
@@ -178,7 +178,7 @@ def _plain(value: object) -> str:
 
 
 def facts(info: FrameInfo) -> tuple[str, ...]:
-    """Return the facts of the link above a frame, in the order of `HEADINGS` after the name."""
+    """Return the facts of the edge from a frame to its parent, one for each of `HEADINGS`."""
     if info.is_static:
         always = ("static", visible(info.authority or NONE))
         return (*always, *(NONE for _ in HEADINGS[3:]))
@@ -194,7 +194,7 @@ def facts(info: FrameInfo) -> tuple[str, ...]:
 
 
 class _Row(NamedTuple):
-    """Line of a tree: guides, cells (name and facts of the link), style."""
+    """Line of a tree: tree lines before the name, cells (name and facts of the edge), style."""
 
     lead: str
     cells: tuple[str, ...]
@@ -343,13 +343,13 @@ def compact(
     Args:
         snapshot: Frames to draw.
         width: Width in cells.
-        ascii_only: Whether to draw the guides in ASCII.
-        moving: For a robot description, the frames whose joint moves; None for other frames.
+        ascii_only: Whether to draw the tree lines in ASCII.
+        moving: Frames whose joint moves, if the frames are of a robot description; else None.
         marks: Ids of the doctor's findings about each frame.
-        order: Order of the rows; guides are drawn only in the tree's own order.
+        order: Order of the rows; tree lines are drawn only in the tree's own order.
         wanted: Part of the names of frames to show; a tree shows their ancestors too.
         most: Maximum number of rows; None for all rows.
-        history: Earlier rates and delays, for curves.
+        history: Earlier rates and delays of each frame, drawn as small curves.
     """
     forest = grow(snapshot)
     rows = _ordered(forest, order, wanted)[:most]
@@ -388,7 +388,7 @@ def compact(
 
 
 def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
-    """Return a row of a robot description: a link counts as static unless its joint moves."""
+    """Return a row of a robot description in which a frame is static if its joint is fixed."""
     info = branch.info
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 
@@ -399,7 +399,7 @@ def moment(stamp: Stamp) -> str:
 
 
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
-    """Describe the drawing in few words: the time, or the number of movable joints."""
+    """Return a few words above the tree: the time, or the number of joints that move."""
     if moving is not None:
         return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
     if snapshot.at:
@@ -460,7 +460,7 @@ def _link_columns(
     moving: Collection[str] | None,
     marks: Mapping[str, Sequence[str]],
 ) -> list[TableColumn]:
-    """Return the columns with the facts of each link."""
+    """Return the columns with the facts of each frame's edge to its parent."""
 
     def cells(told: Told, style: str = "") -> list[Cell]:
         return [
@@ -499,7 +499,7 @@ def _link_columns(
 
 
 class _Drawing:
-    """First column of a compact tree: guides followed by names."""
+    """First column of a compact tree: tree lines followed by names."""
 
     def __init__(
         self,
@@ -518,7 +518,7 @@ class _Drawing:
         self.is_cut = False
 
     def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
-        """Return guides and name of one frame, cut to `room` cells."""
+        """Return the tree lines and the name of one frame, cut to `room` cells."""
         lead = "" if self.is_flat else self.guides.lead(branch, self.most, more)
         name = self.names[branch.info.frame]
         shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)
@@ -527,7 +527,7 @@ class _Drawing:
         return Text().append(lead, style="dim").append(shown, style=style)
 
     def longest(self, guides: Guides) -> int:
-        """Return the width in cells of the longest name with its guides."""
+        """Return the width in cells of the longest name with its tree lines."""
         return max(
             (
                 cell_len(self.names[one.info.frame])

@@ -139,7 +139,7 @@ class Placer:
 
 
 def _apart(label: Label, column: int, row: int, width: int) -> tuple[float, float]:
-    """Return the rows between a text and a frame's symbol, and between the text and its centre."""
+    """Return a label's distance from its frame's symbol and from the symbol's centre, in rows."""
     nearest = min(max(label.column, column), column + width - 1)
     across, down = abs(nearest - label.column), abs(row - label.row)
     # A cell is twice as high as wide.

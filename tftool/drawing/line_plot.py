@@ -60,7 +60,7 @@ class PlotLook:
         height: Height in lines; None to choose.
         ascii_only: Whether to draw with ASCII characters.
         light: Whether the background is light.
-        numbered: Whether to show the number of each curve, the key that hides it.
+        numbered: Whether to show each curve's number, which is also the key that hides the curve.
         hidden: Numbers of the curves that are hidden.
     """
 
@@ -253,9 +253,9 @@ def _drawn(
 
 
 def _ticks(limits: tuple[float, float], rows: int) -> list[float]:
-    """Return as many ticks as can be whole lines apart, the outer two in the first and last line.
+    """Return ticks of a vertical axis, a whole number of lines apart, from first to last line.
 
-    Each value is drawn in the line at its height, so each tick is exactly in a line.
+    So every tick's label is in a line of text exactly at the tick's height.
     """
     choices = (2,) if rows < 5 else (3,) if rows < 10 else (6, 5, 4, 3)
     found = (round_ticks(*limits, most) for most in choices)
@@ -277,7 +277,7 @@ def draw_curve(dots: Dots, across: Floats, up: Floats, color: Color) -> None:
 
 
 def _axis(low: float, high: float, width: int) -> str:
-    """Format the line below the plot: round seconds below their columns, and the unit."""
+    """Format the labels of the time axis: round numbers of seconds, and the unit "s"."""
     columns = max(10, width - LABELS - 1)
     # A tick slightly outside the data is written at the edge.
     slack = 0.02 * (high - low)
@@ -332,7 +332,7 @@ def pair_plot(
     *,
     ascii_only: bool = False,
 ) -> list[Text]:
-    """Draw distance and yaw of a pair below each other, with scales that do not change.
+    """Draw a pair's distance and yaw, with vertical scales that ignore `span`.
 
     Args:
         path: Poses of the pair, NaN at times without a pose.
@@ -421,7 +421,7 @@ def _value_at(times: np.ndarray, values: np.ndarray, span: PlotSpan) -> float | 
 
 
 def _scale(title: str, values: np.ndarray) -> tuple[float, float]:
-    """Return the limits of a curve's scale: from zero to a round number, or a full turn for yaw."""
+    """Return the limits of a curve's axis: -180° to 180° for yaw, else 0 to a round number."""
     if title == "yaw":
         return -180.0, 180.0
     holds = values[np.isfinite(values)]

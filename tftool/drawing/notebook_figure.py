@@ -1,6 +1,6 @@
-"""Figure that a notebook shows once, whether it is a cell's value or drawn in the cell.
+"""Figure that a notebook shows once, even if it was drawn in a cell and is the cell's value.
 
-This module needs matplotlib, an extra, and is imported when something is drawn.
+This module needs matplotlib (the extra `plot`), and is imported only when a figure is drawn.
 """
 
 from matplotlib import get_backend, pyplot
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 
 class NotebookFigure(Figure):
-    """Figure of pyplot that a notebook does not show twice."""
+    """Figure of pyplot that a notebook shows only once."""
 
     def _ipython_display_(self) -> None:
         """Remove the figure from those shown at the end of the cell, and show it as usual."""

@@ -3,8 +3,8 @@
 Every PDF reader includes Helvetica, but only its Western European letters. Any other letter is
 written as its code, <U+4E16>, so that none disappears.
 
-Boxes are sized by the font's published widths, in thousandths of its size; browsers draw the same
-pictures with a font of similar width.
+Boxes are sized by Helvetica's published letter widths. Browsers draw the same pictures with a font
+of similar width.
 """
 
 import zlib
@@ -126,7 +126,7 @@ def missing_letters(picture: "Picture") -> str:
 
 
 def _file(objects: list[bytes]) -> bytes:
-    """Return a PDF file of some objects, numbered in order; the last one is the catalogue."""
+    """Return a PDF file with objects numbered in order; the last object is the catalogue."""
     out = bytearray(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n")
     offsets = []
     for number, body in enumerate(objects, start=1):

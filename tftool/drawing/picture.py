@@ -1,8 +1,8 @@
-"""Layout of a snapshot's trees on a sheet: cards, links and a legend, as plain shapes.
+"""Layout of a snapshot's trees on a sheet: cards, edges and a legend, as plain shapes.
 
-Each frame has a card with rqt_tf_tree's five facts about the link above it. Trees are side by side.
-Many leaves of one parent are drawn as a group, so that three hundred frames stay readable. `svg`
-and `pdf` write the shapes to files.
+Each frame has a card with rqt_tf_tree's five facts about the edge to its parent. Trees are side by
+side. Many leaves of one parent are drawn as a group, so that three hundred frames stay readable.
+`svg` and `pdf` write the shapes to files.
 """
 
 import math
@@ -69,7 +69,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """Curve of a link between two points, which begins and ends vertically or horizontally."""
+    """Curve of an edge between two cards, which begins and ends vertically or horizontally."""
 
     x0: float
     y0: float
@@ -106,7 +106,8 @@ def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str
 
     Args:
         snapshot: Frames to draw.
-        most: Most frames to draw; the deepest are left out, and counted in the picture.
+        most: Most frames to draw; the deepest frames are left out, and the picture shows their
+            number.
         stale: Frames that are not published any more; their cards show their age.
     """
     forest = grow(snapshot, most=most)
@@ -129,10 +130,10 @@ class _Card:
 
 
 def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
-    """Return one card per drawn frame, by its name.
+    """Return the cards of the drawn frames, by frame name.
 
-    Frames left out below a frame have a card with their number, under the frame's name and a
-    newline.
+    If frames below a frame are left out, a further card shows their number. Its key is the frame's
+    name followed by a newline.
     """
     cards = {}
     shown = distinct(forest.children)
@@ -140,7 +141,7 @@ def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
     for name in forest.children:
         frame = forest.info[name]
         root = frame.parent is None
-        # A static link has no rate and no age: tf2 counts 10000 Hz and 0 s for it.
+        # A static edge has no rate and no age: tf2 counts 10000 Hz and 0 s for it.
         told = () if root else facts(frame).lines(units=True)[: 1 if frame.is_static else None]
         if name in stale:
             told = tuple(_aged(line, frame.age) for line in told)
@@ -229,7 +230,7 @@ class _Sheet:
         self._items_placed = (items, corners)
 
     def squareness(self) -> float:
-        """Return how far the sheet's shape is from a screen's, 1.6 to 1; 0 is equal."""
+        """Return how far the sheet's shape differs from a screen's (1.6 to 1); 0 if equal."""
         return abs(math.log(self.width / self.height / 1.6))
 
     def _items(self) -> list[Item]:
@@ -264,7 +265,7 @@ class _Sheet:
         return math.ceil((subject.width + ACROSS_GAP) / self.pitch)
 
     def _below(self, name: str) -> list[tuple[_Card | _Group, str | None]]:
-        """Return the cards below a frame, with many leaves joined in one group."""
+        """Return the cards below a frame; many leaves are joined in one group."""
         children = [*self.forest.children[name]]
         if name in self.forest.hidden:
             children.append(_rest(name))

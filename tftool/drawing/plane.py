@@ -1,4 +1,4 @@
-"""Values of a picture of frames, seen along the z axis of one fixed frame.
+"""Data of a 2-D picture of frames, seen along the z axis of one fixed frame.
 
 Units are metres and radians in the fixed frame. `drawing/canvas.py` draws the picture.
 """
@@ -95,7 +95,7 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """Strokes of one drawing, which only grow in number until the drawing is replaced.
+    """Strokes of one drawing; strokes are only added, until the whole drawing is replaced.
 
     Attributes:
         strokes: The newest strokes, oldest first.
@@ -123,17 +123,17 @@ class ColoredLines:
 
 @dataclass(frozen=True, slots=True)
 class PlanePicture:
-    """Values of a picture of frames on a plane, at one time, in one fixed frame.
+    """Data of a picture of frames on a plane, at one time, in one fixed frame.
 
     Attributes:
         fixed: Name of the fixed frame; empty if there are no frames.
-        frames: All frames of its tree, in order of registration.
+        frames: All frames of the fixed frame's tree, in order of registration.
         field: Field on which the turtles draw; None if it cannot be placed.
         pen: Lines of the turtles' pens, in metres of the field.
         trails: Paths of moving frames, in metres of the fixed frame, oldest first.
         pair: Target and source of the shown pair, which a line connects.
         apart: Pictures of the other trees, each in its own root.
-        nowhere: Frames of this tree that have no pose at this time.
+        nowhere: Frames of the fixed frame's tree that have no pose at this time.
     """
 
     fixed: str = ""
@@ -146,7 +146,7 @@ class PlanePicture:
     nowhere: tuple[str, ...] = ()
 
     def bounds(self) -> Box:
-        """Return the box around everything in the picture, with a margin outside the field."""
+        """Return the box around the picture, with a margin unless everything is on the field."""
         field = None if self.field is None else _box(self.field.corners())
         points = [(one.x, one.y) for one in self.frames]
         if len(self.trails.ends):

@@ -137,7 +137,7 @@ def finding_line(
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
 ) -> Text:
-    """Return number, time and text of the finding nearest to the position; empty without any.
+    """Return number, time and text of the finding nearest to the position; empty if none.
 
     Args:
         playback: State of the player.

@@ -27,8 +27,8 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
 
     Args:
         recording: The recording.
-        width: Longest line in cells: sentences are wrapped, columns without room left out. None
-            for no limit.
+        width: Longest line in cells: sentences are wrapped, and columns that do not fit are left
+            out. None for no limit.
         name: Name to print instead of the opened path.
     """
     source = recording.source
@@ -235,13 +235,14 @@ def table(
     goes: tuple[str, ...] = (),
     right: tuple[str, ...] = (),
 ) -> list[str]:
-    """Format a table as lines, in columns as wide as their cells up to a limit.
+    """Format a table as lines; a column is as wide as its widest cell, up to a limit.
 
     Args:
         heads: Headings of the columns.
         rows: Cells of each row.
         width: Longest line in cells; None for no limit.
-        goes: Headings of columns that shrink or are left out without room, in that order.
+        goes: Headings of the columns to narrow or leave out if the table is too wide, the first to
+            go first.
         right: Headings of columns to align to the right, as numbers are.
     """
     widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]

@@ -1,4 +1,4 @@
-"""Outcomes of checked scenarios (reports), as a table, as JSON and as JUnit XML."""
+"""Reports on checked scenarios (expected and found values), as table, JSON and JUnit XML."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -14,7 +14,7 @@ from tftool.base.report import Judgement, Report
 
 
 def render(reports: Sequence[Report]) -> Table:
-    """Return a table with a line for each report, and its failures below."""
+    """Return a table with a line for each report, followed by the report's failures."""
     table = Table.grid(padding=(0, 2), pad_edge=False)
     for _ in range(3):
         table.add_column(overflow="fold")
@@ -48,7 +48,7 @@ def _told(report: Report) -> str:
 
 
 def render_all(reports: Sequence[Report]) -> Table:
-    """Return a table of all judgements, grouped by report, with failures highlighted."""
+    """Return a table of every expectation and its outcome, grouped by report."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("scenario", overflow="fold")
     table.add_column("expected", overflow="fold", ratio=3)
@@ -125,7 +125,7 @@ def as_junit(
     Args:
         reports: The reports.
         command: Name of the command that made the reports.
-        whole: Name of the test case for a report without judgements.
+        whole: Name of the test case for a report of a scenario without expectations.
     """
     root = ElementTree.Element("testsuites", name=command)
     for report in reports:

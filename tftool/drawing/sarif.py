@@ -90,7 +90,7 @@ def _message(finding: Finding) -> str:
 
 
 def _location(source: str, finding: Finding | None = None) -> dict[str, Any]:
-    """Return a SARIF location: the start of the file, and a finding's frames, links and topics."""
+    """Return a SARIF location: the start of the file, and a finding's frames, edges and topics."""
     path = Path(source)
     if "://" in source:
         address = quote(source, safe=":/?#[]@!$&'()*+,;=%", errors="surrogateescape")

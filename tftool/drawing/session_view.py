@@ -149,7 +149,7 @@ class _Writer:
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
-        """Return a row for each name, with its columns, and its list at the end or below."""
+        """Return a row for each name with its columns; its list follows, or is in a line below."""
         if not names:
             return []
         longest = max(map(cell_len, names))

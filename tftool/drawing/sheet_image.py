@@ -1,4 +1,4 @@
-"""PNG file of a tree picture, drawn by matplotlib (an extra)."""
+"""PNG file of a tree picture, drawn by matplotlib (the extra `plot`)."""
 
 import io
 from importlib import import_module

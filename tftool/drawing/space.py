@@ -1,4 +1,4 @@
-"""Values of a 3-D picture of frames, and the camera that orbits them."""
+"""Data of a 3-D picture of frames, and the camera that orbits the frames."""
 
 import math
 from dataclasses import dataclass, field
@@ -49,7 +49,7 @@ class SpaceFrame:
 
 @dataclass(frozen=True, slots=True)
 class SpacePicture:
-    """Values of a 3-D picture of frames, at one time, in one fixed frame.
+    """Data of a 3-D picture of frames, at one time, in one fixed frame.
 
     Attributes:
         fixed: Name of the fixed frame.
@@ -95,8 +95,8 @@ class Viewpoint(NamedTuple):
 class OrbitCamera:
     """Camera that orbits a scene, and shows the whole scene until the user zooms or pans.
 
-    Until then, the view grows at once with the scene, and shrinks only when most of the view is
-    empty.
+    Until the user zooms or pans, the view grows at once with the scene, and shrinks only when most
+    of the view is empty.
 
     Attributes:
         name: Name of the view; "orbit" after the camera was turned.
@@ -123,14 +123,14 @@ class OrbitCamera:
         self.look_from(names[(names.index(self.name) + 1) % len(names)])
 
     def turn(self, right: float, up: float) -> None:
-        """Orbit the scene by some steps to the right and up."""
+        """Orbit the scene to the right and up, each by a number of `TURN`s (a fixed angle)."""
         self.name = "orbit"
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi
         self._elevation = min(quarter, max(-quarter, self._elevation + TURN * up))
 
     def zoom(self, steps: float) -> None:
-        """Zoom in by some steps, or out if negative."""
+        """Zoom in by a number of steps, or out if the number is negative."""
         self._factor = min(NEAREST, max(MOST_DISTANT, self._factor * STEP**steps))
 
     def pan(self, columns: float, rows: float) -> None:

@@ -1,7 +1,7 @@
-"""Drawing of 3-D pictures of frames: a depth buffer in numpy, shaded half blocks, braille lines.
+"""Drawing of 3-D pictures of frames in a terminal: shaded solids, and lines in braille dots.
 
-The depth buffer has one point per braille dot; four points make half a cell of a solid. Lines are
-dots: solids hide the lines of the ground, and the axes are drawn through solids.
+The depth buffer has one point per braille dot; four points make one half block of a solid. Solids
+hide the lines of the ground, but not the axes of frames.
 """
 
 from collections.abc import Sequence
@@ -71,9 +71,8 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        names: For each label, the most important first: the frame at its place, the text, the
-            number of frames at that place, and the column and row in dots from the upper left
-            corner.
+        names: For each label, the most important first: the labelled frame, the text, the number of
+            frames at this position, and the column and row in dots from the upper left corner.
         grid: Metres between two lines of the grid.
     """
 
@@ -222,7 +221,7 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Return a mask of the points where a part of a solid ends in front of any part."""
+    """Return a mask of the outlines: points in front of a neighbour of another solid or depth."""
     edge = np.zeros(whose.shape, bool)
     with np.errstate(invalid="ignore"):
         for here, there in (
@@ -240,10 +239,10 @@ def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
 def _named(
     picture: SpacePicture, places: Sequence[Sequence[float]]
 ) -> list[tuple[SpaceFrame, str, int, Sequence[float]]]:
-    """Return (frame, label, number of frames, position) for each place that has frames.
+    """Return (frame, label, number of frames, position) for each position that has frames.
 
-    The chosen frame is first, then the pair, the frames without children, the roots, and all
-    others.
+    The order is: the chosen frame, the frames of the pair, frames without children, roots, all
+    other frames.
     """
     labels: dict[tuple[int, int], list[int]] = {}
     parents = {one.parent for one in picture.frames}
@@ -351,7 +350,7 @@ class SpaceCanvas:
         self._places: list[tuple[float, float, str]] = []
 
     def lines(self, picture: SpacePicture, view: Viewpoint) -> list[Line]:
-        """Draw a picture; return as many lines, each of as many cells, as were requested."""
+        """Draw a picture; return it as one line of text per row of the canvas."""
         columns, rows = self.columns, self.rows
         if not columns or not rows:
             return [[] for _ in range(rows)]
@@ -502,7 +501,7 @@ def _few_shades(colors: npt.NDArray[np.floating]) -> Indices:
 
 
 def corners_of(picture: SpacePicture) -> npt.NDArray[np.float64]:
-    """Return the points of a picture that should be visible, shape (n, 3)."""
+    """Return the points that the view of a picture should include, shape (n, 3)."""
     parts: list[npt.NDArray[np.floating]] = [
         np.array([one.pose.translation for one in picture.frames], float).reshape(-1, 3)
     ]

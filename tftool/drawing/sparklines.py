@@ -53,7 +53,7 @@ class TrafficLook(NamedTuple):
 
 
 class TrafficHistory:
-    """Rate and delay of every frame that is published repeatedly, over the last moments."""
+    """Rate and delay of every frame that is published repeatedly, at the last calls of `look`."""
 
     def __init__(self) -> None:
         self._counts: dict[str, deque[tuple[Stamp, int]]] = {}
@@ -75,7 +75,7 @@ class TrafficHistory:
             counts.append((now, link.series.total))
             (first, before), (last, total) = counts[0], counts[-1]
             rate = (total - before) / as_seconds(last - first) if last > first else None
-            # A link that is silent has no current delay, only its last one.
+            # An edge that is silent has no current delay, only its last one.
             delay = None if rate == 0.0 else link.series.latest_delay
             looks = self._looks.setdefault(name, deque(maxlen=LOOKS))
             looks.append(TrafficLook(now, rate, delay))

@@ -91,7 +91,7 @@ def body(
 
 @lru_cache
 def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
-    """Return a block character for four quadrants, and the parts for its two colours."""
+    """Return the block character for a cell of four pixels, and its foreground and background."""
     seen = Counter(part for part in parts if part != _NOTHING).most_common()
     first = seen[0][0]
     is_edge = _NOTHING in parts
@@ -109,7 +109,7 @@ def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
 def badge(
     x: float, y: float, theta: float, color: Color, per_metre: float, *, blocks: bool = True
 ) -> Iterator[tuple[int, int, Cell]]:
-    """Draw a turtle as an arrow, on a coloured badge if a metre has enough rows.
+    """Draw a turtle as an arrow; if a metre has enough rows, on a coloured badge.
 
     Arguments and results are those of `body`; without `blocks` the arrow is in ASCII.
     """

@@ -1,4 +1,4 @@
-"""Steps (jumps) in the pose of a localiser or odometry, for terminals and --json."""
+"""Jumps ("steps") in the pose of a localiser or odometry, for terminals and --json."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,7 +18,7 @@ SCHEMA = "tftool.steps/1"
 
 
 def render(model: Model, steps: Sequence[LocalisationStep]) -> RenderableType:
-    """Return a table of steps: time, link, size, and the drift since the step before."""
+    """Return a table of jumps: time, edge, size, and the drift since the jump before."""
     if not steps:
         return Text(visible(f"{model.evidence.name}: no steps"))
     table = Table(box=None, pad_edge=False, title_justify="left", title_style="bold")
@@ -43,7 +43,7 @@ def _both(metres: float, radians: float) -> tuple[str, str]:
 
 
 def as_object(model: Model, steps: Sequence[LocalisationStep]) -> dict[str, Any]:
-    """Return steps as a mapping, for --json: whole nanoseconds, metres and radians."""
+    """Return jumps as a mapping, for --json: whole nanoseconds, metres and radians."""
     return {
         "schema": SCHEMA,
         "source": model.evidence.name,

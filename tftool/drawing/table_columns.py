@@ -49,7 +49,7 @@ class TableColumn:
 
 @dataclass(frozen=True, slots=True)
 class FittedColumns:
-    """Columns that fit a width, beside a first column.
+    """Columns of a table that fit a width, to the right of a first column.
 
     Attributes:
         columns: Columns from left to right.

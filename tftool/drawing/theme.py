@@ -1,4 +1,4 @@
-"""Colours: turtlesim's own, one for each name, and those of screens and backgrounds.
+"""Colours: turtlesim's, a colour for each frame's name, and those of screens and backgrounds.
 
 Colours that fade as in rviz are in the page's `screens/browser/page/model.js`.
 """
@@ -105,7 +105,7 @@ def is_stale(age: float) -> bool:
 
 
 def of_age(color: Color, age: float, palette: Palette) -> Color:
-    """Return a frame's colour by its age: its own, amber when silent, red when it counts as lost.
+    """Return a frame's colour by its age: its own, amber when silent, red after a long silence.
 
     Args:
         color: Colour of the frame.
@@ -129,7 +129,7 @@ def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool
 
 
 class PaperColors(NamedTuple):
-    """Colours of everything but the frames on one background."""
+    """Colours on one background: the background, its grid, lines to parents, axes."""
 
     ground: Color
     grid: Color
@@ -145,7 +145,7 @@ _DEEP: Final = (Color(205, 20, 30), Color(0, 135, 50), Color(20, 90, 230))
 
 
 def paper(palette: Palette) -> PaperColors:
-    """Return the colours for a screen's own background."""
+    """Return the colours for drawing on a screen's own background."""
     red, green, blue = _DEEP if palette is LIGHT else _BRIGHT
     return PaperColors(
         palette.panel,
@@ -159,7 +159,7 @@ def paper(palette: Palette) -> PaperColors:
 
 
 def on_field(ground: Color) -> PaperColors:
-    """Return the colours for the turtles' field with a background colour."""
+    """Return the colours for drawing on the turtles' field, which has the colour `ground`."""
     return PaperColors(
         ground,
         blend(ground, WHITE, 0.13),

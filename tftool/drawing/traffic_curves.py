@@ -84,7 +84,7 @@ class TrafficLayout:
         return theme.ink(color, bold=bold)
 
     def state(self, late: str) -> Color:
-        """Return the colour of a link's numbers: amber or red if the link is late."""
+        """Return the colour of an edge's numbers: amber or red if the edge is late."""
         palette = self.palette
         return {"yellow": palette.warning, "red": palette.error}.get(late, palette.text)
 
@@ -92,12 +92,12 @@ class TrafficLayout:
 def curves(
     now: Stamp, links: Sequence[FrameTraffic], history: TrafficHistory, layout: TrafficLayout
 ) -> list[Text]:
-    """Draw each link's rate and delay over the last minute; the links share the lines evenly.
+    """Draw each edge's rate and delay over the last minute; all edges get equally many lines.
 
     Args:
         now: Current time of the clock in nanoseconds.
-        links: Links from top to bottom.
-        history: Earlier rates and delays of each link.
+        links: Edges (a frame and its parent) from top to bottom.
+        history: Earlier rates and delays of each edge.
         layout: Size and style.
     """
     dim = layout.ink(layout.palette.dim)
@@ -194,7 +194,7 @@ def _block(
     height: int,
     layout: TrafficLayout,
 ) -> list[Text]:
-    """Return the lines of one link: its name, and both curves beside their numbers."""
+    """Return the lines of one edge: its name, and both curves beside their numbers."""
     palette = layout.palette
     dim = layout.ink(palette.dim)
     late = late_style(now, link.series, link.is_static)
@@ -229,7 +229,7 @@ def _block(
 
 
 def _numbers(now: Stamp, link: FrameTraffic, tall: int) -> tuple[list[str], list[str]]:
-    """Return the numbers at the left of the rate and of the delay curve, one per line."""
+    """Return the numbers that are written to the left of the rate curve and the delay curve."""
     series: Series = link.series
     if link.is_static:
         return ["static"], []

@@ -19,7 +19,7 @@ NONE = "-"
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """Pair of frames to monitor, with the links between them.
+    """Pair of frames to monitor, with the frames between them.
 
     Attributes:
         target: Frame in which the pose is looked up.
@@ -74,7 +74,7 @@ def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
 
 
 def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
-    """Format the line about one broadcaster as tf2_monitor does (also without a comma)."""
+    """Format the line about one broadcaster as tf2_monitor does, which omits a comma."""
     average, maximum = _delays(series, as_tf2)
     rate = series.tf2_rate if as_tf2 else series.rate
     return (
@@ -94,8 +94,8 @@ def table(
 ) -> Text:
     """Return a table of frames, in the chain's order if there is one, and of publishers.
 
-    Late links, by the doctor's limits, are amber: stamped long before they arrive, or silent for
-    many periods. After a longer silence they are red.
+    An edge is amber if its transforms are stamped long before they arrive, or if it has been silent
+    for many periods. After a longer silence it is red. The limits are the doctor's.
 
     Args:
         now: Current time of the clock in nanoseconds.
@@ -103,7 +103,7 @@ def table(
         traffic: Statistics of the received messages.
         chain: Pair of the report; None for all frames.
         width: Width in cells.
-        height: Height in lines; further rows are counted.
+        height: Height in lines; a last line shows the number of rows that do not fit.
         ascii_only: Whether to draw with ASCII only.
     """
     links = links_of(traffic, chain)
@@ -165,7 +165,7 @@ def _rows(
 
 
 def _within(rows: list[Text], room: int) -> list[Text]:
-    """Return the first rows, and a line with the number of rows left out."""
+    """Return the rows that fit; if some do not, a last line with their number."""
     if len(rows) <= max(2, room):
         return rows
     kept = max(1, room - 1)
@@ -217,7 +217,7 @@ BAR = 8
 
 
 def bar(rate: float, fastest: float, cells: int = BAR, *, ascii_only: bool) -> str:
-    """Return a bar whose length shows a rate; the bar is lower than a line, so bars stay apart."""
+    """Return a bar as long as a rate is high, lower than a line so that bars do not touch."""
     if fastest <= 0.0 or rate <= 0.0:
         return ""
     return ("#" if ascii_only else "▇") * max(1, round(cells * rate / fastest))
@@ -229,7 +229,7 @@ def silence(now: Stamp, series: Series) -> Duration:
 
 
 def is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
-    """Return whether a link has been silent for many of its periods."""
+    """Return whether an edge has been silent for many of its periods."""
     if is_static or series.rate is None:
         return False
     return has_stopped(as_seconds(silence(now, series)), series.rate)
@@ -241,18 +241,18 @@ def has_stopped(silent: float, rate: float) -> bool:
 
 
 def present_rate(now: Stamp, series: Series) -> float | None:
-    """Return the rate of a link or a publisher, hertz: 0 if it has stopped, None if unknown."""
+    """Return the rate of an edge or a publisher, hertz: 0 if it has stopped, None if unknown."""
     return 0.0 if is_silent(now, series, False) else series.rate
 
 
 def rate_words(now: Stamp, series: Series) -> str:
-    """Format the present rate of a link or a publisher."""
+    """Format the present rate of an edge or a publisher."""
     rate = present_rate(now, series)
     return NONE if rate is None else f"{rate:.2f} Hz"
 
 
 def late_style(now: Stamp, series: Series, is_static: bool) -> str:
-    """Return the style of a link's numbers: yellow or red if the link is late, else ""."""
+    """Return the style of an edge's numbers: yellow or red if the edge is late, else ""."""
     if is_silent(now, series, is_static):
         return "red" if as_seconds(silence(now, series)) > FRAME_TIMEOUT else "yellow"
     delay = series.average_delay
@@ -288,7 +288,7 @@ def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[
 
 
 def links_of(traffic: Traffic, chain: Chain | None) -> list[FrameTraffic]:
-    """Return the links of a report, sorted by name."""
+    """Return the edges of a report, sorted by frame name."""
     wanted: Collection[str] = traffic.links if chain is None else chain.frames
     return [link for name, link in sorted(traffic.links.items()) if name in wanted]
 

@@ -2,11 +2,11 @@
 
 A parent is above the middle of its first and last child, siblings keep a gap, and subtrees are as
 close as their outlines allow (the idea of Reingold and Tilford). Packing from one side makes small
-subtrees lean on one neighbour. So the forest is packed from both sides and the results are
-averaged: both keep every distance, therefore the mean does, and it is symmetric.
+subtrees lean on one neighbour. So the forest is packed from both sides, and the positions are
+averaged. Both packings keep the gaps, therefore the mean does too, and it is symmetric.
 
-Time and memory are linear in the number of items. No function is recursive, so a chain of
-thousands of items is no problem.
+Time and memory are linear in the number of items. No function is recursive, so a chain of thousands
+of items is no problem.
 """
 
 from collections.abc import Sequence
@@ -30,14 +30,14 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """Place of an item: the middle of its breadth, and its level."""
+    """Position of an item: the middle of its breadth, and its level."""
 
     middle: float
     level: int
 
 
 def tidy(items: Sequence[Item], roots: Sequence[int], *, gap: float, tree_gap: float) -> list[Spot]:
-    """Place a forest of items, with its left edge at 0.
+    """Compute the positions of a forest's items; the forest's left edge is at 0.
 
     Args:
         items: All items; each is reached from the roots exactly once.
@@ -46,7 +46,7 @@ def tidy(items: Sequence[Item], roots: Sequence[int], *, gap: float, tree_gap: f
         tree_gap: Smallest distance between two trees.
 
     Returns:
-        One place per item, in the order of the items.
+        One position per item, in the order of the items.
     """
     order = _parents_first(items, roots)
     forward = _pack(items, roots, order, gap, tree_gap, mirrored=False)
@@ -124,9 +124,9 @@ def _row(
 class _Outline:
     """Extent of a subtree on either side, level by level.
 
-    The lists begin at the deepest level, so that a new top is appended and the common levels of two
-    outlines are at the ends of both. Each list has an offset, so that moving a subtree costs
-    nothing.
+    The lists begin at the deepest level: a new top level is appended, and the levels that two
+    outlines share are at the ends of both. Each list has an offset, so that moving a subtree
+    changes one number.
     """
 
     __slots__ = ("left", "left_shift", "right", "right_shift")

@@ -1,7 +1,7 @@
 """Pictures of the frame tree as dot, Mermaid, SVG, HTML, PDF or PNG, without Graphviz.
 
-dot is the text of view_frames, so that programs for frames.gv can read it. The other formats have
-tftool's own layout. All of them show names unchanged.
+The dot text equals that of view_frames, so that programs for frames.gv can read it. The other
+formats have tftool's own layout.
 """
 
 import re
@@ -47,10 +47,10 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
 
 
 def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Return the text of view_frames' dot file, the same byte for byte unless a link is static.
+    """Return the text of view_frames' dot file, the same byte for byte if no edge is static.
 
-    Static links are dashed. view_frames attaches its legend to one of several trees, and fails on a
-    loop; here every root has a legend line, and a loop has none. All frames are in the picture.
+    Static edges are dashed. All frames are in the picture. The legend is attached to every root;
+    view_frames attaches it to one root only, and fails if there is a loop.
     """
     named = distinct(frame.frame for frame in snapshot.frames)
     known = frozenset(named)
@@ -100,7 +100,7 @@ def _dot_label(text: str) -> str:
 
 
 _MERMAID_LINKS = 450
-"""Mermaid refuses flowcharts of more than 500 links, and of more than 50 000 characters."""
+"""Mermaid refuses flowcharts of more than 500 edges, and of more than 50 000 characters."""
 _MERMAID_TEXT = 49_000
 _MERMAID_NAME = 60
 
@@ -108,8 +108,8 @@ _MERMAID_NAME = 60
 def mermaid(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Return a Mermaid flowchart of the trees, which GitHub and many wikis draw.
 
-    Mermaid refuses large charts. Then links show only their rate, and if that is not enough, the
-    frames farthest from their root are left out; the chart says so.
+    Mermaid refuses large charts. In a large chart, edges show only their rate. If the chart is
+    still too large, the frames farthest from their root are left out, and a note says so.
     """
     forest = grow(snapshot, most=_MERMAID_LINKS)
     text = _flowchart(snapshot, forest, full=True)
