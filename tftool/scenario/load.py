@@ -239,7 +239,7 @@ class _ScenarioReader:
     def against_a_tree(
         self, places: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
     ) -> None:
-        """Record nodes whose links contradict each other: two parents, or a loop."""
+        """Record nodes whose edges contradict each other: two parents of a frame, or a loop."""
         parents: dict[str, tuple[str, int]] = {}
         for item, (kind, _, parameters) in zip(places, items, strict=True):
             link = None if parameters is UNREAD else link_of(kind, parameters)

@@ -290,9 +290,9 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
 
 
 def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
-    """Return parent and child of the single link that a node with these parameters publishes.
+    """Return parent and child of the single edge that a node with these parameters publishes.
 
-    Return None for a node that publishes no link, or links that its parameters do not name.
+    Return None if the node publishes no edge, or edges that its parameters do not name.
     """
     if kind in {"broadcaster", "message_broadcaster"}:
         parent, child = parameters["frame_id"], parameters["turtle"]

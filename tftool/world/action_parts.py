@@ -45,7 +45,7 @@ class Tasks:
 
 
 def message(ros_type: str, **fields: Any) -> Any:
-    """Return a message, or a part of a service or action, by its full name and fields."""
+    """Return a message of the type with this full name, also a part of a service or action."""
     return INTERFACES.part(ros_type)(**fields)
 
 
@@ -69,7 +69,7 @@ def _time(stamp: Stamp) -> Any:
 class ActionParts:
     """Server of an action's hidden services, and publisher of its hidden topics.
 
-    It tracks every goal that any client sends to the action's server in this world.
+    The server tracks every goal that any client sends to the action in this world.
     """
 
     def __init__(
@@ -132,14 +132,14 @@ class ActionParts:
         return message(f"{self._type}_SendGoal_Response", accepted=accepted, stamp=_time(now))
 
     def _has_room(self) -> bool:
-        """Return whether one more goal may start, after dropping old ended goals if needed."""
+        """Return whether one more goal may start; old goals that have ended are dropped first."""
         if self._make_way(len(self._undecided)) <= 0:
             return True
         self._warn(f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.")
         return False
 
     def _make_way(self, others: int) -> int:
-        """Drop ended goals until one more fits; return how many goals are still too many."""
+        """Drop goals that have ended; return how many too many remain to start one more."""
         surplus = len(self._goals) + others + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
         for goal_id in ended[: max(0, surplus)]:
@@ -166,7 +166,7 @@ class ActionParts:
             self._publish_status()
 
     async def _enters(self, goal: GoalHandle) -> bool:
-        """Wait until the server accepts or rejects a goal; track it and return True if accepted."""
+        """Wait until a server accepts a goal (track it and return True) or rejects it (False)."""
         if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         if goal.goal_id not in self._goals:
@@ -176,7 +176,7 @@ class ActionParts:
         return True
 
     async def cancel_goal(self, asked: Any) -> Any:
-        """Handle a CancelGoal request for one goal or all; return the server's decision."""
+        """Handle a CancelGoal request for one goal or all goals; return the response."""
         goal_id = bytes(asked.goal_info.goal_id.uuid)
         every = goal_id == _EVERY_GOAL
         chosen = [
@@ -202,7 +202,7 @@ class ActionParts:
         return message(f"{CANCEL_GOAL}_Response", return_code=code, goals_canceling=canceled)
 
     async def get_result(self, asked: Any) -> Any:
-        """Handle a GetResult request: wait for the goal's end and return its result."""
+        """Handle a GetResult request: wait until the goal has ended; return the response."""
         goal, _ = self._goals.get(bytes(asked.goal_id.uuid), (None, 0))
         answer = f"{self._type}_GetResult_Response"
         if goal is None:

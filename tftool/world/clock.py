@@ -1,12 +1,12 @@
 """Simulated and real clocks with one interface.
 
-No other module uses `time` or `asyncio.sleep`. A waiter states the time it waits for and its place
-within that instant: (stamp, phase, rank, order of requests). Both clocks wake waiters in exactly
-that order, because asyncio itself breaks ties between timers of one instant unpredictably.
+No other module uses `time` or `asyncio.sleep`. A waiter states its time and its position within
+that instant: (stamp, phase, rank, order of requests). Both clocks wake waiters in exactly that
+order, because asyncio itself breaks ties between timers of one instant unpredictably.
 
-On the simulated clock the event loop runs in virtual time too: when every task sleeps, time jumps
-to the next time that a waiter waits for. So asyncio's own timeouts mean simulated time, and ten
-minutes pass in a second.
+On the simulated clock the event loop runs in virtual time too. When every task sleeps, time jumps
+to the earliest waiter's time. So asyncio's own timeouts are in simulated time, and ten simulated
+minutes may take one second.
 """
 
 import asyncio
@@ -45,8 +45,8 @@ class Clock(ABC):
     Attributes:
         epoch: Time at which the clock was made, nanoseconds. Never 0, which means "latest".
         rate: Seconds of the clock per real second; infinite if simulated.
-        interrupted: Whether a signal has asked the run on this clock to end; set at once, even
-            while a node blocks the loop, which learns of the signal later.
+        interrupted: Whether a signal has asked the run on this clock to end. It is set when the
+            signal arrives, even while a node blocks the event loop.
         when_killed: Functions called before a second signal ends the process, such as one that
             restores the terminal.
         stopper: Stopper that can end the run; None while nothing runs.
@@ -118,9 +118,10 @@ class Clock(ABC):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`, or at its turn in this instant if that is past.
+        """Return a future that is done at `stamp`; if `stamp` has passed, in this instant.
 
-        To stop the timer, cancel the future.
+        Waiters of one instant are woken in the order of phase, rank and request. To stop the timer,
+        cancel the future.
 
         Raises:
             TypeError: If `stamp` is not a whole number: a fraction of a nanosecond, such as 0.5, is
@@ -133,7 +134,7 @@ class Clock(ABC):
         return future
 
     async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait until a time; if that is past, wait for the turn in this instant."""
+        """Wait until a time; if it has passed, until this waiter's turn in the present instant."""
         await self.timer(stamp, phase, rank)
 
     async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
@@ -181,7 +182,7 @@ class SimClock(Clock):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`, or at its turn in this instant if it is past."""
+        """Return a future that is done at `stamp`; if `stamp` has passed, in this instant."""
         return super().timer(max(whole(stamp), self._now), phase, rank)
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
@@ -277,7 +278,8 @@ def paced(clock: Clock) -> Iterator[None]:
 class WallClock(Clock):
     """Clock of real time since the Unix epoch, which may run faster or slower.
 
-    Steps of the system's clock have no effect: it is read once, then a monotonic clock counts.
+    The system's clock is read once; then a monotonic clock counts. So later corrections of the
+    system's clock have no effect.
     """
 
     def __init__(
@@ -326,7 +328,7 @@ class WallClock(Clock):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`, or at its turn in this instant if it is past."""
+        """Return a future that is done at `stamp`; if `stamp` has passed, in this instant."""
         future = super().timer(stamp, phase, rank)
         if self._waiters[0][4] is future:
             self._set_alarm()
@@ -377,7 +379,7 @@ class WallClock(Clock):
         asyncio.get_running_loop().call_soon(self._wake)
 
     def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
-        """Return the time up to which a head start is simulated, or None in the present."""
+        """Return the next time of the past to simulate (a head start); None when that is over."""
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
@@ -397,8 +399,9 @@ class FollowedClock(WallClock):
     """Clock of real time until it is set; from then on it stands still until it is set again.
 
     It is the clock of a world that shares a session (a group of processes that exchange frames):
-    while another process publishes `/clock`, for example to play a recording, that time is used. A
-    waiter keeps its remaining duration when time falls back, or when the source of time changes.
+    while another process publishes `/clock`, for example to play a recording, this clock shows the
+    published time. A waiter keeps its remaining duration when time falls back, or when the source
+    of time changes.
 
     Attributes:
         fell_back: Functions called with the nanoseconds by which time has fallen back.
@@ -489,10 +492,10 @@ class FollowedClock(WallClock):
 
 
 def pace_of(clock: Clock) -> Clock:
-    """Return the clock for waits that a person watches, while the world runs on `clock`.
+    """Return the clock for waits that should take real time, such as "print every second".
 
-    The result shows real time if the world's time comes from another process, which may pause that
-    time or run it at any rate.
+    That is the world's own clock `clock`, unless its time comes from another process, which may
+    pause time or run it at any rate. Then a clock of real time is returned.
     """
     if not isinstance(clock, FollowedClock):
         return clock

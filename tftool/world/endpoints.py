@@ -67,7 +67,7 @@ TF_STATIC: Final = Quality(depth=1, is_latched=True)
 
 
 def conflict(offered: Quality, requested: Quality) -> str:
-    """Return the policy in which a publisher offers less than is requested; "" if there is none."""
+    """Return the QoS policy in which a publisher offers less than requested; "" if none."""
     if requested.is_reliable and not offered.is_reliable:
         return "RELIABILITY"
     if requested.is_latched and not offered.is_latched:
@@ -112,7 +112,7 @@ class Endpoint:
 
 
 class Endpoints:
-    """Publishers and subscriptions of a world, and of the worlds linked to it."""
+    """Publishers and subscriptions of a world, and of the other processes in its session."""
 
     def __init__(self, changed: Callable[[], object], warn: Callable[[str, str], object]) -> None:
         """Create an empty store.
@@ -149,13 +149,13 @@ class Endpoints:
         return remove
 
     def set_alive(self, endpoint: Endpoint, alive: bool) -> None:
-        """Record whether a publisher counts as alive, by its liveliness."""
+        """Record whether a publisher still meets its liveliness policy."""
         if alive is (endpoint in self._silent):
             (self._silent.discard if alive else self._silent.add)(endpoint)
             self._changed()
 
     def is_alive(self, endpoint: Endpoint) -> bool:
-        """Return whether a publisher counts as alive, as far as known."""
+        """Return whether a publisher meets its liveliness policy; True if nothing is known."""
         return endpoint not in self._silent
 
     def of(self, topic: str, role: Role) -> list[Endpoint]:

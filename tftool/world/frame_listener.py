@@ -1,4 +1,4 @@
-"""Recording of a world's transforms into a second buffer, and of message headers."""
+"""Recording of a world's transforms into another buffer and a list, and of message headers."""
 
 import asyncio
 from collections.abc import Callable, Coroutine, Iterator
@@ -39,7 +39,7 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
 def logged_in(
     world: World, buffer: Buffer | None = None
 ) -> tuple[TransformLog, Callable[[], None]]:
-    """Record a world's transforms in order of arrival, and in a buffer if one is given.
+    """Record a world's transforms in order of arrival; insert them into `buffer` if it is given.
 
     Returns:
         The record, and a function that ends the recording.

@@ -95,7 +95,7 @@ class Log:
     def listen(
         self, callback: Callable[[LogRecord], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Call `callback` with every further message; return a function that ends this.
+        """Call `callback` with every further message; return a function that ends the calls.
 
         Exceptions of the callback are reported under the name `owner`.
         """

@@ -1,4 +1,4 @@
-"""Memory limit for the transforms of a live world; beyond it the oldest are dropped.
+"""Memory limit for the transforms of a live world; above it, the oldest samples are dropped.
 
 Like tf2's, a buffer prunes only by time. So a publisher with a very high rate, or with stamps a
 nanosecond apart, could fill the memory of every subscriber. Recordings have no such limit, because
@@ -13,7 +13,7 @@ from tftool.base.errors import UsageError
 from tftool.buffer.buffer import Buffer
 
 MAX_BYTES: Final = 512 << 20
-"""Default limit in bytes, about eight million samples: 800 links at 1000 Hz for 10 s."""
+"""Default limit in bytes, about eight million samples: 800 edges at 1000 Hz for 10 s."""
 
 VARIABLE: Final = "TFTOOL_BUFFER_MB"
 """Environment variable with another limit, in megabytes."""
@@ -26,7 +26,7 @@ Say = Callable[[str], object]
 
 
 def allowed(environment: Mapping[str, str] = os.environ) -> int:
-    """Return the memory limit in bytes: from the environment variable, else `MAX_BYTES`.
+    """Return the memory limit in bytes: from the variable TFTOOL_BUFFER_MB, else `MAX_BYTES`.
 
     Raises:
         UsageError: If the variable's value is not a number of megabytes.

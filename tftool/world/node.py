@@ -80,8 +80,8 @@ class Node(Resident):
     def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
         """Run a coroutine concurrently with `run`, as part of this node.
 
-        It may outlast `run`, and is cancelled when the node is removed or the world ends. An
-        exception of the coroutine is a failure of this node.
+        The coroutine may outlast `run`, and is cancelled when the node is removed or the world
+        ends. An exception of the coroutine is a failure of this node.
 
         Returns:
             The task; its result is None if the coroutine failed.

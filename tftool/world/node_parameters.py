@@ -146,7 +146,8 @@ def parameter_services(
         values: Function that returns a ParameterValue for each name.
         descriptors: Function that returns a ParameterDescriptor for each known name.
         listed: Function that returns the ListParametersResult for some prefixes and a depth.
-        change: Function that sets all of some Parameters, or none; returns a SetParametersResult.
+        change: Function that sets either all of the given Parameters or none; returns a
+            SetParametersResult.
     """
     return answered(
         "rcl_interfaces",
@@ -162,13 +163,13 @@ def parameter_services(
 def answered(
     package: str, *rows: tuple[str, str, Callable[[Any], Any]]
 ) -> Iterator[tuple[str, Any, Answer]]:
-    """Yield (name below a node, type, handler) of services that fill one field of a response.
+    """Yield (name, type, handler) of services whose response has one field.
 
     Args:
         package: Package of the services' types.
-        rows: For each service its name, with its type after a colon if the type's name is not
-            the same in capitals (get_state, GetState); the response's field; and a function
-            that returns the field's value for a request.
+        rows: For each service: its name below the node's, the response's field, and a function that
+            returns the field's value for a request. A type such as GetState is derived from the
+            name get_state; another type follows the name after a colon.
     """
 
     def handler(field: str, find: Callable[[Any], Any]) -> Answer:

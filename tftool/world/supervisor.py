@@ -16,14 +16,15 @@ T = TypeVar("T")
 
 
 class Resident:
-    """Base of a node, or of a program with nodes, that runs in a world under a name.
+    """Base of a node, or of a user's program that contains nodes, in a world.
 
     Nodes know their world; the world knows them only as residents.
 
     Attributes:
         name: Name, unique in the world.
         rank: Number in the order of joining; within a phase, lower numbers run first.
-        is_shown: Whether lists of nodes include it; a program that only has nodes is left out.
+        is_shown: Whether lists of nodes show this name. It is false for a program, whose nodes are
+            shown instead.
     """
 
     name: str
@@ -141,8 +142,8 @@ class Supervisor:
 
     Attributes:
         over: Future that is set when the run must end.
-        failure: Error about the first node that failed; None without one.
-        error: Other error that ended the run; None without one.
+        failure: Error about the first node that failed; None if none failed.
+        error: Other error that ended the run; None if there is none.
     """
 
     def __init__(self, clock: Clock, has_end: bool) -> None:

@@ -29,13 +29,15 @@ class Topic(Generic[T]):
         kind: Type of the values.
         count: Number of values that were published.
         latest: Value that was published last; None before the first.
-        on_demand: Function called when a subscriber is added or removed; None without a link.
+        on_demand: Function called when a subscriber is added or removed; None without other
+            processes.
         sender: Publisher of the value that is being delivered; None if unknown.
-        relay: Function that sends values to other processes, called last; None without a link.
+        relay: Function that sends values to other processes, called last; None without other
+            processes.
         far_subscribers: Number of subscribers in other processes.
         is_far: Whether the topic exists only to be listed: it is used in other processes, and
             nothing in this process has asked for it.
-        is_removed: Whether the world has removed the topic; a new one may have its name by now.
+        is_removed: Whether the world has removed the topic; another topic may have its name by now.
     """
 
     __slots__ = (
@@ -89,7 +91,7 @@ class Topic(Generic[T]):
             self.sender = before
 
     def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
-        """Call `callback` with every further value; return a function that ends this.
+        """Call `callback` with every further value; return a function that ends the calls.
 
         Exceptions of the callback are reported under the name `owner`, not raised in the publisher.
         """
@@ -210,8 +212,8 @@ class GoalHandle:
     def cancel(self) -> None:
         """Request the server to cancel the goal.
 
-        This does nothing once the goal has ended, or while an earlier request is undecided or
-        accepted; after a rejection, the server is asked again.
+        Nothing is sent if the goal has ended, or if an earlier request was accepted or is not
+        decided yet. After a rejection, the request is sent again.
         """
         considered = self._cancellation is not None and not self._cancellation.done()
         if self.done or self.cancel_requested or considered:
@@ -271,8 +273,8 @@ class Offer(Generic[T]):
 
     Attributes:
         take: Function that responds to requests or accepts goals.
-        kind: ROS class of the service or action; None for one that stays inside this process and
-            accepts any request.
+        kind: ROS class of the service or action; None if only this process can use it; then any
+            request is accepted.
         node: Name of the server's node; "" if not given.
         is_remote: Whether the server is in another process; a server in this process replaces it.
     """
@@ -284,7 +286,7 @@ class Offer(Generic[T]):
 
 
 class NamedOffers(Generic[T]):
-    """Servers of services or of actions, by name; further servers of one name wait to take over.
+    """Servers of services or of actions, by name; the first server of a name is active.
 
     Attributes:
         by_name: Active server of each name, read-only.

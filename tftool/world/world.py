@@ -164,7 +164,7 @@ class World:
         return topic
 
     def name_topic(self, name: str, kind: type[Any]) -> None:
-        """Add a topic of other processes, which is marked as theirs until this process uses it."""
+        """Add a topic of other processes; only lists show it until this process uses it."""
         self._topic(name, kind).is_far = True
 
     def _topic(self, name: str, kind: type[Any]) -> Topic[Any]:
@@ -223,7 +223,7 @@ class World:
                     return None
                 return callback(value)
 
-        # Before the subscription: otherwise the link shows a subscriber without a name.
+        # Before the subscription: otherwise other processes see a subscriber without a name.
         _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality, deliver=deliver)
         stop = topic.subscribe(taken, node)
         if deliver is not None:
@@ -293,17 +293,17 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Serve a service with `handler`; return a function that ends this.
+        """Serve a service with `handler`; return a function that stops the server.
 
         Args:
             name: Name of the service.
             handler: Function that responds to a request, at once or as a coroutine; None means a
                 response of default values.
-            kind: ROS class of the service; None for one that stays inside this process.
+            kind: ROS class of the service; None if only this process may call it.
             node: Name of the server's node.
             is_remote: Whether the server is in another process.
             shares: Whether this process may have another server of that name already, as in ROS:
-                the first one responds, and the next one after the first has left.
+                the first server responds, and after it has left, the next one.
 
         Raises:
             TftoolError: If a node of this process serves that name already and `shares` is false.
@@ -363,7 +363,7 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Accept goals of an action with `accept`; return a function that ends this.
+        """Accept goals of an action with `accept`; return a function that stops the server.
 
         The arguments are those of `serve`.
 
@@ -381,8 +381,8 @@ class World:
     ) -> Callable[[], None]:
         """Call `callback` with each goal of an action, before the server receives it.
 
-        Returns a function that ends this. Exceptions of the callback are reported under the name
-        `owner`.
+        Returns a function that ends the calls. Exceptions of the callback are reported under the
+        name `owner`.
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
@@ -422,8 +422,8 @@ class World:
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Call `callback` when a topic, service, action or node is added or removed.
 
-        It is called before the first value on a new topic. Returns a function that ends this.
-        Exceptions of the callback are reported under the name `owner`.
+        The call comes before the first value on a new topic. Returns a function that ends the
+        calls. Exceptions of the callback are reported under the name `owner`.
         """
         return self._watchers.add(callback, owner)
 
@@ -437,9 +437,9 @@ class World:
     ) -> bool:
         """Insert transforms into the buffer and publish them on `tf` or `tf_static`.
 
-        Transforms that the buffer rejects (with a log message) are not published. A static message
-        always has all static transforms of its sender, the newest of each child, because a late
-        listener gets only a sender's last message.
+        Transforms that the buffer rejects (with a log message) are not published. A message on
+        `tf_static` always contains the newest static transform of each child from its sender,
+        because a late subscriber gets only the sender's last message.
 
         Returns:
             Whether the buffer accepted all transforms.
@@ -623,7 +623,7 @@ class World:
         self._supervisor.fail(node, error)
 
     def report(self, owner: str, failure: Exception) -> None:
-        """Handle the exception of a listener: it is a node's failure, or is logged otherwise.
+        """Handle the exception of a listener: as a failure of the node that owns it, else as a log.
 
         Args:
             owner: Name of the listener's owner.
@@ -670,7 +670,7 @@ def _nothing() -> None:
 
 
 def _require(asked: Any, part: str, kind: Any, what: str) -> None:
-    """Check that a request is of a service's type, or a goal of an action's type.
+    """Check that a service's request or an action's goal is of the right type.
 
     Raises:
         TftoolError: If the request or goal is of another type.

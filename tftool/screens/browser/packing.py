@@ -100,7 +100,7 @@ class PackedBlock:
     def _once(
         self, numbers: npt.NDArray[Any], store: Callable[[], dict[str, Any]]
     ) -> dict[str, Any]:
-        # Links that are sent together have the same stamps.
+        # Edges that are sent together have the same stamps.
         key = numbers.dtype.char.encode() + hashlib.blake2b(numbers.tobytes()).digest()
         known = self._known.get(key)
         if known is None:

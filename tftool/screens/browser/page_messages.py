@@ -194,7 +194,7 @@ ANSWERS: Final[dict[str, dict[str, str]]] = {
         "to": "number",
         "places": "Record<string, (number[] | null)[]>",
     },
-    # Gaps of links and the doctor's findings.
+    # Gaps of edges and the doctor's findings.
     "marks": {
         "gaps": "[string, number, number][]",
         "findings": "{ id: string, severity: string, message: string, since: number, "

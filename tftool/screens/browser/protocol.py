@@ -35,7 +35,7 @@ def stamp_at(epoch: Stamp, moment: float) -> Stamp:
 
 
 def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
-    """Return the oldest and newest stamp of all moving links; None if all are static."""
+    """Return the oldest and newest stamp of all edges that move; None if all edges are static."""
     oldest = newest = 0
     for frame in frames:
         if frame.parent is not None and not frame.is_static and frame.samples:
@@ -45,7 +45,7 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
 
 
 def chosen(snapshot: Snapshot) -> list[int]:
-    """Return the indices of frames to show: all, or as many as allowed, nearest to the roots."""
+    """Return the indices of the frames to show: those nearest to the roots, up to a limit."""
     if len(snapshot.frames) <= MOST_FRAMES:
         return list(range(len(snapshot.frames)))
     kept = grow(snapshot, most=MOST_FRAMES).children
@@ -53,7 +53,7 @@ def chosen(snapshot: Snapshot) -> list[int]:
 
 
 def moments(frames: Sequence[FrameInfo]) -> list[Stamp]:
-    """Return evenly spread times over all samples, oldest first."""
+    """Return a number of times, evenly spread over the stamps of all samples, oldest first."""
     span = reach(frames)
     if span is None or span[0] == span[1]:
         return []
@@ -239,5 +239,5 @@ def _finite(values: Iterable[float]) -> list[float | None]:
 
 
 def names_key(frames: Sequence[FrameInfo]) -> tuple[tuple[str, str | None, bool, str | None], ...]:
-    """Return a key that changes whenever the names must be sent again."""
+    """Return a key that changes whenever frame names must be sent to the page again."""
     return tuple((frame.frame, frame.parent, frame.is_static, frame.authority) for frame in frames)

@@ -1,4 +1,4 @@
-"""Playback of a recording's other topics: the recorded bytes, sent when they are due."""
+"""Playback of a recording's topics other than tf: recorded bytes, sent when they are due."""
 
 import heapq
 from collections.abc import Callable, Iterator
@@ -28,18 +28,18 @@ MOST_WAITING_BYTES: Final = 256_000_000
 
 
 class TopicFeed:
-    """Player of a recording's topics that have no transforms and a known type.
+    """Player of those topics of a recording that have a known type and carry no transforms.
 
     Attributes:
         topics: Names of the topics that are sent.
-        left_out: Sentences on why other topics are not sent.
+        left_out: For each topic that is not sent, a sentence with the reason.
     """
 
     def __init__(self, link: Link, source: Recorded, clock: PlayClock, node: str) -> None:
         """Announce the publishers of the topics.
 
         Args:
-            link: Link that sends the messages.
+            link: Connection to the session, which sends the messages.
             source: The recording.
             clock: Clock that converts a log time to a time of the playback.
             node: Name of the publishing node if the recording names none.
@@ -103,7 +103,7 @@ class TopicFeed:
         return message
 
     def _read(self, moment: Stamp) -> None:
-        """Read messages until no further one can be due before a time."""
+        """Read on in the file until every message due before a time has been read."""
         while (
             self._read_to is not None
             and (self._read_to <= moment + AHEAD or not self._waiting)

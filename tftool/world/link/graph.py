@@ -182,7 +182,7 @@ class Graph:
         return any(one.session not in guests for one in self._entities.values())
 
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
-        """Return the publisher with a gid, else the topic's only candidate; None if ambiguous."""
+        """Return the publisher with a gid, else the topic's only one; None if there are several."""
         unknown = []
         for one in self.entities(PUBLISHER, name=topic):
             if one.gid == gid:
@@ -193,7 +193,7 @@ class Graph:
 
 
 def hosts(processes: Iterable[Process]) -> list[Process]:
-    """Return the processes that run a world which other processes look at."""
+    """Return the processes that run a world (nodes and frames) which other processes look at."""
     return [one for one in processes if one.role is Role.HOST]
 
 

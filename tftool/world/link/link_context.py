@@ -1,7 +1,7 @@
-"""State of a link that its topics, services and actions share.
+"""State that the topics, services and actions of a session connection share.
 
-The link creates its parts, and the parts use this small part of the link, so that imports go in one
-direction.
+The connection (`session.Link`) creates bridges for topics, services and actions. The bridges import
+this module, not the connection, so that imports go in one direction.
 """
 
 from typing import Final
@@ -15,14 +15,14 @@ from tftool.world.link.seam import Middleware
 from tftool.world.world import World
 
 NAME: Final = "link"
-"""Name of the link in its log messages."""
+"""Name of the session connection in its log messages."""
 
 UNKNOWN: Final = Quality(is_latched=True)
 """Quality of service of a publisher not in the graph: the highest, which any subscription fits."""
 
 
 class LinkContext:
-    """State that the parts of a link share: the middleware, the world, and counts of errors.
+    """State that all bridges of a session connection share: middleware, world, counts of errors.
 
     Attributes:
         options: Options of this process in the session.
@@ -48,7 +48,7 @@ class LinkContext:
 
     @property
     def world(self) -> World:
-        """World that is attached to the link."""
+        """World that is attached to the session connection."""
         if self._world is None:
             raise LinkError("no world is attached to this link yet")
         return self._world
@@ -73,7 +73,7 @@ class LinkContext:
 
     @property
     def main_node(self) -> str:
-        """Name of the world's first node, for entities without a node of their own."""
+        """Name of the world's first node, under which entities without a node are announced."""
         shown = (node.name for node in self.world.nodes if node.is_shown)
         return next(shown, f"tftool_{self.options.command}")
 
@@ -88,7 +88,7 @@ class LinkContext:
         )
 
     def authority(self, gid: bytes, topic: str) -> str:
-        """Return the name of the node that sent a message, by the message's gid (b"" if none)."""
+        """Return the name of the node that sent a message, by the message's gid, b"" if unknown."""
         entity = self._sender(gid, topic)
         return _unnamed(gid) if entity is None else entity.node
 

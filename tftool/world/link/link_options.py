@@ -32,7 +32,7 @@ _OWNERS: Final = {name: one for one in REACHES for name in one.OPTIONS}
 
 
 def read_reach(given: Mapping[str, Any]) -> Reach:
-    """Return the reach of a link that the given options describe.
+    """Return the networks that this process may use (its reach), from the given options.
 
     Args:
         given: Values of the middlewares' options, by the names of their parameters.
@@ -54,7 +54,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
 
 
 def reach_at(word: str) -> Reach | None:
-    """Return the reach of the session at an address; None for words that are no address.
+    """Return the reach of the session at an address; None for a word that is no address.
 
     Raises:
         UsageError: If the address is malformed.
@@ -72,7 +72,7 @@ class Options:
     Attributes:
         command: Name of the command, such as "demo" or "echo".
         domain: Number of the ROS domain.
-        reach: Middleware, and its reach beyond this machine's own processes.
+        reach: Middleware to use, and the networks that it may use.
         read_only: Whether to announce no node, publisher or service.
     """
 

@@ -1,4 +1,4 @@
-"""Queues between our event loop and a transport's threads, of limited size."""
+"""Queues of limited size between the event loop and a middleware's threads."""
 
 import asyncio
 import contextlib
@@ -20,7 +20,7 @@ _SLICE: Final = 200
 
 
 class Inbox:
-    """Queue of calls from any thread, which the event loop makes one after the other.
+    """Queue of calls from any thread, which the event loop makes in order.
 
     Attributes:
         lost: Number of messages that were dropped because the queue was full.
@@ -90,8 +90,7 @@ class Inbox:
     def _drain(self) -> None:
         """Make the queued calls, a limited number at a time, so that the event loop is not blocked.
 
-        An exception of a callback is reported to the loop; the calls after it are made all the
-        same.
+        An exception of a callback is reported to the event loop, and does not prevent later calls.
         """
         # The lock is held for one message at a time: transport threads never wait for a callback.
         for _ in range(_SLICE):

@@ -1,4 +1,4 @@
-"""Declaration of a middleware: its options, contradictions between them, and names for sentences.
+"""Base of a middleware's declaration: its options, their contradictions, text for messages.
 
 A middleware derives a class from `Reach` in its folder, as in `zenoh/reach.py`; one line in
 `link_options.MIDDLEWARES` adds it. Commands do not name middlewares.
@@ -31,9 +31,10 @@ class LinkOption:
 
 
 class Reach:
-    """Networks and processes that a link may reach, beyond this machine's own processes.
+    """Networks and processes that a middleware may use, beyond this machine's own processes.
 
-    Subclasses are frozen dataclasses; made without arguments, they open nothing to the outside.
+    Subclasses are frozen dataclasses. An object made without arguments opens nothing to the
+    outside.
     """
 
     __slots__ = ()
@@ -59,7 +60,7 @@ class Reach:
 
     @classmethod
     def at(cls, address: str) -> "Reach":
-        """Return the reach of the session at an address; None for words that are no address.
+        """Return the reach of the session at an address; None for a word that is no address.
 
         Raises:
             UsageError: If the word begins like an address, but is malformed.
@@ -78,25 +79,25 @@ class Reach:
 
     @property
     def is_asked(self) -> bool:
-        """Whether the options require a link to other processes."""
+        """Whether the options require a connection to other processes."""
         return True
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Return whether the session is always in another process, so that this one never hosts it.
+        """Return whether the session is always in another process, so this process never hosts it.
 
         Args:
-            hosts: Whether the command hosts turtles if it finds none.
+            hosts: Whether the command hosts turtles if no other process does.
         """
         return not hosts
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Return whether there is a local process to join, checked without opening a link."""
+        """Return whether there is a local process to join; the check connects to none."""
         return False
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the names of the frames that this machine's processes have, without a link."""
+        """Return the names of the frames that this machine's processes have, without connecting."""
         return []
 
     def place(self, domain: int) -> str:

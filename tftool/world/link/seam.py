@@ -1,9 +1,9 @@
-"""Interface between a middleware and a link: a ROS graph, with messages in CDR.
+"""Interface of a middleware: a ROS graph, and messages in CDR.
 
 A middleware is a folder beside `zenoh/` with a class derived from `Middleware`, a `Reach` that
-declares its options and joins a session, and one line in `link_options.MIDDLEWARES`. The rest of
-the link does not depend on it: the bridges (`topic_bridges`, `service_bridges`) convert values to
-CDR and back. A middleware makes all its callbacks in the event loop.
+declares its options and joins a session, and one line in `link_options.MIDDLEWARES`. No other
+module depends on the choice of the middleware: the bridges (`topic_bridges`, `service_bridges`)
+convert values to CDR and back. A middleware makes all its callbacks in the event loop.
 """
 
 import asyncio
@@ -36,10 +36,10 @@ class WirePublisher(Protocol):
         """Whether a message would reach a subscription, or be stored for late ones."""
 
     def put(self, payload: bytes, stamp: Stamp) -> None:
-        """Send one message, with its time `stamp` on our clock.
+        """Send one message; `stamp` is the time of sending on this process's clock.
 
         Raises:
-            LinkError: If the link is closed.
+            LinkError: If the connection is closed.
         """
 
     def close(self) -> None:
@@ -77,12 +77,12 @@ class WireClient(Protocol):
 
 
 class Watcher(Protocol):
-    """Callbacks of a middleware to its link."""
+    """Callbacks of a middleware to the session connection that uses it."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle the addition of an entity (`there` is true) or its removal.
+        """Handle an entity that was added (`there` is true) or removed (false).
 
-        `found` is None if nothing but another ROS domain was noticed.
+        `found` is None if only the existence of another ROS domain was noticed.
         """
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
@@ -97,10 +97,11 @@ def nothing() -> None:
 
 
 class Middleware:
-    """A process's part in a ROS graph. Names have no leading slash.
+    """This process in a ROS graph. Names have no leading slash.
 
-    `Reach.join` creates it. No other process of this machine can join until `settle` or `close` is
-    called. A method that a middleware does not override announces nothing, or refuses to write.
+    `Reach.join` creates an instance. No other process of this machine can join until `settle` or
+    `close` is called. A method that a middleware does not override announces nothing, or refuses to
+    write.
 
     Attributes:
         graph: Graph of the other processes; filled before the constructor returns.
@@ -141,11 +142,11 @@ class Middleware:
         return 0
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Announce this process; return a function that ends this."""
+        """Announce this process; return a function that ends the announcement."""
         return nothing
 
     def node(self, name: str) -> Callable[[], None]:
-        """Announce a node; return a function that ends this."""
+        """Announce a node; return a function that ends the announcement."""
         return nothing
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
@@ -155,7 +156,7 @@ class Middleware:
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Announce a node's subscription; return a function that ends this.
+        """Announce a node's subscription; return a function that ends the announcement.
 
         Several subscriptions of a process share the messages of one `listen`.
         """
@@ -169,7 +170,7 @@ class Middleware:
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with other processes' messages; return a function that ends this.
+        """Call `on_message` with other processes' messages; return a function that ends the calls.
 
         Args:
             name: Name of the topic.
@@ -182,7 +183,7 @@ class Middleware:
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Serve a service as a node of this process; return a function that ends this."""
+        """Serve a service as a node of this process; return a function that stops the server."""
         raise LinkError(self.NO_WRITING)
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
@@ -194,7 +195,7 @@ class Middleware:
     def report(self, found: GraphEntity | Process | None, there: bool) -> None:
         """Report to the watcher that an entity was added (`there` is true) or removed.
 
-        `found` is None if nothing but another ROS domain was noticed.
+        `found` is None if only the existence of another ROS domain was noticed.
         """
         if self.watcher is not None:
             self.watcher.graph_changed(found, there)

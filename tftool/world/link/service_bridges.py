@@ -29,7 +29,7 @@ LONGEST: Final = 3600.0
 
 
 class Answering:
-    """Server of one service of our world for other processes, with requests as bytes."""
+    """Server that answers other processes' requests for one service of this process's world."""
 
     def __init__(
         self,
@@ -69,7 +69,7 @@ class Answering:
 
 
 class Asking:
-    """Client of one service of other processes, with requests as bytes."""
+    """Client of a service in another process; requests and responses are bytes in CDR."""
 
     def __init__(self, link: LinkContext, name: str, ros_type: str) -> None:
         self._link = link
@@ -93,11 +93,11 @@ class Asking:
 
 
 def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answering:
-    """Serve a service of our world for other processes.
+    """Serve a service of this process's world for other processes.
 
     Args:
-        link: State of the link.
-        node: Name of the node that serves it; "" if unknown.
+        link: State of the session connection.
+        node: Name of the node that serves the service; "" if unknown.
         name: Name of the service.
         kind: ROS class of the service.
     """
@@ -110,7 +110,7 @@ def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answeri
 
 
 class ServiceClient:
-    """Service of another process that is added to our world."""
+    """Service of another process that nodes of this world can call."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._kind = INTERFACES.find(*server.ros_type.split("/"))
@@ -120,7 +120,7 @@ class ServiceClient:
         )
 
     def close(self) -> None:
-        """Remove the service from our world."""
+        """Remove the service from this world."""
         self._withdraw()
         self._asking.close()
 
@@ -144,7 +144,7 @@ def _read(ros_type: str, payload: bytes) -> Any:
 
 
 class ActionServer:
-    """Action of our world that is served for other processes."""
+    """Server that offers one action of this process's world to other processes."""
 
     def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
         """Serve an action; the arguments are those of `serve_service`."""
@@ -192,7 +192,7 @@ def _in_bytes(
 
 
 class ActionClient:
-    """Action of another process that is added to our world."""
+    """Action of another process to which nodes of this world can send goals."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._link = link
@@ -221,7 +221,7 @@ class ActionClient:
         )
 
     def close(self) -> None:
-        """Remove the action from our world; running goals end as aborted."""
+        """Remove the action from this world; running goals end as aborted."""
         self._withdraw()
         self._stop_feedback()
         self._tasks.cancel()

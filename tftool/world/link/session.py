@@ -1,8 +1,8 @@
-"""Link between one world and the other processes of its session, which share topics and services.
+"""Connection between a world and the other processes of its session: topics and services.
 
 Messages of this process's nodes are sent, messages of others are received, and a received message
-is never sent again. For the world there is no difference: a service of another process is a
-service of the world.
+is never sent again. For the world there is no difference: a service of another process is a service
+of the world.
 """
 
 import asyncio
@@ -81,7 +81,7 @@ class Link(LinkContext):
     # Taking part
 
     def attach(self, world: World, *, role: Role) -> None:
-        """Share a world's topics, services and actions from now on; to call inside its event loop.
+        """Share a world's topics, services and actions; call this inside the world's event loop.
 
         Args:
             world: The world.
@@ -255,7 +255,7 @@ class Link(LinkContext):
                 self._warn_of_rival(name, name)
 
     def _is_part_of_our_action(self, name: str) -> bool:
-        """Return whether a name belongs to an action of our world, which is shared as a whole."""
+        """Return whether a name is part of an action of this world, which is shared as a whole."""
         action, found, _ = name.partition("/_action/")
         offer = self.world.actions().get(action) if found else None
         return offer is not None and not offer.is_remote
@@ -302,9 +302,9 @@ class Link(LinkContext):
     # Keeping up with the others
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Handle the addition of an entity (`there` is true) or its removal.
+        """Handle an entity that was added (`there` is true) or removed (false).
 
-        `found` is None if nothing but another ROS domain was noticed.
+        `found` is None if only the existence of another ROS domain was noticed.
         """
         if found is None:
             self._mention_foreign_domains()
@@ -347,7 +347,8 @@ class Link(LinkContext):
     def _count_departure(self, session: str) -> None:
         """Count a process as left when its announcement and its publishers of tf are gone.
 
-        A node may leave a process that stays, and programs other than tftool announce no process.
+        Both conditions are needed: a node may leave a process that stays, and programs other than
+        tftool announce no process.
         """
         senders = self.graph.entities(PUBLISHER, name="tf")
         stays = self.graph.process(session) or any(one.session == session for one in senders)

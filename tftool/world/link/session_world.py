@@ -1,4 +1,4 @@
-"""World in which a command works, with the means to run it and to share it."""
+"""World (nodes, topics, frames) of a command, the function that runs it, and its connection."""
 
 import asyncio
 from collections import Counter
@@ -43,16 +43,16 @@ def _keep_silent(record: "LogRecord") -> None:
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """World in which a command works, with the means to run it.
+    """World (nodes, topics, frames) of a command, the function that runs it, and its connection.
 
     Attributes:
         world: The world, with its frames and topics.
         is_hosted: Whether this process hosts the session.
-        name: Name in sentences, such as "scenario 'turtles'".
+        name: Name for messages to the user, such as "scenario 'turtles'".
         live: Coroutine function that runs the world until a time, or for ever.
         head_start: Nanoseconds that are simulated before the work begins.
         duration: Duration of the scenario in nanoseconds; None if unlimited.
-        link: Link to other processes; None for a world without one.
+        link: Connection to other processes; None if there is none.
         tell: Function called with every log message while the world runs.
     """
 
@@ -95,7 +95,7 @@ class Session:
     async def along(
         self, work: Coroutine[Any, Any, T], on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """Do the same as `run`, inside a running event loop."""
+        """Await some work while the world runs, inside a running event loop; see `run`."""
         stop_telling = self.world.log.listen(self.tell, "console")
         try:
             return await beside(self._after_head_start(work), self._living(), on_interrupt)
@@ -106,11 +106,11 @@ class Session:
         await self.live(None)
 
     async def lasting(self, duration: Duration | None) -> None:
-        """Wait for a duration in nanoseconds; for ever if None."""
+        """Wait for a duration in nanoseconds; for ever if the duration is None."""
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
-        """Wait for a duration, and longer if a robot's static transforms have not arrived yet."""
+        """Wait for a duration, and a little longer for static transforms that are still missing."""
         await self.lasting(duration)
         if self.link is None or not self.link.options.reach.is_robots:
             return
@@ -130,7 +130,7 @@ class Session:
 
 
 async def lasting(clock: Clock, duration: Duration | None) -> None:
-    """Wait for a duration in nanoseconds at the pace of a clock; for ever if None."""
+    """Wait for a duration in nanoseconds on the clock `pace_of(clock)`; for ever if it is None."""
     if duration is None:
         await asyncio.get_running_loop().create_future()
         return
@@ -151,10 +151,10 @@ def joined_session(
     cache_time: Duration | None = None,
     tell: "Callable[[LogRecord], object]" = _keep_silent,
 ) -> Session:
-    """Return a world that receives the frames of the session that a link has joined.
+    """Return a world that receives the frames of a session that was joined.
 
     Args:
-        link: Link to the session.
+        link: Connection to the session.
         clock: Clock of the world.
         place: Description of the other processes, if they have no name.
         cache_time: Cache time of the world's buffer, nanoseconds; None for the default.
@@ -166,7 +166,7 @@ def joined_session(
 
 
 def session_name(link: "Link", place: str) -> str:
-    """Return a session's name for sentences: by its host process, or a ROS node."""
+    """Return a session's name for messages: its host process, else one of its ROS nodes."""
     if link.options.reach.only_reads:
         return visible(place)
     processes = link.graph.processes()
@@ -198,7 +198,7 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     """Share a world with other processes while this block runs; call this inside its event loop.
 
     Args:
-        link: Link to the other processes; None to share nothing.
+        link: Connection to the other processes; None to share nothing.
         world: World to share.
         role: Role of this process, a value of `link.graph.Role`.
     """
@@ -259,7 +259,7 @@ def listened(
     watch: Callable[[World], object] | None,
     glance: Callable[[Frames, Duration], object] | None = None,
 ) -> Frames:
-    """Record the frames of a joined session for a while; see `open_frames`."""
+    """Record the frames of a joined session for the duration `lasting`; see `open_frames`."""
     world = session.world
     if watch is not None:
         watch(world)

@@ -1,4 +1,4 @@
-"""Bridges of a world's topics to other processes, with special ones for tf and /clock."""
+"""Bridges of a world's topics to other processes; tf and /clock have bridges of their own."""
 
 from collections.abc import Callable
 from typing import Any, Final
@@ -24,8 +24,8 @@ class TopicBridge:
     """Bridge of an ordinary topic between the world and other processes.
 
     Nodes that declare their publishers and subscriptions, with their quality of service, are
-    announced one by one; all others are announced together as the first node of the world. Messages
-    are received once for all subscriptions, but each latched subscription gets earlier messages.
+    announced one by one; all others are announced together as the first node of the world. One
+    receiver serves all subscriptions, but each latched subscription gets earlier messages itself.
     """
 
     def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
@@ -62,7 +62,7 @@ class TopicBridge:
             for one in publishers:
                 if one not in self._senders:
                     self._senders[one] = self._sender(one)
-                    # Messages stored before the link existed are also for late subscribers.
+                    # Messages stored before the session was joined are also for late subscribers.
                     for value in one.kept or ():
                         self._put(self._senders[one], value)
 
@@ -178,7 +178,7 @@ LARGE: Final = 256 * 1024
 """Smallest message of transforms in bytes that may be inserted as arrays."""
 
 LONG: Final = 64
-"""Smallest average number of samples per link at which inserting arrays is faster."""
+"""Smallest average number of samples per edge at which inserting arrays is faster."""
 
 TRANSFORMS: Final = TransformMessage.interface__
 
@@ -270,7 +270,7 @@ class TransformBridge:
                 self._inbound = None
 
     def _takes_paths(self, payload: bytes, authority: str) -> bool:
-        """Insert a large message's transforms as arrays, one per link; else return False.
+        """Insert a large message's transforms as one array per edge; return whether that was done.
 
         Raises:
             MalformedMessage: If the bytes are not transforms.

@@ -1,4 +1,4 @@
-"""Nodes that broadcast frames: turtles, static links, moving points ("carrots"), noise."""
+"""Nodes that broadcast frames: turtles, static transforms, moving points ("carrots"), noise."""
 
 import math
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ CARROT_PERIOD: Duration = seconds(0.1)
 class Broadcaster(Node):
     """Node that broadcasts a turtle's frame at every pose the turtle publishes.
 
-    A pose has no stamp; the frame gets the time of the pose's reception, which is that of the tick.
+    A pose has no stamp. The frame's stamp is the time at which the pose was received.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST

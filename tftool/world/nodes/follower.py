@@ -21,8 +21,8 @@ TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
 class Follower(Node):
     """Node that spawns a turtle and steers it towards a frame by transform lookups.
 
-    With a delay, the turtle goes to the place where the leader was before. The lookup then uses two
-    times, joined by a fixed frame: the present for the turtle, an earlier time for the leader.
+    With a delay, the turtle goes to the position where the leader was before. The lookup then uses
+    two times, joined by a fixed frame: the present for the turtle, an earlier time for the leader.
     """
 
     def __init__(
@@ -51,8 +51,9 @@ class Follower(Node):
             follower: Name of the turtle to steer, also of its frame.
             period: Nanoseconds between two commands.
             delay: Age of the leader's pose to follow, nanoseconds.
-            fixed_frame: Frame that does not move during the delay, through which the lookup goes;
-                None looks both frames up in the past, which steers by the follower's own past.
+            fixed_frame: Frame that does not move during the delay, through which the lookup goes.
+                If None, both frames are looked up in the past, so that the turtle steers by its own
+                past pose.
             distance_gains: Gains from a distance in metres to a speed in m/s.
             bearing_gains: Gains from an angle in radians to a turn rate in rad/s.
             dead_band: Distance in metres at which the leader counts as reached.
@@ -140,10 +141,10 @@ class Follower(Node):
 
 
 class Spawning:
-    """State machine of the tutorial that spawns a turtle, stepped by a node's timer.
+    """State machine that spawns a turtle as in the tutorial; a node's timer calls `step`.
 
-    One step requests the turtle, a later one sees the response, and the next one begins to drive:
-    with a period of one second, three seconds after the start.
+    One step sends the request, a later step sees the response, and the step after it returns True.
+    With a period of one second, that is three seconds after the start.
     """
 
     def __init__(self, node: Node, x: float, y: float, theta: float, name: str) -> None:
@@ -154,7 +155,7 @@ class Spawning:
         self._confirmed = False
 
     def step(self) -> bool:
-        """Do the next step; return True if the turtle existed before this step."""
+        """Take the next step; return True if the turtle existed before this step."""
         if self._confirmed:
             return True
         if not self._is_asked:

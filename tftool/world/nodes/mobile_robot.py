@@ -56,9 +56,9 @@ class RobotOdometry(Node):
             start: x, y and heading in the map at the start.
             speed: Speed in m/s until the first command.
             turn_rate: Turn rate in rad/s until the first command.
-            scale_error: Share by which the wheels overestimate a distance.
-            turn_error: Turn rate in rad/s that the wheels measure in addition to the true one
-                while the robot moves.
+            scale_error: Fraction by which the wheels overestimate a distance.
+            turn_error: Turn rate in rad/s that the wheels measure in addition to the true one while
+                the robot moves.
             period: Nanoseconds between two broadcasts.
         """
         super().__init__(world, name)
@@ -159,7 +159,7 @@ class MapCorrection(_Observer):
 class LaserPoint(_Observer):
     """Node that broadcasts one point of a wall as the laser sees it: laser_link to laser_point.
 
-    Nothing is broadcast before the laser's mount on the robot is known.
+    Nothing is broadcast before the laser's pose on the robot was received.
     """
 
     def __init__(
@@ -194,7 +194,8 @@ class LaserPoint(_Observer):
 class ScanMatcher(_Observer):
     """Node that broadcasts the laser's motion as estimated from its scans, in a separate tree.
 
-    It does not use the published mount: the laser has its true pose on the robot.
+    The node ignores the published transform from the robot to the laser, and uses the true pose of
+    the laser on the robot.
     """
 
     def __init__(
@@ -250,7 +251,7 @@ def _pose_of(truth: Any) -> Transform:
 
 
 def _moved(start: Placement, distance: float, turned: float) -> Placement:
-    """Return a pose moved along an exact arc, so that only the wheels cause errors."""
+    """Return a pose moved along an exact arc; the odometry errors come from the wheels alone."""
     middle = start.theta + turned / 2
     chord = distance * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
     return Placement(

@@ -33,7 +33,7 @@ SLOWEST, FASTEST = 0.01, 100.0
 class Player(Node):
     """Node that broadcasts a recording's transforms when they are due, and publishes `/clock`.
 
-    All its times are on the clock of the recording's stamps.
+    All times of the node are in the time of the recording's stamps.
 
     Attributes:
         rate: Seconds of the recording per real second.
@@ -73,8 +73,8 @@ class Player(Node):
             is_restamped: Whether to replace each stamp by the time of sending, and publish no
                 `/clock`.
             is_silent: Whether to publish no `/clock` although the recording's stamps are kept.
-            names_topics: Whether the sender of a transform whose node was not recorded is the
-                transform's topic; else the sender is this node.
+            names_topics: Whether to name the topic as the sender of a transform if the sending node
+                was not recorded. If false, this node is named.
             feed: Player of the recording's other topics.
         """
         super().__init__(world, name)
@@ -140,7 +140,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Jump to a time: send the frames known then, and the transforms of the second before."""
+        """Jump to a time: send the latest frames, and the transforms of the second before."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()
@@ -225,8 +225,8 @@ class Player(Node):
     def _send_known(self, moment: Stamp) -> None:
         """Send the transforms that a lookup at a time needs.
 
-        The last transform of each link would not be enough: their stamps differ, and a lookup over
-        two links needs a time between two samples of the link that is ahead.
+        The last transform of each edge would not be enough. The last stamps of two edges differ,
+        and a lookup over both edges needs samples before and after a common time.
         """
         last = self._timeline.place(moment, after=True)
         first = last

@@ -57,11 +57,11 @@ class Recorder:
         Args:
             world: World of the topics.
             taker: Receiver of every message.
-            link: Link over which the world has joined a session; None for a world of this
-                process.
+            link: Connection through which the world has joined a session; None for a world of this
+                process only.
             names: Further topics to record, without a leading slash.
             everything: Whether to record all topics.
-            clock: Clock for the time of reception; None for the world's own pace.
+            clock: Clock for the time of reception; None for `pace_of` the world's clock.
         """
         self._world = world
         self._taker = taker

@@ -1,7 +1,8 @@
-"""Services over DDS as in ROS 2 with Cyclone: two topics, with a number before each message.
+"""Services over DDS as in ROS 2 with Cyclone: a topic for requests and one for responses.
 
-Fast DDS sends that number beside the message, where the library cannot read it. So services of
-nodes that use Fast DDS are refused by name.
+Each message begins with the request's number. Fast DDS sends that number beside the message, where
+the library cannot read it. So requests of nodes that use Fast DDS get no response, and a warning
+names Fast DDS.
 """
 
 import asyncio
@@ -77,7 +78,7 @@ class CycloneServer:
         """Start to serve a service.
 
         Args:
-            part: State that servers and clients share.
+            part: State that all servers and clients share.
             name: Name of the service.
             ros_type: Type of the service.
             on_request: Function called with every request.

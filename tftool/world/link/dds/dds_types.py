@@ -153,7 +153,7 @@ def dds_type(ros_type: str) -> str:
 
 
 def ros_part(topic: str, type_name: str) -> Part | None:
-    """Return the meaning of a DDS topic in ROS; None if its name is not one of ROS's."""
+    """Return the meaning of a DDS topic in ROS; None if ROS has no topic of that form."""
     found = _TYPE.fullmatch(type_name)
     prefix, name = topic[:3], topic[3:]
     if found is None or prefix not in (TOPIC, REQUEST, REPLY) or not name:
@@ -185,7 +185,7 @@ def process_data(process: Process) -> bytes:
 
 
 def process_shown(user_data: bytes, domain: int, session: str) -> Process | None:
-    """Return the tftool process that a participant's user data announces; None for others."""
+    """Return the tftool process in a participant's user data; None if it is another program."""
     found = _OURS.search(user_data.decode(errors="replace"))
     if found is None or found["role"] not in tuple(Role):
         return None

@@ -196,7 +196,7 @@ class Discovery:
         return has_spoken and self._informing.keys() <= self._nodes.keys()
 
     def wait(self, seconds: float) -> bool:
-        """Wait until something has changed; return False at the timeout. No callback is called."""
+        """Wait until something has changed; return False at the timeout. Call no callback."""
         changed = self._is_due.wait(seconds)
         self._is_due.clear()
         return changed
@@ -296,7 +296,7 @@ class Discovery:
         self._show(key)
 
     def _show(self, key: tuple[str, bytes]) -> None:
-        """Add an endpoint to the graph, under its node if that is known."""
+        """Add an endpoint to the graph, under its node if the node is known."""
         found = self._found[key]
         nodes = self._nodes.get(found.participant, ({}, []))[0]
         node = nodes.get(key[1]) or self._node_of(found.participant)
@@ -374,7 +374,7 @@ class Discovery:
     # What we say
 
     def show_node(self, name: str) -> Callable[[], None]:
-        """Announce one of this process's nodes; return a function that ends this."""
+        """Announce one of this process's nodes; return a function that ends the announcement."""
         self._own.setdefault(name, (set(), set()))
         self._say()
 
@@ -385,7 +385,7 @@ class Discovery:
         return hide
 
     def show_endpoint(self, node: str, role: str, gid: bytes) -> Callable[[], None]:
-        """Announce an endpoint of one of this process's nodes; return a function that ends this."""
+        """Announce an endpoint of one of this process's nodes; return a function to withdraw it."""
         which = 1 if role == PUBLISHER else 0
         self._own.setdefault(node, (set(), set()))[which].add(gid)
         self._say()

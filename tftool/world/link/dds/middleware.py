@@ -1,4 +1,4 @@
-"""DDS as a link's middleware, with names and types of ROS 2's Cyclone and Fast DDS."""
+"""DDS as the middleware of a session, with names and types of ROS 2's Cyclone and Fast DDS."""
 
 import asyncio
 import os
@@ -50,10 +50,10 @@ _RELIABILITY: Final = 11
 
 
 class DdsMiddleware(Middleware):
-    """This process's part in a ROS 2 graph over DDS; its session name is its participant's GUID.
+    """This process in a ROS 2 graph over DDS; its session name is the GUID of its participant.
 
-    A stopped process cannot be distinguished from a missing one, so none is `unanswering`. Frames
-    are not listed: command lines are completed from zenoh sessions only.
+    `unanswering` is always empty, because DDS does not distinguish a stopped process from a missing
+    one. `tell_frames` does nothing: shell completion of frame names works with zenoh only.
     """
 
     def __init__(self, options: Options, reach: DdsReach) -> None:
@@ -167,7 +167,7 @@ class DdsMiddleware(Middleware):
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Announce that a node subscribes to a topic, so that its reader counts as the node's."""
+        """Announce that a node subscribes to a topic; list the topic's reader under this node."""
         claim = _Claim(node_name(node), name, ros_type, quality)
         self._claims.append(claim)
         for one in self._readers.get((name, ros_type), ()):
@@ -181,7 +181,7 @@ class DdsMiddleware(Middleware):
         return hide
 
     def _assign(self, listening: "_Listening") -> None:
-        """Announce a reader as one of the node that subscribes to its topic."""
+        """Announce a topic's reader under the first node that subscribes to the topic."""
         listening.hide()
         # ROS 2 lists a reader under one node: the first one that names it.
         listening.hide = nothing
@@ -234,7 +234,7 @@ class DdsMiddleware(Middleware):
         return stop
 
     def _asks_reliable(self, name: str, ros_type: str) -> bool:
-        """Return whether a reader requests reliability: for tf2, or if all writers offer it."""
+        """Return whether to request reliability: always for tf, else if all writers offer it."""
         if name in ("tf", "tf_static"):
             return True
         # A reader that requests more than a writer offers receives nothing from it.

@@ -1,7 +1,8 @@
 """This process as a DDS participant: its readers and writers, and their threads.
 
-`cyclonedds` is imported with this module, and this module when `DdsReach` joins. Callbacks in the
-library's threads go through an inbox to the event loop; written data goes through an outbox.
+This module imports `cyclonedds`, so it is imported only when a process joins a DDS domain.
+Callbacks in the library's threads go through an inbox to the event loop. Written data goes through
+an outbox.
 """
 
 import contextlib
@@ -43,10 +44,10 @@ class LibraryLog:
     """Error output of the DDS library, read through a pipe and passed to listeners.
 
     The library has no function that redirects its errors: a domain writes to C's `stderr` as it was
-    when the domain was created. During that time, the variable `stderr` refers to our pipe. The
-    library's end of the pipe never blocks, and text that does not fit is dropped: the library holds
-    locks while it writes, so neither a full pipe nor Python's own lock, as in a callback from C,
-    may stop it.
+    when the domain was created. While a domain is created, the variable `stderr` refers to our
+    pipe. The library's end of the pipe never blocks, and text that does not fit is dropped: the
+    library holds locks while it writes, so neither a full pipe nor Python's own lock, as in a
+    callback from C, may stop it.
     """
 
     def __init__(self) -> None:
@@ -59,7 +60,7 @@ class LibraryLog:
         """Call `callback`, in another thread, with sentences for the user.
 
         Returns:
-            A function that ends this.
+            A function that ends the calls.
         """
         with self._lock:
             self._listeners.append(callback)
@@ -433,7 +434,7 @@ class TopicWriter:
 def _end(entity: Any) -> None:
     """Delete an object of the library now, even if something still refers to it.
 
-    The library itself only does this when the last reference is gone.
+    The library itself deletes an object only when the last reference to it is gone.
     """
     entity.__del__()
 

@@ -1,4 +1,4 @@
-"""Options of a DDS link, and checks that they do not contradict each other."""
+"""Options for a DDS connection, and checks that they do not contradict each other."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ NO_WHEEL: Final = (
 
 @dataclass(frozen=True, slots=True)
 class DdsReach(Reach):
-    """Networks that a DDS link may use; by default only the loopback of this machine.
+    """Networks that a DDS connection may use; by default only the loopback of this machine.
 
     Attributes:
         places: Interfaces to use, and addresses to connect to.

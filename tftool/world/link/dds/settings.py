@@ -33,7 +33,7 @@ class Network:
         interfaces: Names or addresses of the interfaces to use; empty for the interfaces on the
             routes to the peers.
         peers: Addresses to connect to.
-        config: Cyclone's configuration set by the user, which replaces ours; "" if not set.
+        config: Cyclone's configuration set by the user, which replaces tftool's; "" if not set.
         told: Notices for the user, as sentences.
     """
 

@@ -1,7 +1,7 @@
 """Client of one Foxglove server in its own thread: connects, subscribes, and reconnects.
 
-`websockets` is imported with this module, and this module when `FoxgloveReach` joins. Received data
-goes through an inbox to the event loop of the world.
+This module imports `websockets`, so it is imported only when a process connects to a server.
+Received data goes through an inbox to the event loop of the world.
 """
 
 import asyncio
@@ -114,7 +114,7 @@ class FoxgloveClient:
             address: Address of the server.
             inbox: Queue of calls to the event loop.
             receiver: Callbacks.
-            place: Address as sentences show it.
+            place: Address for messages to the user, without secrets.
             pauses: Seconds before each further attempt to connect.
         """
         self._address = address
@@ -233,7 +233,7 @@ class FoxgloveClient:
                 await asyncio.wait_for(self._woken.wait(), pause)
 
     async def _connected(self) -> str:
-        """Connect and read until the connection ends; return why it ended, for a sentence."""
+        """Connect and read until the connection ends; return the reason as part of a sentence."""
         try:
             async with _Direct(
                 self._address,
@@ -364,11 +364,11 @@ class FoxgloveClient:
             self._send(protocol.request("subscribe", subscriptions=asked))
 
     def _ask_again_later(self, sentence: str) -> bool:
-        """Return whether a server's sentence refuses a subscription, which is then requested again.
+        """Return whether a server's text refuses a subscription; if so, subscribe again later.
 
         Servers made with Foxglove's SDK announce a channel slightly before they accept
-        subscriptions to it. A quick subscription is then refused, and without a second one no
-        message would ever come.
+        subscriptions to it. A quick subscription is then refused, and without a second subscription
+        no message would ever arrive.
         """
         found = _REFUSED.search(sentence)
         channel = int(found[1] or found[2]) if found else None
@@ -406,7 +406,7 @@ class FoxgloveClient:
 
 
 def _of_closed(error: ConnectionClosed) -> str:
-    """Return the reason why a connection ended, for a sentence."""
+    """Return the reason why a connection ended, as part of a sentence."""
     close = error.rcvd or error.sent
     if close is None:
         return "it broke off"
@@ -418,7 +418,7 @@ def _of_closed(error: ConnectionClosed) -> str:
 
 
 def _of_failure(error: Exception) -> str:
-    """Return the reason why no connection was made, for a sentence."""
+    """Return the reason why no connection was made, as part of a sentence."""
     if isinstance(error, ssl.SSLCertVerificationError):
         return (
             f"its certificate is not trusted: {error.verify_message} (SSL_CERT_FILE=FILE names "

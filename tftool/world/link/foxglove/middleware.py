@@ -1,4 +1,4 @@
-"""Foxglove WebSocket server as a link's middleware, for reading only."""
+"""Foxglove WebSocket server as the middleware of a session, for reading only."""
 
 import asyncio
 from collections.abc import Callable
@@ -32,7 +32,7 @@ _TIME_GID: Final = b"time"
 
 
 class FoxgloveMiddleware(Middleware):
-    """This process as a client of a Foxglove server, which does not list its clients."""
+    """This process as a client of a Foxglove server; the server does not list its clients."""
 
     NO_WRITING: ClassVar[str] = "a Foxglove server is only read here: nothing is published to it"
 
@@ -172,7 +172,7 @@ class FoxgloveMiddleware(Middleware):
                 self._warn(f"The definition of '{channel.type}' cannot be used: {error}.")
 
     def _shown(self, state: ServerState) -> dict[str, GraphEntity]:
-        """Return all entries for the graph, by keys of our own."""
+        """Return the graph's entities that the server has announced, by keys made here."""
         found: dict[str, GraphEntity] = {}
         types: dict[str, str] = {}
         nodes: set[str] = set()

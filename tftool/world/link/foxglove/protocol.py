@@ -285,8 +285,8 @@ class RosTopic(NamedTuple):
 def ros_topic(channel: FoxgloveChannel) -> RosTopic:
     """Return the ROS topic and type of a channel.
 
-    Foxglove reads its own transforms from any topic, so each such channel is a publisher of `tf`,
-    or of `tf_static` if its name ends so.
+    Foxglove's own transform type may be on any topic. A channel of this type counts as a publisher
+    of `tf_static` if the topic's name ends in `tf_static`, else of `tf`.
     """
     name = channel.topic.strip("/")
     if _is_foreign(channel):
@@ -326,7 +326,7 @@ def define(channel: FoxgloveChannel) -> bool:
 
 
 def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
-    """Return the function that converts a channel's messages to CDR, by known definitions.
+    """Return the function that converts a channel's messages to CDR.
 
     Raises:
         InputError: If there is no conversion; the text is part of a sentence.

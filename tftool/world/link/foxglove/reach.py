@@ -19,7 +19,7 @@ _ADDRESS: Final = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class FoxgloveReach(Reach):
-    """Reach of a link that reads one Foxglove server.
+    """Address of the one Foxglove server that a process reads.
 
     Attributes:
         address: Address of the server, such as "ws://robot:8765".
@@ -33,7 +33,7 @@ class FoxgloveReach(Reach):
 
     @classmethod
     def at(cls, address: str) -> "FoxgloveReach":
-        """Return the reach of the server with an address; None for other words; see `Reach.at`."""
+        """Return the reach of a server's address; None for a word that is no such address."""
         found = _ADDRESS.fullmatch(address)
         if found is None or not 0 < int(found[1] or 1) < 65536:
             raise UsageError(f"'{address}' is not a server address: write ws://HOST:8765.")

@@ -38,7 +38,7 @@ _PROCESS = re.compile(
 
 @cache
 def type_hash(ros_type: str) -> str:
-    """Return a type's hash (RIHS01); a type that was used once keeps its definition.
+    """Return a type's hash (RIHS01); later changes of its definition have no effect.
 
     Raises:
         InputError: If the definition is unknown.
@@ -68,14 +68,14 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
         domain: Number of the ROS domain.
         name: Name of the topic or service.
         ros_type: Type of the topic or service.
-        its_hash: Hash of the type on the other side, which may be of another release; "" for
-            our hash.
+        its_hash: Hash of the type in the other process, whose ROS release may differ; "" for the
+            hash of this process.
     """
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/{its_hash or type_hash(ros_type)}"
 
 
 def any_hash_key(domain: int, name: str, ros_type: str) -> str:
-    """Return the zenoh key for receiving, with any hash: Humble uses none, and releases differ."""
+    """Return the zenoh key to receive messages with any type hash, as releases differ in it."""
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 
@@ -106,7 +106,7 @@ def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
     """Return the key of the liveliness token with which rmw_zenoh announces an entity.
 
     Args:
-        entity: The entity; without a type hash, it gets our hash.
+        entity: The entity; if it has no type hash, the hash of this process is used.
         node_id: Number of its node within the session.
         entity_id: Number of the entity within the session; for a node, the same as `node_id`.
     """

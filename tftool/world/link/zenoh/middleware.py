@@ -1,4 +1,4 @@
-"""zenoh as a link's middleware, with the names, tokens and attachments of `rmw_zenoh`."""
+"""zenoh as the middleware of a session, with names, tokens and attachments of `rmw_zenoh`."""
 
 import asyncio
 import contextlib
@@ -52,7 +52,7 @@ _STEP = 0.005
 
 
 class ZenohMiddleware(Middleware):
-    """This process's part in a ROS 2 graph over zenoh; its session name is the zenoh session's id.
+    """This process in a ROS 2 graph over zenoh; its session name is the zenoh session's id.
 
     Attributes:
         wire: The zenoh session.
@@ -96,7 +96,7 @@ class ZenohMiddleware(Middleware):
             raise
 
     def _reach_out(self, others: dict[str, int]) -> None:
-        """Wait until this machine's processes and those at the option `connect` are connected."""
+        """Wait until local processes and those at the option `connect` are connected."""
 
         # zenoh's own wait is short, and processes of a busy machine respond slowly: if they were
         # ignored, a second world would be hosted. A stopped process never responds.
@@ -116,7 +116,7 @@ class ZenohMiddleware(Middleware):
             raise LinkError(_no_answer_at(reach))
 
     def _take_in_tokens(self, *, is_expected: bool) -> None:
-        """Fill the graph with existing entities; wait for some if a process must exist."""
+        """Fill the graph with existing entities; if `is_expected`, wait for at least one."""
 
         def all_are_known() -> bool:
             for prefix in (keys.LIVELINESS, keys.OURS):
@@ -274,7 +274,7 @@ class ZenohMiddleware(Middleware):
         return self._numbers
 
     def show(self, key: str) -> Callable[[], None]:
-        """Announce a token, unless read-only; return a function that ends this."""
+        """Announce a token, unless read-only; return a function that withdraws the token."""
         return nothing if self._options.read_only else self.wire.token(key)
 
     def _on_token(self, change: tuple[str, bool]) -> None:

@@ -1,4 +1,4 @@
-"""Options of a zenoh link, and checks that they do not contradict each other."""
+"""Options for a zenoh connection, and checks that they do not contradict each other."""
 
 import re
 from collections.abc import Mapping
@@ -25,12 +25,12 @@ _PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class Certificates:
-    """Files for mutual TLS: our certificate and key, and the trusted authority.
+    """Files for mutual TLS: this process's certificate and key, and the trusted authority.
 
     Attributes:
-        certificate: Our certificate, PEM.
-        key: Our private key, PEM.
-        authority: Certificate of the authority that signed the other side's certificate, PEM.
+        certificate: Certificate of this process, PEM.
+        key: Private key of this process, PEM.
+        authority: Certificate of the authority that signed the other process's certificate, PEM.
     """
 
     certificate: Path
@@ -74,13 +74,13 @@ class Certificates:
 
 @dataclass(frozen=True, slots=True)
 class ZenohReach(Reach):
-    """Networks that a zenoh link may use; by default only this machine's processes.
+    """Networks that a zenoh connection may use; by default only this machine's processes.
 
     Attributes:
         listen: Endpoints on which other machines may connect, such as "tcp/0.0.0.0:7448".
         connect: Endpoints to connect to, such as "tcp/robot:7447".
         certificates: Files for endpoints that begin with tls/ or quic/.
-        config: File with a zenoh configuration (JSON5) that replaces ours.
+        config: File with a zenoh configuration (JSON5) that replaces tftool's.
     """
 
     OPTIONS: ClassVar[Mapping[str, LinkOption]] = {
@@ -139,7 +139,7 @@ class ZenohReach(Reach):
 
     @property
     def is_asked(self) -> bool:
-        """Whether an option requires a link."""
+        """Whether the options require a connection to other processes."""
         return bool(self.listen or self.connect or self.config is not None)
 
     def awaits_others(self, *, hosts: bool) -> bool:

@@ -57,12 +57,12 @@ _LONGEST_LIST = 2**24
 def folder(environment: Mapping[str, str] = os.environ) -> Path:
     """Return the folder with this user's sessions.
 
-    It is `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the user among
-    the temporary files.
+    The folder is `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the
+    user among the temporary files.
 
     Raises:
-        UsageError: If `TFTOOL_SESSION_DIR` is a relative path: commands run in two folders
-            would then use different folders, and not find each other.
+        UsageError: If `TFTOOL_SESSION_DIR` is a relative path: commands run in two folders would
+            then use different folders, and not find each other.
     """
     named = environment.get(FOLDER_VARIABLE)
     if named:
@@ -113,14 +113,14 @@ def _member(path: Path) -> str:
 
 
 class Rendezvous:
-    """Place of one process among the processes of its machine and domain.
+    """Entry of one process in the list of the processes of its machine and domain.
 
     Attributes:
         folder: Folder of the members' sockets.
         endpoint: Endpoint of this process, in zenoh's notation.
         password: Password of this folder's members; "" if the sockets' permissions suffice.
-        others: Endpoints of the other members that responded when `enter` ran, with their
-            process ids.
+        others: Endpoints of the other members that responded when `enter` ran, with their process
+            ids.
     """
 
     def __init__(self, domain: int, home: Path | None = None) -> None:
@@ -267,9 +267,9 @@ def _unusable(path: Path, error: OSError) -> str:
 
 
 def _fitting(place: Path) -> Path:
-    """Return the folder for sockets: the given one, or a short one if its path is too long.
+    """Return the folder for sockets: `place`, or a short folder if the path `place` is too long.
 
-    All processes with the same given folder get the same result.
+    All processes with the same `place` get the same result.
     """
     if not HAS_UNIX_SOCKETS or _holds_sockets(place):
         return place
@@ -298,10 +298,10 @@ def _password_in(folder: Path) -> str:
 
 
 def page_secret(home: Path | None = None) -> str:
-    """Return the secret in the addresses of this user's pages, from the sessions' folder.
+    """Return the secret in the addresses of this user's browser pages.
 
-    The secret stays the same, so that an open page finds the server that succeeds its own. If the
-    folder cannot be used, the secret is new.
+    The secret is stored in the sessions' folder, so that an open page can reconnect to a restarted
+    server. If the folder cannot be used, a new secret is returned.
     """
     place = folder() if home is None else home
     file = place / PAGE_SECRET
@@ -360,7 +360,7 @@ def _text_of(path: Path) -> str:
 
 
 def _content_of(path: Path, longest: int) -> bytes:
-    """Return a file's first bytes; b"" unless it is a regular file, as a pipe would block."""
+    """Return a file's first `longest` bytes; b"" if it is no regular file (a pipe would block)."""
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
     try:
         with open(os.open(path, flags), "rb") as file:

@@ -1,4 +1,4 @@
-"""zenoh session with callbacks in our event loop; the only file that uses zenoh."""
+"""zenoh session whose callbacks run in the event loop; the only module that uses zenoh."""
 
 import asyncio
 import contextlib
@@ -163,7 +163,7 @@ class Wire:
     def subscriber(
         self, key: str, on_message: Callable[[Sample], object], *, is_latched: bool = False
     ) -> Callable[[], None]:
-        """Call `on_message` with every message of a key; return a function that ends this.
+        """Call `on_message` with every message of a key; return a function that ends the calls.
 
         Args:
             key: The key, which may have wildcards.
@@ -208,7 +208,7 @@ class Wire:
     # Questions
 
     def server(self, key: str, on_query: Callable[[Query], object]) -> Callable[[], None]:
-        """Call `on_query` with every request of a key; return a function that ends this."""
+        """Call `on_query` with every request of a key; return a function that ends the calls."""
 
         def asked(query: Any) -> None:
             payload, attachment = query.payload, query.attachment
@@ -383,7 +383,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
 
 
 def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
-    """Return our settings for zenoh, whose defaults would listen on every interface."""
+    """Return the settings for zenoh; its own defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router forwards between this machine's processes, which are connected
