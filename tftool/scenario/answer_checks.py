@@ -1,7 +1,8 @@
 """Checks of a scenario's answers: ranges, poses, exceptions, names.
 
-A `Form` reads the keys beside a question and makes a check from them. The check judges answers, and
-describes the expected and the found answer in words.
+In `{distance: {…}, below: 0.5 m}`, `distance` is the question and `below` a key of the check. A
+`Form` reads such keys and makes the check. The check compares answers, and describes the expected
+and the found answer in words.
 """
 
 import math
@@ -28,7 +29,7 @@ NEAR = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """Outcome of one check: whether it holds, and the answer as text."""
+    """Result of one check: whether the answer is right, and the answer as text."""
 
     ok: bool
     found: str
@@ -41,14 +42,14 @@ def _meant(error: TransformException) -> str:
 
 
 class AnswerCheck(ABC):
-    """Base of checks of an answer; a check's text follows the question in a sentence."""
+    """Base of checks of an answer; `str` of a check describes the expected answer."""
 
     @abstractmethod
     def judge(self, answer: Any) -> Judged:
         """Compare an answer with the expected one."""
 
     def refused(self, error: TransformException) -> Judged:
-        """Judge the exception of a question that has no answer."""
+        """Return the result for a question whose answer failed with an exception."""
         # Some of tf2's error texts end in ". ", others without it.
         hint = _meant(error)
         said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
@@ -64,7 +65,7 @@ Make: TypeAlias = Callable[[Mapping[str, Any], Reading, TextPlace], AnswerCheck]
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """Keys of one kind of check beside the question, and the function that makes the check."""
+    """Keys of one kind of check, such as `below` and `above`, and a function to make the check."""
 
     fields: Mapping[str, Key]
     make: Make
@@ -156,7 +157,7 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
 
 
 def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
-    """Return "; did you mean …" with the existing name nearest to each unknown one, or ""."""
+    """Return "; did you mean …" with the existing name nearest to each unknown name, or ""."""
     found = [near_names(name, known) for name in wanted if name not in known]
     near = [f"'{names[0]}'" for names in found if names]
     return f"; did you mean {', '.join(near)}?" if near else ""
@@ -168,9 +169,9 @@ class FrameFacts:
 
     Attributes:
         exists: Whether the frame is known.
-        parent: Name of its parent.
-        static: Whether the link to the parent is static.
-        broadcaster: Name of its publisher.
+        parent: Name of the frame's parent.
+        static: Whether the transform to the parent is static.
+        broadcaster: Name of the frame's publisher.
         known: Names of all frames.
     """
 
@@ -338,7 +339,7 @@ class RefusalCheck(AnswerCheck):
     says: str | None
 
     def judge(self, answer: Transform) -> Judged:
-        """Return a failed check: the lookup has an answer."""
+        """Return a failed check, because the lookup has an answer."""
         return Judged(False, f"no exception: {_pose_text(answer)}")
 
     def refused(self, error: TransformException) -> Judged:
@@ -410,7 +411,7 @@ _POSE_PARTS = {
 
 
 def _value(node: Node, reading: Reading) -> tuple[TextPlace, Mapping[str, Any]]:
-    """Read the parts of an expected pose; return their place in the file, too."""
+    """Read the parts of an expected pose; return their position in the file, and the parts."""
     return node.place, reading.record(node, _POSE_PARTS, "a value")
 
 

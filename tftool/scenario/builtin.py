@@ -19,12 +19,13 @@ def folder() -> Path:
 
 
 def shipped(name: str, mark: str) -> Path:
-    """Return the folder `name` shipped with tftool that contains a file or folder `mark`.
+    """Return the folder `name` of tftool's own files, which must contain the file `mark`.
 
-    In a wheel it is inside the package; in a checkout, also one installed as editable, beside it.
+    In an installed wheel, the folder is inside the package. In a source checkout or an editable
+    install, the folder is beside the package.
 
     Raises:
-        InputError: If the folder is in neither place.
+        InputError: If the folder is missing.
     """
     for place in (PACKAGE / name, PACKAGE.parent / name):
         if (place / mark).exists():

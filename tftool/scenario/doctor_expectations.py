@@ -23,10 +23,10 @@ ENDING = ".doctor.yaml"
 
 @dataclass(frozen=True, slots=True)
 class DoctorRules:
-    """Rules for the doctor: checks to leave out, and thresholds.
+    """Rules for the doctor: checks not to run, and thresholds.
 
     Attributes:
-        ignore: Ids and areas of checks to leave out.
+        ignore: Ids of checks not to run, or areas (groups of checks).
         limits: Thresholds, by check and by name.
     """
 
@@ -34,7 +34,7 @@ class DoctorRules:
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def settings(self, given: "Settings") -> "Settings":
-        """Return a command's settings for the doctor, with these thresholds added."""
+        """Return a command's settings for the doctor, with the thresholds of these rules added."""
         from tftool.doctor.model import Settings
 
         limits = {name: dict(of) for name, of in self.limits.items()}

@@ -34,7 +34,7 @@ class Unreadable(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Reader of the value of one key, and the default value."""
+    """Reader of the value of one key, and the default if the key is missing."""
 
     read: Reader
     default: Any = REQUIRED
@@ -50,7 +50,7 @@ class Reading:
         self._noted: set[tuple[TextPlace, str]] = set()
 
     def note(self, where: Node | TextPlace, text: str) -> None:
-        """Record a mistake; only once, even if an alias repeats it."""
+        """Record a mistake once, even if a YAML alias repeats the value."""
         place = where if isinstance(where, TextPlace) else where.place
         if (place, text) not in self._noted:
             self._noted.add((place, text))
@@ -76,7 +76,7 @@ class Reading:
         return found
 
     def part(self, node: Node, text: str) -> Scalar:
-        """Return a part of a value as a node whose mistakes point at the whole value."""
+        """Return a part of a value as a node; mistakes in the part point at the whole value."""
         return Scalar(node.place, text.replace("$", "$$"))
 
     def text(self, node: Node, wanted: str) -> str:
@@ -133,7 +133,7 @@ class Reading:
         return node.items
 
     def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
-        """Read a mapping with known keys; return a value for every known key.
+        """Read a mapping with known keys; return a value for each, which may be its default.
 
         Args:
             node: The mapping.
@@ -150,7 +150,7 @@ class Reading:
         known: Mapping[str, Key],
         what: str,
     ) -> dict[str, Any]:
-        """Read entries that are split into keys and values; see `record`."""
+        """Read a mapping's entries, given by key, as `record` does."""
         whole = True
         meant = set()
         for name, (key, _) in entries.items():
@@ -177,7 +177,7 @@ class Reading:
 
 
 class DeclaredField(NamedTuple):
-    """Field of a class that is read from a scenario; see `reads`."""
+    """Field that a class reads from a scenario; see `reads`."""
 
     read: Reader
     default: Any
@@ -186,22 +186,23 @@ class DeclaredField(NamedTuple):
 
 
 def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = False) -> Any:
-    """Declare a field of a class that is read from a scenario.
+    """Declare a field that a class reads from a scenario.
 
     Args:
         read: Reader of the value.
         default: Default value; without one, the key is required.
         key: Key in the scenario, if it is not a valid name in Python.
-        beside: Whether the key is beside the key that names the class, not inside its value.
+        beside: Whether the key is written next to the key that names the class, not inside that
+            key's value.
     """
     return DeclaredField(read, default[0] if default else REQUIRED, key, beside)
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(reads,))
 class Declared:
-    """Base of classes whose fields a scenario gives: frozen, and equal if their fields are.
+    """Base of frozen classes whose fields are read from a scenario; equal if all fields are equal.
 
-    It is not a dataclass, because the code that dataclasses generate took a sixth of the start-up.
+    This base replaces dataclasses, whose generated code took a sixth of the start-up time.
     """
 
     declared: ClassVar[Mapping[str, DeclaredField]] = {}
@@ -237,7 +238,8 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
     Args:
         kinds: Table of classes, by their keys.
         key: Key of the class in a scenario.
-        facts: Further attributes of the class; `short` names the field that a single value gives.
+        facts: Further attributes of the class. The attribute `short` names the field to set if the
+            scenario has a single value in place of a mapping.
     """
 
     def enter(kind: type[T]) -> type[T]:
@@ -250,7 +252,7 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
 
 
 def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
-    """Return the keys that a class reads, and whether each is beside its main value."""
+    """Return the keys that a class reads, and whether each is next to the class's own key."""
     return {
         one.key or name: (Key(one.read, one.default), one.beside)
         for name, one in kind.declared.items()
@@ -258,12 +260,12 @@ def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
 
 
 def attribute_names(kind: type[Declared]) -> dict[str, str]:
-    """Return the attribute for each of a class's keys."""
+    """Return the name of the attribute for each key that a class reads."""
     return {one.key or name: name for name, one in kind.declared.items()}
 
 
 def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
-    """Return the end of a sentence about an unknown word: the nearest known one, or all."""
+    """Return the end of a sentence about an unknown word: the nearest known word, or all."""
     choices = list(known)
     meant = did_you_mean(word, choices)
     if meant or not always:
@@ -290,18 +292,18 @@ def tagged(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> tuple[str, Any, dict[str, Any]]:
-    """Read a mapping in which one key names a class, and the other keys are settings.
+    """Read a mapping in which one key names a class, and further keys may follow.
 
     Args:
         node: The mapping.
         reading: Pass over the document.
         what: Noun for messages, with its article.
-        kinds: Class for each key that names one.
-        common: Keys allowed beside the key of every class.
-        beside: Further keys allowed beside the key of one class, by that key.
+        kinds: Class for each key that names a class.
+        common: Keys allowed next to the key of any class.
+        beside: Further keys allowed next to the key of one class, by that key.
 
     Returns:
-        The key, the object of its class, and the values beside the key.
+        The key, the object of its class, and the values of the keys next to it.
     """
     entries = reading.entries(node, f"{listed(common)} and what it is about")
     tag = _tag(node, reading, what, kinds, common, beside)
@@ -339,7 +341,7 @@ def _tag(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> str:
-    """Return the key of a mapping that names a class; record a mistake if there is not one."""
+    """Return a mapping's one key that names a class; record a mistake if none or several do."""
     entries = reading.entries(node, "")
     tags = [key for key in entries if key in kinds]
     if len(tags) == 1:
@@ -366,7 +368,7 @@ def _tag(
 
 
 def _entries_of(kind: type, key: Scalar) -> Reader:
-    """Return a reader of the value of a key that names a class: a mapping, or one main value."""
+    """Return a reader of the value of a class's key: a mapping, or the value for `short` alone."""
     short = getattr(kind, "short", None)
 
     def read(value: Node, reading: Reading) -> dict[str, tuple[Scalar, Node]]:

@@ -1,7 +1,7 @@
 """Reading of a scenario from YAML, with the position of every mistake in it.
 
-The kinds of nodes, actions and subjects are in `kinds.KINDS`, `actions.ACTIONS` and
-`questions.SUBJECTS`; this module names none of them.
+The tables `node_kinds.KINDS`, `script.ACTIONS` and `questions.SUBJECTS` define the kinds of nodes,
+actions and questions. This module names none of them.
 """
 
 import re
@@ -92,15 +92,16 @@ def parse(
 
 
 class _ScenarioReader:
-    """Reader of a scenario in one pass; later parts are checked against earlier ones.
+    """Reader of a scenario in one pass, which checks later parts against earlier parts.
 
     Attributes:
         given: Arguments from the command line.
         expects: Whether expectations are read.
-        duration: Duration of the scenario, once known.
-        names: Names of the scenario's nodes, once all are known.
-        looks: Number of times that all expectations so far are judged.
-        not_a_tree: Places where the scenario's nodes publish links that no tree can contain.
+        duration: Duration of the scenario; None until it is read.
+        names: Names of the scenario's nodes; None until all nodes are read.
+        looks: Total number of times at which the expectations read so far are judged.
+        not_a_tree: Positions of nodes whose edges contradict each other (two parents of a frame, or
+            a loop).
     """
 
     def __init__(self, given: Mapping[str, str], expects: bool) -> None:
@@ -189,7 +190,7 @@ class _ScenarioReader:
         return self.duration
 
     def moment(self, node: Node, reading: Reading) -> Duration:
-        """Read a time since the start that is not after the scenario's end."""
+        """Read a time since the start; the time must not be after the scenario's end."""
         at: Duration = values.duration(node, reading)
         if self.duration is not None and at > self.duration:
             raise reading.refuse(

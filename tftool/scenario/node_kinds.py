@@ -1,7 +1,7 @@
-"""Kinds of nodes that a scenario may start: one entry each.
+"""Kinds of nodes that a scenario may start, in a table with one entry for each kind.
 
-An entry names the class and the parameters that a scenario may give; every parameter is passed on
-under its own name, and its default is the class's own.
+An entry names the node's class, and the parameters that a scenario may set. A parameter has the
+same name and the same default as in the class.
 """
 
 import inspect
@@ -94,7 +94,7 @@ def _beside(node: document.Node, reading: Reading, wanted: str) -> Path:
 
 
 class NodeKind:
-    """Kind of node: the readers of its parameters, and the function that creates it.
+    """Kind of node: readers of its parameters, and a function that creates the node.
 
     Attributes:
         make: Class of the node, or a function that creates it.
@@ -115,8 +115,8 @@ class NodeKind:
 
         Args:
             make: Class of the node, or a function that creates it.
-            usual: Names of parameters with the readers in `USUAL`, separated by blanks.
-            required: Parameters that a scenario must give, although the class has a default.
+            usual: Names of those parameters whose readers are in `USUAL`, separated by blanks.
+            required: Parameters that a scenario must set, although the class has a default.
             readers: Readers of further parameters, by name.
         """
         self.make = make

@@ -1,4 +1,4 @@
-"""Run of a scenario: its world is built, runs on a clock, and is judged or recorded."""
+"""Run of a scenario: create its world, run the world on a clock, and judge the expectations."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -60,7 +60,8 @@ class Play:
         Args:
             scenario: Scenario to play.
             clock: Clock of the world.
-            stand_ins: Functions that start a replacement of some of its nodes, by the nodes' names.
+            stand_ins: For nodes to replace, functions that start the replacement, by the name of
+                the node.
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)
@@ -105,7 +106,7 @@ class Play:
             raise
 
     def verdict(self) -> Verdict:
-        """Return the verdict so far; expectations not yet judged are marked."""
+        """Return the verdict so far; expectations not yet judged are marked "not reached"."""
         steps = () if self._script is None else tuple(self._script.outcomes)
         judged = () if self._expectations is None else self._expectations.judged()
         return Verdict(
@@ -118,9 +119,9 @@ class Play:
 
 
 def left_to_a_person(scenario: Scenario) -> Scenario:
-    """Return a scenario without pressed keys and drives, which a person at the keyboard replaces.
+    """Return a scenario for a person at the keyboard: without its keys, drives and expectations.
 
-    Other actions still happen. With a person driving, there are no expectations.
+    All other actions stay in the script.
     """
     script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
     return replace(scenario, script=script, expect=())

@@ -1,7 +1,7 @@
-"""Questions about a scenario: the subjects of expectations, with their answers.
+"""Questions of a scenario's expectations, such as a distance, and the code that answers them.
 
-Each field of a subject names the reader of its value, and `answer` computes the answer.
-`declare` registers the subject in `SUBJECTS`, with its key in a scenario and the form of its
+Each field of a question's class names the reader of the field's value; `answer` computes the
+answer. `declare` registers the class in `SUBJECTS`, with its key in a scenario and the form of the
 expected answer.
 """
 
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 
 class ScenarioWorld:
-    """World of a scenario, as questions use it.
+    """World of a scenario, in the form that questions use.
 
     Attributes:
         world: World of the scenario.
@@ -101,7 +101,7 @@ SUBJECTS: Final[dict[str, type["Subject"]]] = {}
 
 
 class Subject(Declared):
-    """Question about a scenario at some time.
+    """Base of questions about a scenario at one time.
 
     Attributes:
         key: Key in a scenario.
@@ -121,13 +121,13 @@ class Subject(Declared):
 
     @property
     def problem(self) -> str:
-        """Fault in the combination of fields; "" if there is none."""
+        """Text on a contradiction between the question's fields; "" if there is none."""
         return ""
 
 
 @declare(SUBJECTS, "lookup", form=POSE_FORM)
 class Lookup(Subject):
-    """Question for the pose of `source` in `target` at one time, or via a fixed frame at two."""
+    """Question for the pose of `source` in `target` at a time, or at two via a fixed frame."""
 
     target: str = reads(values.frame)
     source: str = reads(values.frame)
@@ -138,7 +138,7 @@ class Lookup(Subject):
 
     @property
     def problem(self) -> str:
-        """Fault in the combination of fields; "" if there is none."""
+        """Text on a contradiction between the question's fields; "" if there is none."""
         if self.fixed is None and (self.target_time or self.source_time):
             return "two times need a fixed frame to go through: 'fixed'"
         if self.fixed is not None and self.time is not None:
@@ -165,7 +165,7 @@ class Lookup(Subject):
 
     @property
     def words(self) -> tuple[str, str, str]:
-        """Words for target, source, and the time or fixed frame."""
+        """Texts for a sentence: the target, the source, and the time or fixed frame."""
         if self.fixed is None:
             return self.target, self.source, "" if self.time is None else f" ({self.time})"
         latest = RelativeMoment()
@@ -177,7 +177,7 @@ class Lookup(Subject):
 
 
 class Between(Subject):
-    """Base of questions about one frame relative to another; see `Lookup` for the times."""
+    """Base of questions about one frame relative to another; its times are those of `Lookup`."""
 
     start: str = reads(values.frame, key="from")
     end: str = reads(values.frame, key="to")
@@ -188,7 +188,7 @@ class Between(Subject):
 
     @property
     def problem(self) -> str:
-        """Fault in the combination of fields; "" if there is none."""
+        """Text on a contradiction between the question's fields; "" if there is none."""
         return self.lookup.problem
 
     @property
@@ -232,7 +232,7 @@ class Bearing(Between):
 
 @declare(SUBJECTS, "point", form=POSE_FORM)
 class PointOf(Subject):
-    """Question for the position in one frame of a point fixed in another."""
+    """Question for the position, in one frame, of a point that is fixed in another frame."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -289,7 +289,7 @@ class TurnRateOf(Motion):
 
 
 class OfFrame(Subject):
-    """Base of questions for a number measured for one frame."""
+    """Base of questions for a number about one frame, such as its rate."""
 
     short: ClassVar[str] = "frame"
     noun: ClassVar[str]
@@ -297,7 +297,7 @@ class OfFrame(Subject):
     frame: str = reads(values.frame)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the number, as `measure` computes it."""
+        """Return the number that the subclass's function `measure` computes."""
         return type(self).measure(scene.frame(self.frame))
 
     def __str__(self) -> str:
@@ -333,7 +333,7 @@ class MemoryOf(OfFrame):
 
 @declare(SUBJECTS, "frame", form=FRAME_FORM, short="name")
 class FrameOf(Subject):
-    """Question for whether a frame is known, its parent, and its publisher."""
+    """Question for facts about a frame: whether it exists, its parent, its publisher."""
 
     name: str = reads(values.frame)
 
@@ -442,7 +442,7 @@ class Logged(Subject):
 
 @declare(SUBJECTS, "doctor", form=CLEAN_FORM, short="findings")
 class Diagnosed(Subject):
-    """Question for the doctor's findings in all transforms since the start."""
+    """Question for the doctor's findings in all transforms since the scenario's start."""
 
     findings: str = reads(values.choice(("clean",), "what the doctor finds"), "clean")
     ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())

@@ -1,4 +1,4 @@
-"""Values of a scenario that was read and checked, and the verdict on one run of it."""
+"""Values of a scenario after reading, and the verdict on one run of a scenario."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -20,9 +20,10 @@ class NodeEntry:
     """Node that a scenario starts.
 
     Attributes:
-        kind: Kind, a key of `kinds.KINDS`.
-        name: Given name, or the kind, numbered if there are several.
-        parameters: Values of all parameters of its kind.
+        kind: Kind, a key of `node_kinds.KINDS`.
+        name: Name in the file; without one, the kind, with a number if several nodes have that
+            kind.
+        parameters: Values of all parameters of the node's kind.
     """
 
     kind: str
@@ -54,7 +55,8 @@ class When:
     """Times at which an expectation is judged, in nanoseconds since the start.
 
     Attributes:
-        kind: "at" a time, "by" a time at the latest, or "during" a period.
+        kind: "at" one time; "by" a time, before which the condition must hold once; or "during" a
+            period.
         first: First time of judging.
         last: Last time of judging.
         every: Interval between the times of judging.
@@ -113,8 +115,8 @@ class Scenario:
         expect: Expectations.
         doctor: Rules for the doctor, in expectations and in `tftool doctor`.
         source: Text of the scenario, to be read again with other arguments.
-        not_a_tree: Places where its nodes publish two parents of a frame, a loop, or a self-link.
-            This is allowed: the doctor may be asked about such a scenario.
+        not_a_tree: Positions of nodes that give a frame two parents, close a loop, or make a frame
+            its own parent. A scenario may do so on purpose, to test the doctor.
     """
 
     name: str
@@ -185,7 +187,7 @@ class Verdict:
             then one for each expectation, in the order of the file.
         lasted: Duration of the run, nanoseconds on its clock.
         failure: Reason why the run ended early; empty if it did not.
-        warnings: Sentences about mistakes in programs that simulated time hides.
+        warnings: Sentences about mistakes in programs that only show in real time.
     """
 
     scenario: str

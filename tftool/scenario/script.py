@@ -40,13 +40,13 @@ class StepFailed(TftoolError):
 
 
 class Script(Node):
-    """Node that carries out every step at its time; steps of one instant in file order.
+    """Node that carries out every action of a script at its time, in file order if times are equal.
 
-    A step that fails is logged and recorded; the other steps are carried out all the same.
+    An action that fails is logged and recorded; later actions are carried out all the same.
 
     Attributes:
         start: Time at which the script began.
-        outcomes: Outcomes of the steps that should fail, and of those that failed.
+        outcomes: Outcomes of the actions that should fail, and of all actions that failed.
     """
 
     def __init__(self, world: World, steps: Sequence[Step]) -> None:

@@ -48,7 +48,7 @@ def play_through(
     *,
     watch: Watch = nullcontext,
 ) -> Played:
-    """Play a scenario with its own script on simulated time.
+    """Play a scenario on simulated time, with the keys and drives of its script.
 
     Args:
         scenario: Scenario to play.

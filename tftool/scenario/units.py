@@ -21,7 +21,7 @@ _DEGREE = math.pi / 180.0
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """Kind of number, such as a length: its name, and its units' factors (the first is 1)."""
+    """Kind of number, such as a length: name, and factor of each unit; the first factor is 1."""
 
     kind: str
     factors: Mapping[str, float]
@@ -282,7 +282,7 @@ _AGO = re.compile(r"\s*now\s*(?:-\s*(.+))?")
 
 
 def moment(node: Node, reading: Reading) -> RelativeMoment:
-    """Read `latest`, `now`, `now - 5 s`, or a time since the scenario's start."""
+    """Read a time: `latest`, `now`, `now - 5 s`, or seconds since the scenario's start."""
     value = reading.text(node, "a moment")
     if value.strip() == "latest":
         return RelativeMoment()
