@@ -14,7 +14,7 @@ SETTLING: Final[Duration] = seconds(3)
 
 
 class ShownFrames(Protocol):
-    """Protocol of frames on a screen, which `World` and `StillFrames` follow."""
+    """Protocol of frames to show on a screen; `World` and `StillFrames` implement it."""
 
     @property
     def clock(self) -> Clock:
@@ -56,7 +56,7 @@ def first_look(frames: Frames) -> Stamp | None:
 def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
     """Return the time to show first; None if all transforms are static.
 
-    It is the time at which all frames of the first `SETTLING` nanoseconds have arrived.
+    At this time, every frame that appears within `SETTLING` nanoseconds has a sample.
 
     Args:
         buffer: Transform buffer with the frames.

@@ -43,7 +43,7 @@ class Asset:
 
     @cached_property
     def compressed(self) -> bytes:
-        """Content as gzip, compressed once and always to the same bytes."""
+        """Content as gzip; compressed once, and always to the same bytes."""
         return gzip.compress(self.content, 6, mtime=0)
 
 

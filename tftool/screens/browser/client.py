@@ -1,4 +1,4 @@
-"""Open page as the server sees it: the pictures to send to it, and their times."""
+"""Server's state of one open page: the page's requests, and the messages to send to the page."""
 
 import asyncio
 from collections.abc import Mapping
@@ -15,19 +15,19 @@ FORGIVEN = seconds(1)
 
 
 class Cadence:
-    """Schedule of turns at a steady rate; each pause is at least as long as the turn before it.
+    """Schedule of repeated work at a steady rate; work takes at most half of the time.
 
-    A turn that is late does not move the turns after it, as long as all of them are short: the
-    average rate stays the requested one.
+    If one run of the work is late, later runs keep their times, as long as every run is short. So
+    the average rate stays the requested rate.
     """
 
     def __init__(self, period: Duration, start: Stamp) -> None:
-        """Create a schedule that begins at `start`, with a turn every `period` nanoseconds."""
+        """Create a schedule that begins at `start`, with a run every `period` nanoseconds."""
         self._period = period
         self._due = start
 
     def after(self, began: Stamp, ended: Stamp) -> Stamp:
-        """Return the time of the next turn, after one with this begin and end."""
+        """Return the time of the next run, after a run that lasted from `began` to `ended`."""
         self._due += self._period
         # Thousands of frames may take longer than a period: use at most half of the time.
         earliest = ended + (ended - began)
@@ -58,7 +58,7 @@ class TreeMessage:
 class Poses:
     """Binary message with the poses of one snapshot, made once for all pages.
 
-    Only its sequence number differs from page to page.
+    Only the message's sequence number differs from page to page.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class SharedMoment:
 
 
 class PageClient:
-    """Open page as the server sees it: what the page shows, and what to send next.
+    """Server's state of one open page: what the page shows, and what to send next.
 
     Attributes:
         at: Time shown by the page; None for the present.
@@ -108,7 +108,7 @@ class PageClient:
         self._wake = asyncio.Event()
 
     def hear(self, request: page_messages.PageRequest, epoch: Stamp) -> None:
-        """Handle a page's request to show a time or a pair, or its acknowledgement."""
+        """Handle a page's request for a time or a pair, or the page's acknowledgement of poses."""
         if request.kind == "got":
             self._drawn = max(self._drawn, min(request["sequence"], self.sent))
             self._wake.set()
@@ -121,7 +121,7 @@ class PageClient:
         self._asked = True
 
     def wants(self) -> bool:
-        """Return whether to send new poses; for a past time only once per request."""
+        """Return whether to send poses: for the present always, for a past time once a request."""
         asked, self._asked = self._asked, False
         return asked or self.at is None
 
@@ -152,7 +152,7 @@ class PageClient:
         self._wake.set()
 
     async def feed(self) -> None:
-        """Send what is set whenever the page is ready, until the connection ends."""
+        """Send waiting messages whenever the page is ready, until the connection ends."""
         while True:
             await self._wake.wait()
             self._wake.clear()

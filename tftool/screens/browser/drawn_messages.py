@@ -1,4 +1,4 @@
-"""Messages to draw from a recording or a running session, by topic and within limits."""
+"""Messages to draw besides frames, from a recording or a session, by topic and within limits."""
 
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -50,8 +50,8 @@ class Limits:
 
     Attributes:
         points: Most points of one message.
-        all_points: Most points of all messages of a topic; beyond it, only every second or third
-            message is drawn.
+        all_points: Most points of all messages of a topic; if they have more points, only every
+            second or third message is drawn.
     """
 
     points: int = MOST_POINTS
@@ -99,7 +99,7 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
 
 
 def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
-    """Return the same as `recorded_tracks`, from a file opened here; callable from any thread."""
+    """Open the recording `name` and do the same as `recorded_tracks`; callable from any thread."""
     with open_recording(name) as recording:
         return recorded_tracks(recording, limits)
 
@@ -132,9 +132,10 @@ def _fill(track: DrawnTopic, recording: Recording, limits: Limits) -> None:
 def pack_tracks(
     block: PackedBlock, tracks: Sequence[DrawnTopic], buffer: Buffer, epoch: Stamp
 ) -> list[dict[str, Any]]:
-    """Add topics to a block of packed data; return the header that describes them.
+    """Add topics' messages to a block of packed data; return the header that describes them.
 
-    Each message has the pose of its frame at its own stamp, in the root of its tree.
+    A message is packed together with the pose of the message's frame, at the message's stamp, in
+    the root of the frame's tree.
     """
     return [
         {
@@ -211,14 +212,14 @@ class _HeardTopic:
     """Topic of a running session to which the page is subscribed.
 
     Attributes:
-        drawn: Drawn topic for the page; its one message is the last one.
+        drawn: Last message, as shapes for the page.
         quality: Quality of service of the subscription.
         stop: Function that ends the subscription.
-        held: Messages that are not drawn yet, with their times of arrival; only the last one,
-            unless each message changes what the messages before it showed.
-        waiting: Drawn message that cannot be placed yet.
-        rounds: Number of rounds for which that message has waited.
-        is_news: Whether a fault was not reported to the page yet.
+        held: Messages not yet converted to shapes, with their times of arrival. Only the last
+            message is stored, unless a message changes what earlier messages showed.
+        waiting: Message as shapes whose frames' poses are not known yet; None if there is none.
+        rounds: Number of calls of `LiveDisplays.round` for which that message has waited.
+        is_news: Whether there is a fault that was not reported to the page yet.
         block: Last packed data sent to pages.
     """
 
@@ -233,7 +234,7 @@ class _HeardTopic:
 
 
 class LiveDisplays:
-    """Subscriber to the topics of a world that can be drawn, including later ones."""
+    """Subscriber to those topics of a world whose messages can be drawn, also to later topics."""
 
     def __init__(self, world: World, limits: Limits = Limits()) -> None:
         """Subscribe to the topics of a world that can be drawn."""
@@ -267,9 +268,10 @@ class LiveDisplays:
         return found
 
     def round(self) -> dict[str, bytes]:
-        """Return the packed data of topics with new messages; large data is spread over rounds.
+        """Return the packed data of topics with new messages, up to a limit of bytes per call.
 
-        This is called at the rate of the pages' updates.
+        Topics that exceed the limit are first in the next call. Calls follow the rate of the pages'
+        updates.
         """
         told: dict[str, bytes] = {}
         room = MOST_BYTES
@@ -329,7 +331,7 @@ class LiveDisplays:
             del self._heard[topic]
 
     def _is_due(self, one: _HeardTopic) -> bool:
-        """Return whether a topic has a new message that is drawn and placed."""
+        """Return whether a topic has a new message or fault to send; look up the frames' poses."""
         self._draw(one)
         if one.waiting is not None:
             one.rounds += 1
@@ -345,7 +347,7 @@ class LiveDisplays:
         return one.is_news
 
     def _draw(self, one: _HeardTopic) -> None:
-        """Convert a topic's new messages to shapes, unless one still waits to be placed."""
+        """Convert a topic's new messages to shapes, unless earlier shapes still wait for poses."""
         if one.waiting is not None or not one.held:
             return
         one.rounds = 0

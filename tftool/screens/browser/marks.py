@@ -25,7 +25,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
     """Return gaps and findings as a message for the page; times in seconds since the epoch.
 
     Args:
-        buffer: Buffer to judge; checks that need times of reception do not run.
+        buffer: Buffer that the doctor examines; checks that need times of reception do not run.
         epoch: Time from which the page counts.
     """
     frames = buffer.snapshot(0).frames
@@ -63,7 +63,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
 
 
 def _step(step: LocalisationStep, epoch: Stamp) -> dict[str, Any]:
-    """Return a step (jump) of a localiser as a mark."""
+    """Return a sudden jump of a localiser's pose as a mark."""
     parent, child = step.edge
     at = since(epoch, step.stamp)
     message = f"{child} in {parent} steps {step.moved * 1e3:.0f} mm, {degrees(step.turned):.1f}°"

@@ -155,7 +155,7 @@ def _head(header: object) -> bytes:
 
 
 def _planes(words: npt.NDArray[Any]) -> bytes:
-    """Return all first bytes of some words, then all second bytes, up to the eighth."""
+    """Return the first byte of every word, then the second byte of every word, and so on."""
     little = np.ascontiguousarray(words).astype("<u8", copy=False)
     return np.ascontiguousarray(little.view(np.uint8).reshape(-1, 8).T).tobytes()
 

@@ -1,4 +1,4 @@
-"""Messages between the page and its server: one table from which the code of both sides follows.
+"""Messages between the page and its server, defined once for Python and JavaScript.
 
 `REQUESTS` and `ANSWERS` contain the fields of every text message, `HEAD` and `NUMBERS` the layout
 of the binary one. Python reads requests and builds answers by them. For the page, `python -m

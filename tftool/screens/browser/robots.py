@@ -1,4 +1,4 @@
-"""Robot for the page: its shapes, its joints, and which meshes cannot be shown."""
+"""Robot for the page: shapes, joints, and sentences on meshes that cannot be shown."""
 
 import json
 from collections.abc import Collection, Mapping
@@ -31,10 +31,11 @@ class ShownRobot:
 
     Attributes:
         robot: Description of the robot.
-        folders: Folders of its meshes.
+        folders: Folders of the robot's meshes.
         mover: Node of this process that moves the joints; None if there is none.
-        prefix: Prefix of its links' names in frames' names.
-        rest: Joint positions if no node publishes them: then the page moves the joints itself.
+        prefix: Prefix of the robot's frame names before the names of its links.
+        rest: Joint positions with which the page itself moves the joints; None if a node publishes
+            joint positions.
     """
 
     robot: Robot
@@ -44,7 +45,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Find the prefix of the links' names among some frames; return whether that changed."""
+        """Find the prefix of the robot's frames among some frames; return whether it changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix

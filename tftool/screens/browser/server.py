@@ -1,12 +1,12 @@
 """Server of the page: HTTP for the page and a WebSocket for the frames, on one port.
 
-It listens on 127.0.0.1 only, in the same event loop as the nodes. Other users of this machine can
-reach that address too: so requests for frames need the secret in the printed address. Pages of
-other sites must not read a robot's frames through their visitor's browser: so the browser's Host
-and Origin headers must be our own address.
+The server listens on 127.0.0.1 only, in the same event loop as the nodes. Other users of this
+machine can reach that address too, so requests for frames need the secret in the printed address. A
+page of another site must not read a robot's frames through a visitor's browser, so the headers Host
+and Origin must name this server.
 
-A page reports when it has drawn the last poses. A slow page does not get the poses in between:
-nothing is ever queued for it.
+A page reports when it has drawn the last poses. A slow page skips the poses in between, because
+nothing is ever queued for a page.
 """
 
 import asyncio
@@ -96,7 +96,7 @@ class PageServer:
     """Server of the page; use `async with`, and `await run()` inside.
 
     Attributes:
-        port: Port on which it listens.
+        port: Port on which the server listens.
         asked_port: Requested port.
         clients: Pages that are open.
     """
@@ -116,7 +116,7 @@ class PageServer:
 
         Args:
             source: Clock and buffer of the frames.
-            port: Port to listen on, or else the next free one; 0 for any.
+            port: Port to listen on; if it is in use, the next free port is taken. 0 for any port.
             rate: Pictures per second.
             tell: Function called with sentences for the user.
             name: Name of the source, for a saved page.
@@ -154,7 +154,7 @@ class PageServer:
         self._tell_robot()
 
     def show_tracks(self, read: Callable[[Limits], Sequence[DrawnTopic]]) -> None:
-        """Draw recorded messages besides the frames; `read` runs when a page first opens."""
+        """Draw recorded messages besides frames; `read` is called when the first page opens."""
         self._read_tracks = read
 
     def show_live(self, displays: LiveDisplays) -> None:
@@ -239,7 +239,7 @@ class PageServer:
             await self._server.wait_closed()
 
     def _note(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        """Log once that no more connections can be accepted; asyncio would repeat it."""
+        """Log once that no more connections can be accepted; asyncio would log it every time."""
         error = context.get("exception")
         if not isinstance(error, OSError) or error.errno not in (errno.EMFILE, errno.ENFILE):
             loop.default_exception_handler(context)
@@ -294,7 +294,7 @@ class PageServer:
         )
 
     def _tree(self, snapshot: Snapshot) -> TreeMessage:
-        """Return the message with the frames' names, which is made anew only for a new tree."""
+        """Return the message with the frames' names, which is reused while the tree is the same."""
         key = protocol.names_key(snapshot.frames)
         tree = self._trees.get(key)
         if tree is None:

@@ -1,8 +1,8 @@
 """Page of `tftool view` with its data in one file, which works without a server.
 
-In place of a server, `page/lookups.js` computes answers from the packed samples, with the same
-numbers. The file loads nothing from others, and its content security policy permits only tftool's
-two scripts, by their digests.
+In place of a server, `page/lookups.js` computes transforms from the packed samples, with the same
+numbers as the server. The file loads no other file, and its content security policy permits only
+tftool's two scripts, by their digests.
 """
 
 import base64
@@ -38,7 +38,7 @@ class StandaloneData:
     """Data for a page that works without a server.
 
     Attributes:
-        name: Name of the source in sentences, such as "recording 'run.mcap'".
+        name: Name of the source for messages, such as "recording 'run.mcap'".
         buffer: Transform buffer with the frames.
         epoch: Time from which the page counts; not 0.
         now: Last time.
@@ -216,7 +216,7 @@ def _frames(
 def _robot(
     robot: ShownRobot | None, shown: Iterable[FrameInfo], block: PackedBlock
 ) -> tuple[dict[str, Any] | None, list[dict[str, Any]]]:
-    """Return the robot's message, its files, and the files to which its files refer."""
+    """Return the robot's message, and the packed files of its meshes and textures."""
     if robot is None:
         return None, []
     if robot.mover is not None:

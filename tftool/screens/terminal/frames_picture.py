@@ -1,4 +1,4 @@
-"""Picture of frames relative to a fixed one, computed by lookups: positions and trails."""
+"""Picture of frames relative to a fixed frame, from lookups: positions and trails."""
 
 from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
@@ -22,10 +22,10 @@ Lookup = Callable[[str, str], Transform | None]
 
 
 def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
-    """Return the fixed frame that a picture has by default.
+    """Return the default fixed frame of a picture; "" if there are no frames.
 
-    It is the root of the tree that contains both frames of the pair, else of the largest tree; ""
-    without frames.
+    The default is the root of the tree that contains both frames of the pair. If no tree contains
+    both, it is the root of the largest tree.
     """
     if pair[0] in snapshot and pair[1] in snapshot:
         roots = {snapshot.frame(name).root for name in pair}
@@ -40,7 +40,7 @@ def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
 
 
 def in_snapshot(snapshot: Snapshot) -> Lookup:
-    """Return a function that looks poses up in a snapshot only."""
+    """Return a function that looks poses up in a snapshot, not in the buffer."""
 
     def lookup(target: str, source: str) -> Transform | None:
         if target not in snapshot or source not in snapshot:
@@ -90,7 +90,7 @@ def pictured(
     ages: Mapping[str, float],
     turtles: frozenset[str] = frozenset(),
 ) -> PlanePicture:
-    """Return the picture of the tree of `fixed`, with one lookup per frame, and of other trees.
+    """Return the picture of the tree of `fixed`, and small pictures of the other trees.
 
     Args:
         snapshot: Snapshot of the frames.
@@ -241,7 +241,7 @@ class FrameWay(NamedTuple):
     places: npt.NDArray[np.float64]
 
     def followed_by(self, other: "FrameWay") -> "FrameWay":
-        """Return this path with another one appended."""
+        """Return this path with the path `other` appended."""
         stamps, places = zip(self, other, strict=True)
         return FrameWay(np.concatenate(stamps), np.concatenate(places))
 

@@ -33,7 +33,7 @@ class _Entry:
         return 0 if later == len(self.stamps) else self.forgotten + len(self.stamps) - later
 
     def last(self, until: Stamp) -> Stamp:
-        """Return the last time, up to a given one, at which the message was logged; 0 for never."""
+        """Return the last time, not after `until`, at which the message was logged; 0 for never."""
         return max((stamp for stamp in self.stamps if stamp <= until), default=0)
 
 
@@ -130,7 +130,7 @@ class Journal:
         return shown
 
     def _told(self, until: Stamp) -> list[_Entry]:
-        """Return the messages logged up to a time, in order of each one's last time."""
+        """Return the messages logged up to a time, sorted by the last time of each."""
         told = [entry for entry in self._entries if entry.times(until)]
         return sorted(told, key=lambda entry: entry.last(until))
 

@@ -25,7 +25,7 @@ from tftool.screens.terminal.text_style import Look, wrapped
 
 
 class Row(NamedTuple):
-    """Row of a frame in the tree panel: the guides before its name, and its facts."""
+    """Row of a frame in the tree panel: the tree lines before its name, and facts."""
 
     guide: str
     info: FrameInfo
@@ -54,7 +54,7 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
 def tree(
     moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
-    """Return the lines of the tree panel: links with rate and age, amber, then red if stale.
+    """Return the tree panel's lines: frames with rate and age, amber or red if stale.
 
     Args:
         moment: State to show.
@@ -128,7 +128,7 @@ class _Columns(NamedTuple):
 def _facts(
     info: FrameInfo, age: float, columns: _Columns, look: Look
 ) -> list[tuple[str, Style | None]]:
-    """Format rate and age of a link at the width of their columns; None is the row's own style."""
+    """Format a frame's rate and age at the columns' width; style None is the row's style."""
     width = columns.rate + columns.age
     if info.root is None:
         return [(f"{'in a loop':>{width}}", None)]
@@ -150,7 +150,7 @@ def _facts(
 
 
 def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
-    """Return the lines of the pair's panel: its transform, briefly or in every notation.
+    """Return the lines of the pair's panel: the transform in few lines, or in every notation.
 
     Positive and negative numbers take equal width, so that columns never shift.
     """
@@ -224,7 +224,7 @@ def _number(value: float, digits: int) -> str:
 
 
 def _numbers(values: Iterable[float], digits: int, width: int) -> str:
-    """Format numbers in columns of `width` cells; a long number takes more."""
+    """Format numbers in columns of `width` cells; a longer number takes more cells."""
     return "".join(f" {_number(value, digits):>{width - 1}}" for value in values)
 
 
@@ -423,7 +423,7 @@ class PairPlot:
     def lines(
         self, moment: SceneMoment, scene: Scene, width: int, height: int, look: Look
     ) -> list[Text]:
-        """Look the pair up over the last seconds, or around an earlier time; return plotted lines.
+        """Return the lines of a plot: the pair over the last seconds, or around an earlier time.
 
         Args:
             moment: State to show.

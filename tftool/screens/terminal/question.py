@@ -11,7 +11,7 @@ PATIENCE = seconds(4.0)
 
 
 class SceneQuestion:
-    """Pair and time that the user selects while moving through frames and time.
+    """Pair of frames and time that the user selects with keys.
 
     Args:
         scene: Scene in which the pair is looked up.
@@ -40,13 +40,13 @@ class SceneQuestion:
         return self.moment
 
     def wait(self, moment: SceneMoment) -> SceneMoment:
-        """Return the same state with its present age; nothing else changes at a fixed time."""
+        """Return the same past state with a new distance to the present (`behind`)."""
         now = self.scene.world.clock.now()
         self.moment = replace(moment, behind=now - moment.stamp)
         return self.moment
 
     def pick(self, step: int) -> bool:
-        """Move the cursor through the tree by `step` rows; return whether there is a row."""
+        """Move the cursor through the tree by `step` rows; return False if the tree is empty."""
         if self.moment is None:
             return False
         names = [row.info.frame for row in panels.rows(self.moment.snapshot)]
@@ -68,7 +68,7 @@ class SceneQuestion:
         return changed
 
     def fix(self) -> None:
-        """Draw the picture in the frame under the cursor; if it is drawn there, in the root."""
+        """Draw the picture in the frame under the cursor, or in the root if already drawn there."""
         self.fixed = "" if self.fixed == self.source else self.source
 
     def swap(self) -> None:
@@ -76,7 +76,7 @@ class SceneQuestion:
         self.target, self.source, self._picked = self.source, self.target, True
 
     def travel(self, step: Duration) -> None:
-        """Select an earlier or later time; beyond the present, the live state."""
+        """Select a time `step` later (earlier if negative); from the present on, live frames."""
         now = self.scene.world.clock.now()
         there = (now if self.at is None else self.at) + step
         self.at = None if there >= now else max(there, self.scene.oldest())
@@ -93,7 +93,7 @@ class SceneQuestion:
         return found
 
     def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
-        """Return the pair, or another one if its frames are gone and the user chose none."""
+        """Return the pair, or a replacement if its frames do not exist and the user chose none."""
         asked, snapshot = (self.target, self.source), moment.snapshot
         if not self._picked and all(name in snapshot for name in self._wished):
             # The chosen frames exist now.

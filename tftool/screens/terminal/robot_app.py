@@ -72,7 +72,7 @@ class RobotApp(PanelApp):
     Args:
         world: World with the robot's frames.
         sliders: Sliders of the robot's joints.
-        link: Link whose pose is shown; None for the one farthest from the root.
+        link: Link whose pose is shown; None for the link farthest from the root.
         prefix: Prefix of the names of all links.
         setting: Options of the screen.
         solids: Shapes of the links; None if they are not drawn.

@@ -1,4 +1,4 @@
-"""State of a world at one time, for screens: now, or as far back as the buffer reaches."""
+"""State of a world at one time, for screens: the present, or a time still in the buffer."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -50,7 +50,7 @@ class SceneMoment:
         elapsed: Nanoseconds since the scene's start.
         snapshot: All frames at that time.
         ages: Seconds since each frame's stamp last changed; 0 for static frames.
-        picture: Picture of the frames, seen from above in one of them.
+        picture: Picture of the frames, seen from above in one fixed frame.
         pair: Selected pair with its transform.
     """
 
@@ -80,7 +80,7 @@ class SimulatedTurtle(Protocol):
 
 
 class Simulator(Protocol):
-    """Protocol of a source of turtles: the simulator, or the view of a remote one."""
+    """Protocol of a source of turtles: a simulator here or in another process."""
 
     trail: Trail
     revision: int
@@ -105,7 +105,7 @@ class _SeenTurtle(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """Facts at `stamp` that only the simulator knows; the trail is given by its length."""
+    """State of the simulator at `stamp`; `drawn` is the number of strokes of the trail."""
 
     stamp: Stamp
     turtles: tuple[_SeenTurtle, ...]
@@ -116,7 +116,7 @@ class _Seen:
 
 
 class Scene:
-    """Observer of a world, which stores a history of the facts that only a simulator knows.
+    """Observer of a world, which stores past states of the simulator.
 
     Args:
         world: World to observe.
@@ -213,14 +213,14 @@ class Scene:
         )
 
     def newest(self, target: str, source: str) -> Stamp | None:
-        """Return the newest time at which a pair is known; None if never, or if it is static."""
+        """Return the newest time of a pair's transform; None if there is none, or it is static."""
         try:
             return self.world.buffer.get_latest_common_time(target, source) or None
         except TransformException:
             return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return a state with another pair and the old frames, which may have left the buffer."""
+        """Return a past state with another pair and the same frames; the buffer may lack these."""
         snapshot, pair = moment.snapshot, (target, source)
         wanted = self._fixed(snapshot, pair, fixed)
         if moment.picture.fixed != wanted:
@@ -319,7 +319,7 @@ class Scene:
         return picture if seen is None else self._with_field(picture, snapshot, lookup, seen, at)
 
     def _latest(self, snapshot: Snapshot, fixed: str) -> Lookup:
-        """Return a function that looks up latest poses, in the snapshot if possible."""
+        """Return a function that looks up the latest poses, from the snapshot if it has them."""
         inside = in_snapshot(snapshot)
         if fixed in snapshot and snapshot.frame(fixed).parent is None:
             return inside

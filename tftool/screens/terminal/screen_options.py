@@ -77,7 +77,7 @@ SCALE = 5
 
 @dataclass(frozen=True, slots=True)
 class ScreenLayout:
-    """Sizes of the panels with borders, in cells; 0 for the remaining space.
+    """Widths and heights of panels with their borders, in cells; 0 for the remaining space.
 
     Attributes:
         small: Whether the terminal is too small for any panel.

@@ -1,4 +1,4 @@
-"""Joints of a robot as sliders: the chosen one, positions, and changes by keys."""
+"""Sliders for a robot's joints: which one is chosen, positions, changes by keys."""
 
 import math
 import random
@@ -37,7 +37,7 @@ class Slider:
         position: Position in radians or metres; None if unknown.
         range: Smallest and largest position of the slider.
         is_chosen: Whether keys move the slider.
-        follows: Whether the joint mimics another.
+        follows: Whether the joint mimics another joint.
     """
 
     joint: RobotJoint
@@ -61,7 +61,7 @@ class Sliders:
     Attributes:
         robot: The robot.
         entry: Digits of a position typed so far; "" if none are.
-        refusal: Reason why the last typed text is not a position; "" if it was one.
+        refusal: Reason why the last typed text is not a position; "" if it was a position.
     """
 
     def __init__(self, robot: Robot, mover: Positions | None, *, seed: int = 0) -> None:
@@ -203,9 +203,9 @@ def slide_range(joint: RobotJoint) -> tuple[float, float]:
 
 
 def tip_of(robot: Robot) -> str:
-    """Return the link farthest from the root, usually a hand; the first one if there are several.
+    """Return the link farthest from the root, usually a hand; the first of several.
 
-    Links below a floating joint have no frame here, and are left out.
+    Links below a floating joint are left out, because no frame is published for them.
     """
     depth = {robot.root: 0}
     waiting = [robot.root]

@@ -182,7 +182,7 @@ def frames_in_space(
     ages: Mapping[str, float] | None = None,
     lookup: Lookup | None = None,
 ) -> tuple[SpaceFrame, ...]:
-    """Return the frames in the tree of `fixed`, with their poses in it.
+    """Return the frames in the tree of `fixed`, with their poses in `fixed`.
 
     Args:
         snapshot: Snapshot of the frames.
@@ -202,7 +202,7 @@ def frames_in_space(
 
 
 def is_tall(frames: tuple[SpaceFrame, ...]) -> bool:
-    """Return whether frames differ so much in height that a view from above hides it."""
+    """Return whether frames differ much in height, which a view from above cannot show."""
     if len(frames) < 2:
         return False
     across, along, up = (

@@ -1,4 +1,4 @@
-"""Screen of `tftool monitor`: rates and delays of all links as curves."""
+"""Screen of `tftool monitor`: rates and delays of all frames as curves."""
 
 from typing import ClassVar
 
@@ -148,12 +148,12 @@ class TrafficWatch(PanelApp):
     # Keys
 
     def action_scroll(self, by: int) -> None:
-        """Scroll the links by some rows."""
+        """Scroll the frames by some rows."""
         self._first = max(0, self._first + by)
         self.redraw()
 
     def action_sort(self) -> None:
-        """Sort the links by the next order."""
+        """Sort the frames by the next criterion."""
         orders = (*(["chain"] if self._chain is not None else []), *_ORDERS)
         self._order = orders[(orders.index(self._order) + 1) % len(orders)]
         self._first = 0
@@ -164,9 +164,9 @@ class TrafficWatch(PanelApp):
         self.panel("keys").display = False
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Scroll the links down by a row."""
+        """Scroll the frames down by a row."""
         self.action_scroll(1)
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Scroll the links up by a row."""
+        """Scroll the frames up by a row."""
         self.action_scroll(-1)

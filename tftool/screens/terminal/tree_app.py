@@ -94,7 +94,7 @@ class TreeWindow:
         return Text("   ".join(parts), style="bold")
 
     def sort(self) -> None:
-        """Sort the rows by the next order."""
+        """Sort the rows by the next criterion."""
         orders = list(TreeOrder)
         self.order = orders[(orders.index(self.order) + 1) % len(orders)]
         self.first = 0
@@ -189,7 +189,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self) -> None:
-        """Show the tree, the picture, or the picture below a tree that leaves room for it."""
+        """Show the tree, the picture, or both: the picture below a tree that leaves enough room."""
         rows, space = self.panel("rows"), self.space
         height = self.size.height - 2
         needs = 0 if self._seen is None else len(self._seen[0].frames) + HEADINGS + 2
@@ -232,7 +232,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self._draw()
 
     def _present(self, now: Stamp, info: FrameInfo) -> FrameInfo:
-        """Return a frame's facts, with rate 0 if its sender has stopped."""
+        """Return a frame's facts, with rate 0 if its publisher has stopped."""
         link = self._traffic.links.get(info.frame)
         heard = None if link is None else link.series.last
         # A sender of old stamps is not silent.
@@ -321,7 +321,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.redraw()
 
     def _next_followed(self) -> str:
-        """Return the frame after the one in the middle of the picture; "" after the last."""
+        """Return the frame to keep in the middle of the picture next; "" after the last frame."""
         names = [info.frame for info in self._seen[0].frames] if self._seen else []
         names.append("")
         follows = self.space.camera.follows

@@ -1,8 +1,8 @@
 """Terminal app of demo and teleop: field, tree, a pair of frames, log; keys drive a turtle.
 
-The screen observes a world and never changes it, except by the keys that it passes to `press`. It
-shows the world's time; pictures are drawn at a rate in real time, so that a world at 100 times real
-time is drawn no more often than one at real time.
+The screen observes a world, and changes it only by the keys passed to `press`. The screen shows the
+world's time. The number of pictures per second of real time is fixed, however fast the world's time
+runs.
 """
 
 import asyncio
@@ -52,13 +52,13 @@ class TurtleApp(PanelApp):
 
     Args:
         scene: Scene to show.
-        press: Function called with a key that drives, such as "up" or "g"; None if no turtle
-            can be driven.
+        press: Function called with a key that drives, such as "up" or "g"; None if no turtle can be
+            driven.
         setting: Options of the screen.
         idle: Node that draws while no key is pressed; None if there is none.
 
     Attributes:
-        chosen: Scenario to show instead, once the user has chosen one.
+        chosen: Scenario that the user has chosen to show next; None if none was chosen.
         press_key: Function called with a key that drives; None if no turtle can be driven.
     """
 
@@ -203,7 +203,7 @@ class TurtleApp(PanelApp):
     # Looking
 
     def look_again(self) -> None:
-        """Draw the present state, unless a slow drawing has ended only just before."""
+        """Draw the present state, unless the last drawing was slow and has only just ended."""
         loop = asyncio.get_running_loop()
         if loop.time() < self._rest_until:
             return
@@ -322,7 +322,7 @@ class TurtleApp(PanelApp):
         plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
 
     def _draw_log(self, moment: SceneMoment) -> None:
-        """Draw the newest log message; with the log focused, as many as fit."""
+        """Draw the newest log message; if the log has the focus, as many messages as fit."""
         log, look = self.panel("log"), self.look
         if log.has_focus:
             lines = self._journal.lines(
@@ -480,7 +480,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_fix(self) -> None:
-        """Draw the picture in the frame under the cursor, or again in its tree's root."""
+        """Draw the picture in the frame under the cursor; if already drawn there, in the root."""
         if self.setting.drive_only:
             # In teleop, f has the same meaning in both cases.
             self.action_drive("f")
@@ -527,7 +527,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_live(self) -> None:
-        """Close what covers the picture, else show the present again."""
+        """Close the help or the list of scenarios if it is open, else show the present again."""
         if self._is_over():
             self.panel("keys").display = self.panel("scenarios").display = False
             self.redraw()

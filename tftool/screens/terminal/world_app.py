@@ -42,8 +42,8 @@ def input_events(sent: str) -> Iterable[Message]:
 def tolerant(driver: type[Driver]) -> type[Driver]:
     """Return a driver class that ignores input bytes which are not UTF-8.
 
-    Textual's own driver treats such bytes as a failure of the app: a terminal of another encoding,
-    or a cat on the keyboard, would end it with a traceback.
+    With Textual's own driver, such bytes end the app with a traceback. They come from a terminal of
+    another encoding, or from a cat on the keyboard.
 
     Args:
         driver: Textual's driver class on this platform; that of Windows has no bytes to decode.
@@ -127,7 +127,7 @@ def themes() -> list[Theme]:
 
 
 class WorldApp(App[None]):
-    """Screen that shows a world until the user leaves it, it is interrupted, or it fails.
+    """Screen that shows a world until the user leaves the screen, Ctrl-C is pressed, or it fails.
 
     Attributes:
         world: World to show.
@@ -163,7 +163,7 @@ class WorldApp(App[None]):
         self.interrupted = False
 
     def begin(self, stamp: Stamp) -> None:
-        """Do nothing when the world starts; subclasses start counting time here."""
+        """Do nothing when the world starts; subclasses override this to start counting time."""
 
     def get_driver_class(self) -> type[Driver]:
         """Return the class of the driver that reads keys."""
@@ -293,7 +293,7 @@ class PanelApp(WorldApp):
 async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
     """Run a screen on the terminal beside its world, until one of them ends.
 
-    However it ends, the terminal is restored before this returns or raises.
+    The terminal is always restored before this function returns or raises.
 
     Args:
         app: Screen to run.

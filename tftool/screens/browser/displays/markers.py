@@ -129,7 +129,7 @@ def _arrow_strip(marker: Any) -> Iterator[Part]:
 
 
 def _arrow_between(start: Floats, end: Floats, size: Vector3) -> Iterator[Part]:
-    """Yield an arrow's shaft and head; `size` is both diameters and the length of the head."""
+    """Yield an arrow's shaft and head; x, y of `size` are their diameters, z the head's length."""
     along = end - start
     length = float(np.linalg.norm(along))
     if not 0.0 < length < math.inf:
@@ -170,7 +170,7 @@ because their files may be anywhere."""
 
 
 def _pose(marker: Any) -> tuple[Floats, Quaternion]:
-    """Return a marker's position and unit quaternion; the identity for all zeros, as in rviz."""
+    """Return a marker's position and unit quaternion; a quaternion of zeros is the identity."""
     place, turn = marker.pose.position, marker.pose.orientation
     norm = math.hypot(turn.x, turn.y, turn.z, turn.w)
     unit = Quaternion(0.0, 0.0, 0.0, 1.0)

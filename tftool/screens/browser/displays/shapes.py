@@ -1,4 +1,4 @@
-"""Shapes, the result of every display, each in a frame of its own."""
+"""Shapes to draw: the result of every display; each shape is given in one frame."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Final
@@ -50,9 +50,10 @@ class Shape:
     placement: tuple[str | None, list[float] | None] | None = None
 
     def thinned(self, most: int) -> "Shape":
-        """Return the shape with at most `most` positions: every second, or every third, and so on.
+        """Return the shape with every second, third, … position, so that at most `most` remain.
 
-        If several positions make one line or triangle, the first ones are returned.
+        For lines and triangles, which take several positions each, the first `most` positions are
+        returned instead.
         """
         if len(self.places) <= most:
             return self
