@@ -1,7 +1,7 @@
 """Display of values in notebooks: trees as pictures, poses and recordings as tables, a 3-D view.
 
-`import tftool` registers these formatters if IPython runs. Their classes are registered by name and
-not imported, so an unused class costs nothing.
+`import tftool` registers these formatters if IPython runs. The displayed classes are registered by
+name and not imported, so an unused class takes no time.
 """
 
 import sys
@@ -40,7 +40,7 @@ def register() -> None:
 
 
 def buffer_picture(buffer: "Buffer") -> str:
-    """Return a buffer's frames as SVG, with ages relative to its newest stamp."""
+    """Return a buffer's frames as SVG, with ages relative to the buffer's newest stamp."""
     snapshot = buffer.snapshot(0)
     newest = max((frame.newest for frame in snapshot.frames if frame.newest), default=0)
     return snapshot_picture(buffer.snapshot(newest))
@@ -102,7 +102,7 @@ class PageView:
     """Page of `tftool view` with its data, for a notebook's output or a file.
 
     Attributes:
-        html: Text of the page, which loads nothing else.
+        html: Text of the page, which loads no other file.
         height: Height in a notebook, pixels.
     """
 

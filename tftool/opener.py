@@ -1,8 +1,9 @@
 """Opening of frames from any source: `open_frames`, for Python and the command line.
 
 FROM (the argument `place`) names a scenario, a recording, a robot description, a file of static
-transforms, or the address of a robot (`ws://robot:8765`). Without it, the running session of this
-machine is used. A file is read, a scenario is played on simulated time, a session is listened to.
+transforms, or the address of a robot (`ws://robot:8765`). Without FROM, the running session of this
+machine is used. A file is read, a scenario is played on simulated time, and the messages of a
+session are received for a few seconds.
 """
 
 import math
@@ -67,7 +68,8 @@ def open_frames(
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
 
-    Several recordings are merged in order of time. It also works inside a running event loop.
+    Several recordings are merged in order of time. This function also works inside a running event
+    loop.
 
     Args:
         place: Source of the frames, also an address ws://robot:8765; None for the running session.
@@ -88,7 +90,7 @@ def open_frames(
         axes: Axes of the cameras in a pose file: "opencv" or "opengl".
         domain: Number of the session's ROS domain; None for ROS_DOMAIN_ID, or else 0.
         connects: Endpoints of sessions on other machines: "tcp/192.168.1.5:7448".
-        session: Session to listen to, already joined; None to join one.
+        session: Joined session to listen to; None to join a session.
         watch: Function called with the world of a scenario or session before it runs.
         glance: Function called in another thread, repeatedly while a session is listened to, with
             the frames received so far and the nanoseconds since the start.
@@ -96,7 +98,7 @@ def open_frames(
         reach: Options for reaching a session, by the names of the command line's options.
 
     Raises:
-        InputError: If `place` names nothing, or it cannot be read.
+        InputError: If `place` names no source, or the source cannot be read.
         LinkError: If there is no session to listen to.
         UsageError: If an option does not fit the source, or an optional package is not installed.
     """
@@ -152,7 +154,7 @@ def named(word: str) -> Found:
     A built-in scenario's name takes precedence; `./turtles` and `turtles.yaml` are paths.
 
     Raises:
-        InputError: If the word names nothing, or a file that cannot be read.
+        InputError: If the word names no source, or a file that cannot be read.
     """
     path = Path(word)
     if path.name == word and not path.suffix:
@@ -175,7 +177,7 @@ def scenario_named(
         expects: Whether the expectations are needed.
 
     Raises:
-        InputError: If there is no such scenario, or it cannot be read.
+        InputError: If there is no such scenario, or the scenario cannot be read.
         UsageError: If the word names something else, or an argument is not declared.
     """
     from tftool.scenario.load import load
@@ -197,7 +199,7 @@ def kind_in_words(found: Found) -> str:
 def refuse_options_of_files(
     robot: DescriptionOptions, recording: RecordingOptions, word: str | None
 ) -> None:
-    """Raise an error for options of recordings and descriptions if FROM is neither.
+    """Raise an error for options of recordings and descriptions; call this for other sources.
 
     Raises:
         UsageError: If such an option was given.
@@ -209,7 +211,7 @@ def refuse_options_of_files(
 
 
 def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, Any]) -> None:
-    """Raise an error for options of other middlewares and domains beside a session's address.
+    """Raise an error for options that select another domain or machine than FROM's address.
 
     Raises:
         UsageError: If such an option was given.
@@ -222,7 +224,7 @@ def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, 
 
 
 def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
-    """Raise an error for --cache-time if FROM is complete, because lookups then use all data.
+    """Raise an error for --cache-time if FROM is a file, whose data is never pruned.
 
     Raises:
         UsageError: If --cache-time was given.

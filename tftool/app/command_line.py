@@ -83,7 +83,7 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
 
 
 def refuse_option(word: str, known: Iterable[str]) -> UsageError:
-    """Return the error for an option that `tftool` itself does not have."""
+    """Return the error for an unknown option before the name of a command."""
     return UsageError(_did_you_mean(f"No such option: {word}", word, known))
 
 
@@ -109,7 +109,7 @@ def _sentence_of(error: Any) -> str:
 
 
 def _nearest(written: str, near: Iterable[str]) -> list[str]:
-    """Return the options nearly as similar to the typed word as the best match, best first."""
+    """Return the options most similar to a mistyped word, the most similar first."""
 
     def likeness_of(one: str) -> float:
         # The first letter is rarely mistyped.
@@ -145,7 +145,7 @@ def _laid_out(docstring: str) -> str:
 
 
 class LaidOutCommand(TyperCommand):
-    """Command whose help groups the options by subject, and lists session options on request."""
+    """Command whose help groups the options by subject, and hides session options by default."""
 
     def __init__(self, name: str | None, **words: Any) -> None:
         super().__init__(name, **words)
@@ -168,7 +168,7 @@ class LaidOutCommand(TyperCommand):
         return super().parse_args(ctx, args)
 
     def _pose_options(self, args: list[str]) -> "Iterator[tuple[str | None, str, Any]]":
-        """Yield each option for pose files: the file before it, the option's name, its value."""
+        """Yield (file before the option, option's name, value) for each option for pose files."""
         options = {one: param for param in self.params for one in param.opts if one[0] == "-"}
         file: str | None = None
         words = iter(args)

@@ -162,7 +162,7 @@ def _count(before: Sequence[str], options: dict[str, Any]) -> int:
 
 
 def _called(param: Any) -> str:
-    """Return the name that the help shows for an option's or argument's value."""
+    """Return the name of a parameter's value as the help shows it, such as FRAME."""
     return str(param.metavar or "")
 
 

@@ -54,7 +54,8 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
     Args:
         argv: Words after `tftool`; None for this process's arguments.
-        providers: Functions that create clocks and links; None for real clocks and links.
+        providers: Functions that create clocks and connections to other processes; None for the
+            real ones.
 
     Returns:
         An `ExitStatus`, or the exit status of the program that `tftool run` ran.
@@ -118,8 +119,8 @@ def _leave_on_signals() -> None:
 
     Before a command runs there is nothing to clean up, and an import may swallow a
     KeyboardInterrupt or show it as a traceback. An event loop installs its own handlers
-    (`world.clock.run`), and restores the handlers of this function afterwards. Windows has no
-    signals in the loop; Python's own handlers work there.
+    (`world.clock.run`), and restores the handlers of this function afterwards. On Windows, an event
+    loop receives no signals, and Python's own handlers stay in use.
 
     During the interpreter's own shutdown, signals are ignored: Python has removed its handlers by
     then, and a second Ctrl-C would change an exit status that is already known.

@@ -1,4 +1,4 @@
-"""Command `tftool mcp`: server through which AI agents query the recordings of a folder."""
+"""Command `tftool mcp`: MCP server through which AI agents query the recordings of a folder."""
 
 import json
 import os
@@ -289,7 +289,7 @@ def _below(folder: Path) -> Iterator[Path]:
 
 
 def _read_with(path: Path) -> list[Path]:
-    """Return the files read along with a path: a folder's content, or the doctor's baseline.
+    """Return the files that a command reads with `path`: a folder's content, or a baseline.
 
     Raises:
         InputError: If a folder has more than `MOST_ENTRIES` entries.
@@ -320,7 +320,7 @@ def _version() -> str:
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
     """Convert output of a command to JSON of at most `most` characters; count omitted items.
 
-    Deeply nested lists are cut first: all findings are more useful than all evidence of one
+    Deeply nested lists are cut first, because all findings are more useful than all evidence of one
     finding.
     """
     sizes = [(outer, inner) for outer in (200, 20) for inner in (20, 8, 3, 1)]

@@ -98,7 +98,7 @@ LINES: Final = {
 
 
 def with_blanks(node: str, text: str) -> str:
-    """Return a node's source with a TODO in place of each key line."""
+    """Return a node's source as an exercise: each important line is replaced by a TODO."""
     wanted = LINES[node]
     lines = text.splitlines(keepends=True)
     found = [one for one in ast.walk(ast.parse(text)) if isinstance(one, ast.Assign)]
@@ -182,7 +182,7 @@ def _files_of_node(package: str, node: str) -> dict[str, str]:
 
 
 def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str, str]:
-    """Return the text of a package's files: those that every package has, and the files `more`.
+    """Return the text of a package's files: the files that every package has, and `more`.
 
     setup.py installs the nodes `nodes`.
     """

@@ -1,4 +1,4 @@
-"""Command `tftool calibrate`: a sensor's mount and clock offset, from recorded motion."""
+"""Command `tftool calibrate`: a sensor's mounting pose and clock offset, from recorded motion."""
 
 from pathlib import Path
 

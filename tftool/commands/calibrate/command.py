@@ -1,4 +1,4 @@
-"""Run of `tftool calibrate`: find a mount; print, compare and write it, draw an HTML page."""
+"""Run of `tftool calibrate`: find a mounting pose; print, compare and write it; draw a page."""
 
 import json
 import math
@@ -80,9 +80,9 @@ def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
 
 
 def _aligned(found: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
-    """Return drawings of the motions A and B, and of A · X and Y · B, which are aligned.
+    """Return drawings of the motions A and B, and of A · X beside Y · B, which should be equal.
 
-    X is the mount; Y is the pose of the fixed frame of B in the fixed frame of A.
+    X is the mounting pose; Y is the pose of the fixed frame of B in the fixed frame of A.
     """
     assert found.mount is not None
     assert found.fixed_mount is not None
@@ -255,7 +255,7 @@ def _refuse_outputs(
 
 
 def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
-    """Print a calibration; return whether the published mount is outside its 95 % interval."""
+    """Print a calibration; return whether the published mounting pose is outside its interval."""
     outside, compared = ((), None) if checked is None else _compared(found, checked)
     if for_programs:
         written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
@@ -281,7 +281,8 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
     """Assign each value of --moving to the file that has its frames.
 
     Raises:
-        UsageError: If values are missing, or both chains contain the mount.
+        UsageError: If values are missing, or one motion is computed from the published mounting
+            pose.
     """
     if len(opened) == 1:
         if len(words) != 2:
@@ -309,10 +310,10 @@ def _topics(frames: Frames) -> list[str]:
 
 
 def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
-    """Raise an error if a chain between two frames of one tree contains the wanted mount.
+    """Raise an error if a motion is computed through the transform that is to be found.
 
     Raises:
-        UsageError: If one chain contains the mount.
+        UsageError: If the transforms of one motion include the published mounting pose.
     """
     pairs = [_pair(word) for word in words if not word.startswith("/")]
     if len(pairs) < 2:
@@ -409,7 +410,7 @@ LEAST_DIFFERENCE: Final = (0.001, 0.1)
 def _compared(
     found: Calibration, published: PublishedMount
 ) -> tuple[list[str], dict[str, object] | None]:
-    """Compare the published mount with the estimated one; return sentences and the JSON object."""
+    """Compare the published mounting pose with the estimate; return sentences and a JSON object."""
     if published.mount is None or found.mount is None or found.interval95 is None:
         return [], None
     shift, turn = np.split(difference(found.mount, published.mount), 2)

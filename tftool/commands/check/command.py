@@ -188,7 +188,7 @@ def _recorded(
 
 
 def _strictly(report: Report) -> Report:
-    """Return a report in which warnings count as failures, for --strict."""
+    """Return a report in which warnings count as failures, for the option --strict."""
     if not report.warnings or not report.ok:
         return report
     return replace(report, failure="\n".join(("warnings fail (--strict):", *report.warnings)))

@@ -88,7 +88,7 @@ def _setting(options: DemoOptions, title: str) -> Setting:
 def _show_hosted(
     connection: Connection, options: DemoOptions, chosen: Scenario, found: JoinDecision
 ) -> str | None:
-    """Show a scenario in a new world that others can join; return the scenario to show next."""
+    """Show a scenario in a new world that other processes can join; return the next scenario."""
     around: Watch = nullcontext
     if options.recording is not None:
         around = partial(recorded, path=options.recording)

@@ -67,9 +67,10 @@ def _read_baseline(path: Path) -> Baseline:
 
 
 def _marked(baseline: Baseline, source: str, diagnosis: Diagnosis | str) -> Diagnosis | str:
-    """Mark the findings of a source that the baseline contains.
+    """Mark those findings of a source that a baseline (an earlier report) contains.
 
-    If the baseline does not contain the source, the findings of all sources in it count.
+    If the baseline does not contain the source, a finding of any source in the baseline marks an
+    equal finding here.
     """
     if isinstance(diagnosis, str):
         return diagnosis
@@ -171,7 +172,7 @@ def _show_steps(connection: Connection, options: DoctorOptions, scope: Scope) ->
 
     Raises:
         InputError: If a source cannot be read.
-        LookupException: If a frame of `--pair` is unknown, or no links join its two frames.
+        LookupException: If a frame of `--pair` is unknown, or its two frames are not connected.
     """
     (ends,), _ = pairs_and_place([], [options.pair]) if options.pair else ([("", "")], None)
     objects = []

@@ -56,7 +56,7 @@ class Printer:
             self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
 
     def aged(self, now: Stamp) -> None:
-        """Do nothing: a printed transform does not show its growing age."""
+        """Do nothing: a printed line stays as it is while its transform grows older."""
 
     def _line(self, what: object) -> None:
         self._write(json.dumps(what, allow_nan=False) + "\n")

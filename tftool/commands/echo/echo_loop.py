@@ -27,7 +27,7 @@ from tftool.world.world import World
 def print_live(
     connection: Connection, options: EchoOptions, pair: FramePair, printer: Printer
 ) -> None:
-    """Look up a transform in a session repeatedly; print each one, or redraw it on a terminal."""
+    """Look up a session's transform repeatedly; print each one, or redraw it on a terminal."""
     session = open_session(connection, options.place, cache_time=options.cache_time)
     count = 1 if options.once else options.count
     redraws = count is None and not printer.for_programs and can_redraw()
@@ -157,7 +157,7 @@ class Echo:
             due = max(due, pace.now() - self.period)
 
     async def _renewed(self) -> None:
-        """Wait for new data after a publisher left, and show the growing age meanwhile.
+        """Wait for new data after a publisher left; meanwhile show the old transform and its age.
 
         Raises:
             TransformException: If the transform does not become available in time, or never will.

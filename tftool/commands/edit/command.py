@@ -142,7 +142,7 @@ def _reparented(text: str) -> "tuple[LinkName, str]":
 
 
 def _statics(name: str) -> "tuple[TransformStamped, ...]":
-    """Return the static transforms of a recording (each child's last one) or a description."""
+    """Return the static transforms of a description, or of a recording (the last of each child)."""
     found = find(name)
     samples: dict[str, TransformStamped] = {}
     if found.kind is Kind.DESCRIPTION:

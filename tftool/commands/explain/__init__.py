@@ -1,4 +1,4 @@
-"""Command `tftool explain`: why a lookup succeeds or fails, link by link."""
+"""Command `tftool explain`: why a lookup succeeds or fails, transform by transform."""
 
 from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command

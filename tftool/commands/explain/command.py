@@ -1,4 +1,4 @@
-"""Run of `tftool explain`: in a description joint by joint, else link by link over time."""
+"""Run of `tftool explain`: joint by joint in a description, else edge by edge over time."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -25,7 +25,7 @@ from tftool.recordings.target import refuse_existing
 
 
 def run(connection: Connection, options: ExportOptions) -> ExitStatus:
-    """Run `tftool export`: write trajectories or links to a file."""
+    """Run `tftool export`: write trajectories or transforms to a file."""
     style = Style(
         options.precision, options.rpy, options.foxglove, options.with_moving, options.root
     )

@@ -1,7 +1,7 @@
 """Processing of many recordings in one process, several processes, or a cluster.
 
-All three use an executor of `concurrent.futures`. Results are rows of a table: a recording that
-cannot be read gets a row too, and one that kills its process is tried again alone.
+All three use an executor of `concurrent.futures`. Results are rows of a table. A recording that
+cannot be read gets a row too, and a recording that crashes its process is tried again alone.
 """
 
 import glob
@@ -101,7 +101,7 @@ class FleetTask:
 
     Attributes:
         columns: Names and types of the columns of a row.
-        judged: Names of the columns that `outcome` reads.
+        judged: Names of those columns that `outcome` reads.
     """
 
     __slots__ = ()
@@ -139,7 +139,7 @@ class FleetTask:
 
 @dataclass(frozen=True, slots=True)
 class Examination(FleetTask):
-    """Work of `tftool doctor`: a row for each finding.
+    """Work of `tftool doctor` for one recording: a row for each finding.
 
     Attributes:
         settings: Settings with which the doctor judges.
@@ -215,7 +215,7 @@ class Examination(FleetTask):
 
 @dataclass(frozen=True, slots=True)
 class Inventory(FleetTask):
-    """Work of `tftool info`: one row per recording."""
+    """Work of `tftool info` for one recording: one row with its contents."""
 
     columns = FACTS
     judged = ("damage", "unreadable")
@@ -329,7 +329,7 @@ def _results(
 def _worked(
     pool: Executor, sources: Sequence[str], workers: Workers, task: FleetTask
 ) -> Iterator[tuple[str, list[Row]]]:
-    """Yield each recording with its rows as soon as they are known.
+    """Yield each recording with its rows, as soon as the rows are known.
 
     Raises:
         BrokenExecutor: If a process was killed; raised after the results of other processes.
@@ -363,7 +363,7 @@ def _failure(error: Exception) -> str:
 
     Raises:
         UsageError: If the cluster's workers lack tftool.
-        InputError: If the cluster cannot be reached any more, so that no recording is to blame.
+        InputError: If the cluster cannot be reached any more, which is no fault of a recording.
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):
         raise UsageError(
@@ -437,7 +437,7 @@ def _is_recording(path: str) -> bool:
 
 
 def told(counts: dict[str, int]) -> str:
-    """Format the number of recordings by outcome as text."""
+    """Format the number of recordings of each outcome as text."""
     words = {
         "error": "with errors",
         "warning": "with warnings",

@@ -98,7 +98,7 @@ class RowFile:
         return bool(self.earlier(source))
 
     def earlier(self, source: str) -> list[Row]:
-        """Return the rows that a recording had when the file was opened: the `judged` columns."""
+        """Return the rows that a recording had at opening; at least their `judged` columns."""
         written = _cell(source) if self._suffix == ".csv" else source
         return self._done.get(str(written)) or (
             self._done.get(_utf8(source), []) if self._is_parquet else []

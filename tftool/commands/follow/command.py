@@ -23,7 +23,7 @@ SETTLE = seconds(0.5)
 
 
 def _tell(record: LogRecord) -> None:
-    """Print the follower's log and other nodes' errors; the session prints the link's errors."""
+    """Print the follower's log and other nodes' errors; the session prints warnings of its own."""
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)
 

@@ -59,13 +59,13 @@ class ReportStyle(Enum):
 
 
 class TrafficReport:
-    """Received transforms, the delay of one chain, and their output as a report."""
+    """Received transforms, the delay of one pair of frames, and their output as a report."""
 
     def __init__(self, frames: tuple[str, str] | None, style: ReportStyle) -> None:
         """Create an empty report.
 
         Args:
-            frames: Target and source of the chain to report on; None for all frames.
+            frames: Target and source of the pair to report on; None for all frames.
             style: Output format.
         """
         self.frames = frames
@@ -74,7 +74,7 @@ class TrafficReport:
         self.chain: view.Chain | None = None
 
     def begin(self, buffer: Buffer, now: Stamp) -> None:
-        """Find the chain, and count the static transforms that a late subscriber would receive."""
+        """Find the frames between the pair, and count the static transforms as received."""
         if self.frames is not None:
             chain = tuple(buffer.chain(*self.frames)) or self.frames[:1]
             self.chain = view.Chain(*self.frames, chain, NetDelay())
@@ -84,7 +84,7 @@ class TrafficReport:
                 self.traffic.receive(now, [sample], info.authority or "", is_static=True)
 
     def measure(self, buffer: Buffer, now: Stamp) -> None:
-        """Record the age of the chain's newest transform; a static chain has no age."""
+        """Record the age of the pair's newest transform; a static transform has no age."""
         if self.chain is None:
             return
         try:
@@ -331,11 +331,11 @@ class Arrivals:
         return moment
 
     def measure(self, report: TrafficReport, moments: Stamps) -> None:
-        """Record the age of the newest transform of the report's chain at each of these times.
+        """Record the age of the newest transform of the report's pair at each of these times.
 
-        Lookups would need the messages received up to each time, and receiving a few hundred
-        messages at a time takes twice as long as receiving all. The arrival times alone give the
-        same ages if every link has one publisher whose stamps increase.
+        Lookups would need exactly the messages received up to each time. Receiving messages in
+        groups of a few hundred takes twice as long as receiving all at once. The arrival times
+        alone give the same ages if every edge has one publisher whose stamps increase.
 
         Args:
             report: Report to fill.
@@ -452,7 +452,7 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
 
 
 def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
-    """Split the words into frames and FROM: two words are frames, one is FROM, three are both."""
+    """Split the words: one word is FROM, two are target and source, three are all of them."""
     if len(words) > 3:
         raise UsageError(
             f"{len(words)} words are too many: write two frames or none, then at most one FROM."

@@ -128,7 +128,7 @@ class Display:
         self._ascii_only = not encoding.startswith("utf")
 
     def tell(self, record: "LogRecord") -> None:
-        """Print log messages of the link and the player."""
+        """Print log messages of the player and of the session connection."""
         if is_news(record):
             self.clear()
             notice(visible(record.text))
@@ -187,7 +187,7 @@ MOST_MARKS = 200
 
 
 def _refuse_to_mix(link: Link) -> None:
-    """Raise an error if another node publishes transforms: the recording's would mix with them.
+    """Raise an error if another node publishes transforms, which would mix with the recording's.
 
     Raises:
         UsageError: If another node publishes transforms.

@@ -44,7 +44,7 @@ def drawn(
         options: Options of the command.
         found: Transforms over time.
         start: Time that is 0 on the axis.
-        console: Console to print on; drawn 80 columns wide unless it is a terminal.
+        console: Console to print on; the plot is 80 columns wide if the console is no terminal.
         height: Number of lines; None for a suitable number.
         span: Seconds since `start` that the axis covers; None for all data.
         hidden: Numbers of the curves that keys have hidden; None without keys.

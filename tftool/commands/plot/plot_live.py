@@ -30,7 +30,7 @@ _STEP = 1.5
 
 
 class PlotSight:
-    """Visible time span and hidden curves of a live plot, which keys change.
+    """Visible time span and hidden curves of a live plot; keys change both.
 
     Attributes:
         hidden: Numbers of the curves that are not drawn.
@@ -68,7 +68,7 @@ class PlotSight:
 
     @property
     def hint(self) -> str:
-        """Line that lists the keys and says how far back the shown time is."""
+        """Line with the keys, and how long before the present the shown time is."""
         back = f"{as_seconds(self._back):.1f} s back   " if self._back else ""
         return f"{back}q quit  + - zoom  left right time  0 all  1-9 hide a curve"
 

@@ -76,7 +76,7 @@ class RecordingRun:
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     async def run(self, duration: Duration | None) -> None:
-        """Record until `duration` nanoseconds have passed, the finding occurs, or a stop.
+        """Record until `duration` nanoseconds are over, the finding occurs, or the user stops.
 
         Raises:
             InputError: If the file cannot be written any more; the part written so far is readable.

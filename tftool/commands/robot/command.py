@@ -70,7 +70,7 @@ def _show(
     run_for: Duration | None,
     solids: tuple[Solids, Sequence[str]],
 ) -> None:
-    """Show the joints' sliders while the session runs."""
+    """Show the sliders of the joints while the session runs."""
     world = session.world
     sliders = Sliders(described, mover, seed=world.clock.now())
     if mover is None:

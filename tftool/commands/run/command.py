@@ -104,7 +104,7 @@ def _own_words(words: Sequence[str]) -> list[str]:
 def _run_other(
     connection: Connection, target: str, words: list[str], *, refused: bool
 ) -> int | None:
-    """Run tftool's own command in place of a known ROS program; return None for other programs.
+    """Run the tftool command that replaces a known ROS program; return None for other programs.
 
     Raises:
         UsageError: If the program is known, but options for nodes were given (`refused`).
@@ -131,7 +131,8 @@ def _run_command(connection: Connection, words: list[str]) -> int:
     """Print and run another tftool command, in the same session.
 
     Raises:
-        UsageError: If options reach another machine: the user must give them to that command.
+        UsageError: If options connect to another machine; the user must give them to the tftool
+            command.
     """
     if connection.reach.is_asked:
         raise UsageError(f"give the options of the session to 'tftool {shlex.join(words)}' itself")

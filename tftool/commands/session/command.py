@@ -49,7 +49,7 @@ def _rates(connection: Connection, link: Link, lasting: Duration) -> dict[str, f
 
 
 def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
-    """Return everything known about a session as a mapping, for --json; `rates` are in hertz."""
+    """Return all facts about a session as a mapping, for --json; `rates` are in hertz."""
     graph = link.graph
     topics: dict[str, dict[str, Any]] = {}
     for one in graph.entities(PUBLISHER, SUBSCRIPTION):

@@ -1,8 +1,9 @@
-"""Connection of a command: whether the command joins or hosts a session, and on which machines.
+"""Connection of a command: whether it joins or hosts a session, and on which machines.
 
 Every command that may share a session has a `Connection` as its first parameter. `declaration.py`
-creates it, and closes everything that it opened. `open_from` opens FROM (the source of the frames)
-with the command's options, and shows a progress bar and notes on stderr.
+creates the connection, and at the end closes every file and session that the connection has opened.
+`open_from` opens FROM (the source of the frames) with the command's options, and shows a progress
+bar and notes on stderr.
 """
 
 import math
@@ -47,7 +48,7 @@ HOME = "turtles"
 
 
 class Mode(Enum):
-    """Whether a command joins the running session, hosts one, or does whichever is possible."""
+    """Whether a command joins the running session, hosts a new session, or decides itself."""
 
     AUTO = auto()
     JOIN = auto()
@@ -55,13 +56,13 @@ class Mode(Enum):
 
 
 class Providers:
-    """Functions that create a command's clock and its links to other processes; tests replace them.
+    """Functions that create a command's clock and its connections to other processes.
 
-    Tests pass an object of a derived class to `app.main`.
+    Tests replace these functions by passing an object of a derived class to `app.main`.
     """
 
     def wall_clock(self, rate: float = 1.0, *, head_start: Duration = 0) -> "Clock":
-        """Create a clock for a world that others may share; see `WallClock`."""
+        """Create a clock for a world that other processes may share; see `WallClock`."""
         from tftool.world.clock import WallClock
 
         return WallClock(rate, head_start=head_start)
@@ -84,7 +85,7 @@ class Providers:
         return FollowedClock()
 
     def link(self, options: "Options") -> "Link | None":
-        """Open a link to other processes; return None if this process shares no world with them.
+        """Join other processes' session; return None if this process shares no world with them.
 
         Raises:
             LinkError: If the link cannot be opened.
@@ -114,13 +115,13 @@ class Connection:
     Attributes:
         command: Name of the command.
         kind: Kind of the command, which decides its options.
-        mode: Whether to join, to host, or whichever is possible.
+        mode: Whether to join a session, to host one, or to do whichever is possible.
         domain: Number of the ROS domain.
         reach: Middleware, and its options for reaching other machines.
         read_only: Whether --read-only was given: nothing is published.
         robot: Joint positions, xacro arguments, and a description for a recording.
         recording: Options for reading a recording.
-        providers: Functions that create clocks and links.
+        providers: Functions that create clocks and connections to other processes.
         context: Context of the command line in typer.
     """
 
@@ -145,32 +146,32 @@ class Connection:
 
     @property
     def needs_link(self) -> bool:
-        """Whether an option requires a link."""
+        """Whether an option requires a connection to other processes."""
         return self.mode is Mode.JOIN or self.read_only or self.reach.is_asked
 
     @property
     def looks(self) -> bool:
-        """Whether the command only observes, so that a world it hosts stays invisible to others."""
+        """Whether the command only observes; then a world that it hosts is not shared."""
         return self.reach.awaits_others(hosts=self.kind.hosts_turtles)
 
     @property
     def place(self) -> str:
-        """Description of where the session's other processes are; empty for this machine."""
+        """Text on where the session's other processes are; empty for this machine."""
         return self.reach.place(self.domain)
 
     def options(self) -> Options:
-        """Return the options as the link needs them."""
+        """Return the options with which this process joins a session."""
         # Among a robot's nodes, a command that only observes must not publish.
         read_only = self.read_only or (self.reach.is_robots and self.kind.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
-        """Open a link to other processes, which is closed together with this connection.
+        """Join the session of other processes until this connection is closed.
 
         Return None if this process shares no world with them.
 
         Raises:
-            LinkError: If the link cannot be opened.
+            LinkError: If the session cannot be joined.
         """
         link = self.providers.link(self.options())
         if link is not None:
@@ -193,7 +194,7 @@ class Connection:
 
     @property
     def hosts_alone(self) -> bool:
-        """Whether there is no session to join, checked without opening a link."""
+        """Whether there is no session to join; the check does not connect to any process."""
         if self.mode is Mode.HOST:
             return True
         if self.needs_link:
@@ -201,13 +202,13 @@ class Connection:
         return not REACHES[0].has_members(self.domain)
 
     def keep(self, opened: "Link | Frames") -> None:
-        """Register a link or frames to be closed together with this connection."""
+        """Register a joined session or opened frames to be closed together with this connection."""
         self._opened.append(opened)
 
     def refuse_to_share(self, word: str | None) -> None:
-        """Raise an error for options such as --join if FROM is a file or is played here.
+        """Raise an error for session options such as --join if FROM is not a running session.
 
-        A file, and a scenario on simulated time, cannot be shared with other processes.
+        Files, and scenarios on simulated time, cannot be shared with other processes.
 
         Raises:
             UsageError: If such an option was given.
@@ -252,7 +253,7 @@ class Connection:
             )
 
     def tell_read_only(self) -> None:
-        """Print what --read-only means for the nodes that the command runs."""
+        """Print the effect of --read-only on the nodes that the command runs."""
         if self.read_only:
             notice(
                 "--read-only: other processes receive no messages and no answers from the nodes "
@@ -278,10 +279,10 @@ def read(
     address: str | None = None,
     **reach: Any,
 ) -> Connection:
-    """Create a connection from a command's options.
+    """Create a connection from the values of a command's options.
 
-    The options `reach` are those of the middlewares; `address` is a session's address given as
-    FROM.
+    `reach` contains the options of the middlewares; `address` is a session's address, if FROM is an
+    address.
 
     Raises:
         UsageError: If options contradict each other.
@@ -374,14 +375,14 @@ def open_from(
         until: Time up to which a scenario is played, without --for; see `open_frames`.
         margin: Seconds to play on after `until`.
         cache_time: Cache time of a scenario's or session's buffer.
-        tells: Whether to print notes about oddities of the frames.
-        shares: Whether to accept options such as --join although FROM is a file, because they
-            are meant for another source of the same command.
+        tells: Whether to print notes about unusual facts of the frames.
+        shares: Whether to accept options such as --join although FROM is a file, because they are
+            meant for another source of the same command.
         watch: Function called with the world of a scenario or session before it runs.
         look: Function that returns lines about a session's frames, shown below the progress bar.
 
     Raises:
-        InputError: If FROM names nothing, or it cannot be read.
+        InputError: If FROM names no source, or the source cannot be read.
         LinkError: If a session was requested and there is none.
         UsageError: If options do not fit the kind of FROM.
     """

@@ -1,9 +1,9 @@
-"""Declaration of a command: its options and its kind.
+"""Declaration of a command: its options, and its kind, which adds options.
 
-The kind decides further options: of sessions, of recordings, of robot descriptions.
-`tftool/commands/NAME/__init__.py` declares the command. Its function `run`, in `command.py` beside
-it, is imported when the command is called: help and completion need only the options. A small
-command is a single file.
+A kind adds options of sessions, of recordings, or of robot descriptions.
+`tftool/commands/NAME/__init__.py` declares a command. The function `run` in
+`tftool/commands/NAME/command.py` is imported only when the command is called, because help and
+completion need only the options. A small command is a single file.
 """
 
 import inspect
@@ -172,10 +172,9 @@ class CommandKind:
     Attributes:
         shares: Whether the command joins or hosts a session. If so, the first parameter of the
             command's `run` is a `Connection`.
-        looks_only: Whether the command writes to no topic of a robot, so that FROM may be a
-            robot's address.
-        hosts_turtles: Whether the command hosts the turtle world if it searches for a robot and
-            finds none; other commands wait for a robot.
+        looks_only: Whether the command publishes nothing, so that FROM may be a robot's address.
+        hosts_turtles: Whether the command hosts the turtle world if no robot is found; other
+            commands wait for a robot.
         recordings: Whether FROM may be a recording.
         descriptions: Whether FROM may be a robot description.
         urdf: Whether the command has the option --urdf, which gives the robot description for a
@@ -208,7 +207,8 @@ class Invocation(NamedTuple):
     """Data passed from `main` to a command, as the `obj` of click's context.
 
     Attributes:
-        providers: Functions that create clocks and links; None for real clocks and links.
+        providers: Functions that create clocks and connections to other processes; None for the
+            real ones.
         run: Function that runs another command line of tftool, and returns its exit status.
     """
 
@@ -217,13 +217,13 @@ class Invocation(NamedTuple):
 
 
 class Command:
-    """Base class of commands: a derived class has options as fields, and the help as its docstring.
+    """Base class of commands: a derived class has options as fields, and its docstring as help.
 
     The value of a field is its declaration (`option`, `flag` or `argument`), or its type contains
     the declaration.
 
     Class keywords are attributes of `CommandKind`: `class EchoOptions(Command, looks_only=True)`.
-    An object has the given values, and is passed to `run` in the command's module.
+    An instance has the typed values, and is passed to `run` in the command's module.
     """
 
     kind: ClassVar[CommandKind]
@@ -272,7 +272,7 @@ def typer_function(command: type[Command]) -> Callable[..., Any]:
 
 
 def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> str | None:
-    """Remove a session's address from the command's words; return the address, or None.
+    """Remove a session's address from a command's words, and return it; None without one.
 
     Raises:
         UsageError: If the command does not read sessions, or the address is not given as FROM.

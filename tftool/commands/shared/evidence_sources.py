@@ -43,7 +43,7 @@ def evidence_from(
         look: Function that returns lines about the findings while a session is listened to.
 
     Raises:
-        InputError: If the word names nothing, or it cannot be read.
+        InputError: If the word names no source, or the source cannot be read.
         LinkError: If a session was requested and there is none.
         UsageError: If the word names a robot description, or if only a part of a source that is not
             a recording is to be examined.

@@ -1,9 +1,9 @@
-"""Decision of a command to join a session or to host one, the same for all commands.
+"""Decision whether a command joins a session or hosts one, the same for all commands.
 
 A named scenario is always hosted. Without a name, the command joins the running session of this
-machine, or hosts one that others can join. Processes that only watch do not form a session: they
-wait for the next host. While another session is hosted, a named scenario is not shared, so that the
-two never mix.
+machine, or hosts a session that other processes can join. Processes that only watch do not form a
+session; they wait for the next host. If a session is hosted already, a named scenario is not
+shared, so that the two worlds never mix.
 
 A command that works in a running world (``echo``, ``monitor``, ``view``) opens a session::
 
@@ -43,9 +43,9 @@ class JoinDecision:
     """Result of the search for a session to join.
 
     Attributes:
-        session: Joined session; None if the command must host one.
-        link: Link through which other processes join; None if the hosted world is not shared.
-        alone: Sentence on why the hosted world is not shared; empty if it is.
+        session: Joined session; None if the command must host a session.
+        link: Connection through which other processes join; None if the hosted world is not shared.
+        alone: Sentence on why the hosted world is not shared; empty if the world is shared.
     """
 
     session: Session | None = None
@@ -60,16 +60,16 @@ def join_or_host(
     needs_turtles: bool = False,
     cache_time: Duration | None = None,
 ) -> JoinDecision:
-    """Join the running session, or prepare to host one, under a lock against other processes.
+    """Join the running session, or prepare to host one; a lock excludes other processes.
 
     Args:
         connection: Connection of the command.
-        word: Name of the world, which is hosted; None for the running session.
+        word: Name of a world to host; None for the running session.
         needs_turtles: Whether to join only a session with a turtle simulator.
         cache_time: Cache time of a joined world's buffer, nanoseconds.
 
     Raises:
-        LinkError: If a session was requested and there is none, or if no link can be opened.
+        LinkError: If a session was requested and there is none, or if no connection can be opened.
         UsageError: If --join was given with a named world.
     """
     connection.refuse_to_join(word)
@@ -117,7 +117,7 @@ def join_or_host(
 
 
 def _why_alone(connection: Connection, link: "Link") -> str:
-    """Return a sentence on why a hosted world is not shared; empty if it is."""
+    """Return a sentence on why a hosted world is not shared; empty if the world is shared."""
     if _has_host(link):
         name = session_name(link, connection.place)
         return (
@@ -139,21 +139,21 @@ def open_session(
     because: str = NO_SESSION,
     by_hand: bool = False,
 ) -> Session:
-    """Return the world for a command; a notice on stderr reports whether it was created.
+    """Return the world for a command; a notice on stderr tells if the world was created.
 
     Args:
         connection: Connection of the command.
-        word: FROM as typed, which is hosted; None for the running session.
+        word: FROM as typed, the world to host; None for the running session.
         simulated: Whether a hosted world uses simulated time, from its beginning on.
         head_start: Part of a scenario that is simulated at once before the wall clock starts.
         cache_time: Cache time of the world's buffer, in place of the scenario's.
-        without: Function that returns whether to omit a node of a hosted scenario.
+        without: Function that decides whether a node of a hosted scenario is omitted.
         needs_turtles: Whether to join only a session with a turtle simulator.
         because: Reason to print if a default world is hosted.
         by_hand: Whether a person drives, in place of the scenario's script.
 
     Raises:
-        InputError: If the word names nothing, or it cannot be read.
+        InputError: If the word names no world, or its file cannot be read.
         LinkError: If a session was requested and there is none.
         UsageError: If sharing was requested with simulated time.
     """
@@ -232,7 +232,7 @@ def join_session(
 
 
 def refuse_moment(connection: Connection) -> None:
-    """Raise an error for a requested time if a session runs, because it has no past to look up.
+    """Raise an error if a time was requested and a session runs, which has no past.
 
     Raises:
         UsageError: If a session runs on this or the connected machine.
@@ -281,7 +281,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
 
 
 def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:
-    """Return an empty world that others can join, for a command that adds its own nodes."""
+    """Return an empty world that other processes can join, for a command that adds nodes."""
     if simulated:
         world, link = World(SimClock()), None
     else:
@@ -292,7 +292,7 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
 
 
 def tell_where_to_look(connection: Connection, session: Session) -> None:
-    """Print how another terminal can show the new session, if a person sees it."""
+    """Print how another terminal can show the new session, if stderr is a terminal."""
     if session.link is None or not sys.stderr.isatty():
         return
     domain = f" --domain {connection.domain}" if connection.domain else ""
@@ -317,10 +317,10 @@ def _hosted(
 
 
 def _open_link(connection: Connection) -> tuple["Link | None", str]:
-    """Open the link; if that is impossible, return None and the reason.
+    """Join the other processes; if that is impossible, return None and the reason.
 
     Raises:
-        LinkError: If an option needs the link.
+        LinkError: If an option needs the connection.
     """
     try:
         return connection.open_link(), ""

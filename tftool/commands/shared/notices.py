@@ -36,16 +36,16 @@ def complain(who: str, sentence: str) -> None:
 def name_frames(
     frames: Sequence[str], asked: Iterable[str | None], when: str = "", advice: str = ""
 ) -> bool:
-    """Print the known frames if a requested frame is unknown.
+    """Print the existing frames if a requested frame does not exist.
 
     Args:
-        frames: Known frames.
-        asked: Requested frames; None for no frame.
+        frames: Names of the existing frames.
+        asked: Names of the requested frames; None is ignored.
         when: Text after "frames", such as "so far" if more frames may follow.
         advice: Sentence to append.
 
     Returns:
-        Whether the known frames were printed.
+        Whether the existing frames were printed.
     """
     missing = [frame for frame in asked if frame is not None and frame not in frames]
     if not frames and not when:
@@ -89,12 +89,12 @@ def fitting(sentence: str) -> str:
 
 
 def is_news(record: "LogRecord") -> bool:
-    """Return whether a log message is a warning of the link, which every user should see."""
+    """Return whether a log message is a warning about the session, which every user should see."""
     return record.node == "link" and record.level == "WARN"
 
 
 def tell_news(record: "LogRecord") -> None:
-    """Print a log message if it is a warning of the link."""
+    """Print a log message if it is a warning about the session."""
     if is_news(record):
         notice(visible(record.text))
 
@@ -116,7 +116,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
 
 class FoldedLog:
-    """Printer of a world's log that prints the first of equal messages and counts its repeats."""
+    """Printer of a world's log, which prints equal messages once and counts their repeats."""
 
     def __init__(self, *, whole: bool = False) -> None:
         """Start with all counts at zero.
@@ -128,7 +128,7 @@ class FoldedLog:
         self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
 
     def tell(self, record: "LogRecord") -> None:
-        """Print a message, or count it if an equal one was printed."""
+        """Print a message; if an equal message was printed before, count it instead."""
         kind = (record.node, record.level, record.text)
         first, more = self._more.get(kind, (record, -1))
         self._more[kind] = (first, more + 1)

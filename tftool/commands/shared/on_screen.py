@@ -28,7 +28,7 @@ SETTLED = seconds(1)
 
 
 def screen_lacks() -> str:
-    """Return the fault that prevents a full-screen display, for a sentence; empty without one."""
+    """Return why a full-screen display is impossible, as part of a sentence; "" if possible."""
     if os.environ.get("TERM") == "dumb":
         return "TERM=dumb is one without a screen"
     # textual draws on stderr, so stderr must be a terminal, too.
@@ -38,7 +38,7 @@ def screen_lacks() -> str:
 
 
 def at_rest(connection: Connection, frames: Frames) -> StillFrames:
-    """Return the frames of a file as screens need them, with a clock that shows the end."""
+    """Return a file's frames in the form that screens need, with a clock that shows the end."""
     start, end = frames.span
     # In an empty recording both are 0, which is not a valid time of a clock.
     clock = connection.providers.still_clock(max(start, 1), max(end, 1))
@@ -46,7 +46,7 @@ def at_rest(connection: Connection, frames: Frames) -> StillFrames:
 
 
 def simulator_of(world: "World") -> "Turtlesim | None":
-    """Return a world's turtle simulator; None without one."""
+    """Return a world's turtle simulator; None if there is none."""
     return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
 
 
@@ -122,9 +122,9 @@ def run_app(
     Args:
         scene: Scene to show.
         life: Coroutine that runs the world; it is cancelled when the user quits.
-        driver: Node that receives the keys; None without one.
+        driver: Node that receives the keys; None if no turtle can be driven.
         setting: Options of the screen.
-        idle: Node that draws while no key is pressed; None without one.
+        idle: Node that draws while no key is pressed; None if there is none.
 
     Returns:
         Name of the scenario that the user chose to show next; None if the user quit.

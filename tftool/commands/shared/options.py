@@ -144,9 +144,9 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
 def moment(text: str) -> At:
     """Parse a time: seconds since the start, or a stamp.
 
-    `12.5` and `+12.5` are seconds since the start (with `+` also larger numbers); numbers from 10⁸
-    on, such as `1663952504.7`, are stamps, and so are dates, such as `2022-09-23T17:01:44.7Z` (UTC
-    if without a time zone).
+    `12.5` and `+12.5` are seconds since the start. Numbers from 10⁸ on, such as `1663952504.7`, are
+    stamps, unless they begin with `+`. Dates such as `2022-09-23T17:01:44.7Z` are stamps too, in
+    UTC if no time zone is given.
 
     Raises:
         typer.BadParameter: If the text is neither a number nor a date.
@@ -225,7 +225,7 @@ def option(
         words: Text of the help.
         names: Names of the option; without any, made from the field's name.
         default: Value if the option is not given; `...` for an option that must be given, and for
-            one inside `Annotated`.
+            an option inside `Annotated`.
         metavar: Name of the value in the help.
         panel: Heading above the option in the help; None for the usual heading.
         more: Further arguments of `typer.Option`.
@@ -257,7 +257,7 @@ def seconds_option(
 ) -> Any:
     """Return the declaration of an option that is typed in seconds and stored in nanoseconds.
 
-    The help text names the default, because the option's own default would be shown in nanoseconds.
+    `words` must name the default, because typer would show the default in nanoseconds.
 
     Args:
         words: Text of the help.

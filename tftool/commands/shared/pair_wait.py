@@ -29,7 +29,7 @@ NOTHING_NEW = "nothing new has come since its sender left"
 
 
 class PairWait:
-    """Wait for one transform in a world, based on requests to the buffer."""
+    """Wait for one transform in a world; an insertion into the buffer ends the wait."""
 
     def __init__(
         self,
@@ -57,7 +57,8 @@ class PairWait:
         """Wait until the transform can be looked up.
 
         Args:
-            newer_than: Newest time of data whose publisher has left; only newer data counts.
+            newer_than: Newest stamp from a publisher that has left; only data with later stamps
+                ends the wait.
 
         Raises:
             TransformException: If the transform is not available in time, or never will be.

@@ -28,7 +28,8 @@ class FramePair:
         target: Frame in which the transform is expressed.
         source: Frame whose pose is looked up.
         at: Time to look up; 0 for the latest.
-        offset: Nanoseconds from now to the time to look up; 0 if `at` is used.
+        offset: Nanoseconds from now to the time to look up (negative for the past); 0 if `at` is
+            used.
         fixed_frame: Frame through which `source` at that time is expressed in `target` now.
     """
 
@@ -68,7 +69,7 @@ class FramePair:
         return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
 
     def newest(self, buffer: Buffer) -> Stamp:
-        """Return the newest time at which the pair can be looked up; 0 if all links are static."""
+        """Return the newest time at which the pair can be looked up; 0 if all edges are static."""
         return buffer.newest_common(self.fixed_frame or self.target, self.source)
 
 
@@ -127,7 +128,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
 
 
 class SpanOptions(Protocol):
-    """Options of a command that select times within a span."""
+    """Protocol of options that select times of a recording: --from, --to, --rate and so on."""
 
     first: At | None
     last: At | None

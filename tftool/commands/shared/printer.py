@@ -25,9 +25,9 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
 
     Args:
         what: Renderable to print.
-        end: Text after it.
-        is_wide: Whether lines without a terminal are up to `LOG_WIDTH` long, so that a log has
-            each sentence in one line, and can be searched by line.
+        end: Text after the renderable.
+        is_wide: Whether lines may be up to `LOG_WIDTH` long if stdout is no terminal. Then a log
+            has each sentence in one line, and can be searched by line.
     """
     from rich.console import Console
 
@@ -50,7 +50,7 @@ def write_json(content: object, *, indent: int | None = 2) -> None:
 def write_file(path: Path, content: str | bytes) -> None:
     """Write a whole file, text as UTF-8; a pipe or device is written directly.
 
-    The old file stays until the new one is complete, so that a full disk loses nothing.
+    The old file is replaced only when the new file is complete, so that a full disk loses nothing.
 
     Raises:
         InputError: If the file cannot be written.

@@ -47,7 +47,7 @@ def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object])
 
 
 def _asked(number: int, frame: FrameType | None) -> None:
-    """Stop the process on SIGTSTP between two callbacks of the event loop, never during a write."""
+    """Stop the process on SIGTSTP, between two callbacks of the event loop."""
     try:
         loop = asyncio.get_running_loop()
     except RuntimeError:
@@ -152,7 +152,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
 
 def termios_error() -> type[BaseException]:
-    """Return the exception type for failed terminal settings; without termios, one never raised."""
+    """Return the exception type for failed terminal settings; an unused type without termios."""
     try:
         import termios
     except ImportError:

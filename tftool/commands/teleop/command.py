@@ -37,7 +37,7 @@ PATIENCE = seconds(10)
 
 
 def press_all(connection: Connection, turtle: str, keys: str) -> str:
-    """Press keys, each after the effect of the previous one is complete.
+    """Press keys one by one; each key waits until the effect of the previous key has ended.
 
     Args:
         connection: Connection of the command.
@@ -88,7 +88,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
 
 
 async def press_there(world: World, turtle: str, words: list[str]) -> str:
-    """Press keys in a joined session, in which a turtle is known only by its poses.
+    """Press keys in a joined session, which shows a turtle's poses but not its state.
 
     Raises:
         UsageError: If there is no such turtle.
@@ -133,7 +133,7 @@ def _is_at_rest(pose: Any) -> bool:
 
 
 def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
-    """Run `tftool teleop`: read keys from the terminal, or press those of --keys."""
+    """Run `tftool teleop`: read keys from the terminal, or press the keys of --keys."""
     connection.refuse_read_only("drive")
     if options.keys is not None:
         typer.echo(press_all(connection, options.turtle, options.keys))

@@ -32,7 +32,7 @@ Moving = frozenset[str] | None
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> Iterator[str]:
-    """Yield the tree in pieces, cut to a terminal's width unless `wide` or not on a terminal."""
+    """Yield the tree bit by bit; on a terminal, cut to the terminal's width unless `wide`."""
     console = Console()
     if not console.is_terminal:
         for text, _ in frame_tree.pieces(snapshot, moving=moving, marks=marks):
@@ -186,7 +186,7 @@ def _write(
 def _content(
     snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, *, wide: bool
 ) -> bytes | Iterable[str]:
-    """Return bytes of a picture, or text in pieces, so that a large tree appears at once."""
+    """Return the bytes of a picture, or text bit by bit, so that a large tree appears at once."""
     if form is TreeFormat.json:
         told = frame_tree.as_object(snapshot, moving, marks)
         return [json.dumps(told, indent=2, allow_nan=False), "\n"]

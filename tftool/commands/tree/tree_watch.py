@@ -63,7 +63,7 @@ def show_changes(
 
 
 async def _redrawn(world: World, duration: Duration | None, console: Console) -> None:
-    """Redraw the tree in the event loop, since rich's thread could draw half-finished changes."""
+    """Redraw the tree in the event loop; rich's own thread could draw half-finished changes."""
     # Text on stderr is not visible on this screen, so warnings are shown below the tree.
     news = Text(style="yellow")
 

@@ -113,7 +113,7 @@ def _page_data(connection: Connection, options: ViewOptions) -> StandaloneData:
 
 
 def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) -> ShownRobot | None:
-    """Return the robot of a description or a recording, with its meshes; None without one."""
+    """Return the robot of a description or a recording, with its meshes; None without a robot."""
     robot = frames.robot
     if robot is None:
         return None
@@ -127,7 +127,7 @@ def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) ->
 def _alive(
     connection: Connection, found: Found, meshes: Sequence[Path]
 ) -> "tuple[Session, ShownRobot]":
-    """Return a session that publishes a robot, and the robot, whose joints the page moves."""
+    """Return a session in which this process publishes a robot, and the robot for the page."""
     connection.refuse_to_share(found.name)
     robot = load_described(found, connection.robot)
     joints = connection.robot.joints
@@ -143,7 +143,7 @@ def _alive(
 
 
 def _let_drive(session: Session, page: PageServer) -> None:
-    """Pass the page's keys to a hosted world's turtle, which draws until a key is pressed."""
+    """Pass the page's keys to a hosted turtle, which drives itself until a key is pressed."""
     if not session.is_hosted or simulator_of(session.world) is None:
         return
     link = session.link
@@ -191,7 +191,7 @@ async def _show(
     waiting: Coroutine[Any, Any, None],
     open_browser: bool,
 ) -> None:
-    """Serve the page until the time is over or a signal ends it.
+    """Serve the page until the coroutine `waiting` ends, or a signal ends the command.
 
     Args:
         page: Server of the page.
@@ -216,7 +216,7 @@ async def _show(
 
 
 async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
-    """Run coroutines concurrently until one ends, then cancel the others."""
+    """Run coroutines concurrently until one of them ends, then cancel the rest."""
     tasks = [asyncio.ensure_future(one) for one in work]
     try:
         ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -232,8 +232,8 @@ async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
 def _redirect_to(url: str) -> Iterator[str]:
     """Create a file that redirects to the page while this block runs, and return the file's URL.
 
-    Every user of the machine can read a browser's command line, and the page's address contains its
-    secret. So the browser gets the name of a file that only this user can read.
+    Every user of the machine can read a browser's command line, and the page's address contains a
+    secret. So the browser is started with the name of a file that only this user can read.
     """
     with TemporaryDirectory(prefix="tftool-") as folder:
         file = Path(folder, "view.html")
