@@ -5,7 +5,7 @@ from typing import Protocol, TypeVar
 
 
 class Above(Protocol):
-    """Edge of a tree, from a node to its parent."""
+    """Interface of an edge of a tree, which connects a node with its parent."""
 
     @property
     def parent(self) -> str:
@@ -16,11 +16,11 @@ EdgeT = TypeVar("EdgeT", bound=Above)
 
 
 def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
-    """Return the edges from a frame up to its root, lowest first; each edge of a loop once.
+    """Return the edges from a frame up to its root, lowest first; each edge of a loop only once.
 
     Args:
         frame: The frame to start from.
-        parent: Function that returns the edge above a frame; None above a root.
+        parent: Function that returns the edge from a frame to its parent, or None for a root.
     """
     edges: list[EdgeT] = []
     seen = {frame}
@@ -36,7 +36,7 @@ def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
 def up_to_join(
     frame: str, other: str, above: Callable[[str], list[EdgeT]]
 ) -> tuple[list[EdgeT], list[EdgeT]] | None:
-    """Return the edges from each of two frames up to their common ancestor; None if they have none.
+    """Return the edges from each of two frames up to their common ancestor; None without one.
 
     Args:
         frame: The first frame.

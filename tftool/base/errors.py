@@ -151,8 +151,8 @@ class DescriptionError(DocumentError):
 def failure_text(error: BaseException) -> str:
     """Format an exception in one line: its type, text, and the file and line that raised it.
 
-    The line is the innermost line of the user's code, or the innermost line of the traceback if
-    none is the user's. tftool's own errors get no line: their text is complete.
+    The line is the innermost line of the user's code, or else the innermost line of the traceback.
+    For an exception of tftool's own classes, only a line of the user's code is added.
     """
     kind, text = type(error).__name__, str(error)
     line = line_of(error, users_only=isinstance(error, TftoolError))
@@ -162,7 +162,7 @@ def failure_text(error: BaseException) -> str:
 def line_of(error: BaseException, *, users_only: bool = False) -> str:
     """Return the innermost line of the user's code in an error's traceback, as "busy.py:10".
 
-    If no line is the user's, return the innermost line of the traceback, or "" with `users_only`.
+    Without a line of the user's code, return the innermost line, or "" if `users_only` is true.
     """
     users = innermost = ""
     trace = error.__traceback__
@@ -175,7 +175,7 @@ def line_of(error: BaseException, *, users_only: bool = False) -> str:
 
 
 def is_users_file(file: str) -> bool:
-    """Whether a file with code belongs to the user: neither to tftool nor to Python's library."""
+    """Whether a source file belongs neither to tftool nor to Python's standard library."""
     if file.startswith((_PACKAGE, "<frozen")):
         return False
     return "site-packages" in file or not file.startswith(_LIBRARY)
@@ -186,10 +186,10 @@ _LIBRARY = os.path.dirname(os.path.realpath(os.__file__))
 
 
 class NodeFailed(TftoolError):
-    """Error that ends a run because a node raised an exception, which is the error's cause."""
+    """Error that ends a run because a node raised an exception, which is stored as `__cause__`."""
 
     def __init__(self, node: str, error: BaseException, what: str = "") -> None:
-        """Create the error for a node that raised `error`; `what` replaces the text."""
+        """Create the error for a node that raised `error`; `what` replaces "failed: …"."""
         super().__init__(f"node '{node}' {what or f'failed: {failure_text(error)}'}")
         self.node = node
 
@@ -200,8 +200,8 @@ class TransformException(TftoolError):
     The text is exactly tf2's; `remedy` says what to do.
 
     Attributes:
-        frame: The frame that causes the error: unknown, misspelt, or without data; None without
-            such a frame.
+        frame: The frame that causes the error, because it is unknown, misspelt or without data;
+            None if no single frame causes the error.
         target: The target frame of the lookup; None if unknown.
         source: The source frame of the lookup; None if unknown.
     """
@@ -221,7 +221,7 @@ class TransformException(TftoolError):
 
     @property
     def remedy(self) -> str:
-        """Return advice: what to do, often with the size of the fault; empty without advice."""
+        """Return a sentence that says what to do, often with the size of the fault; may be ""."""
         return ""
 
 
@@ -229,7 +229,7 @@ class LookupException(TransformException):
     """Error for an unknown `frame`, or a tree with a loop.
 
     Attributes:
-        looped: Whether the reason is a loop or a chain of more than 1000 links.
+        looped: Whether the frames form a loop, or a chain of more than 1000 frames.
     """
 
     def __init__(
@@ -249,8 +249,8 @@ class LookupException(TransformException):
             frame: The unknown frame.
             target: The target frame of the lookup.
             source: The source frame of the lookup.
-            known: The known frame names in a fixed order; names may be appended later.
-            looped: Whether the reason is a loop.
+            known: Frame names received so far; names that are appended later are ignored.
+            looped: Whether the frames form a loop.
         """
         super().__init__(message, frame=frame, target=target, source=source)
         self.looped = looped
@@ -259,7 +259,7 @@ class LookupException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return advice with similar frame names, or that no frame is known yet."""
+        """Return a sentence with similar frame names, or the number of frames received so far."""
         if self.looped:
             return "A frame is below one of its own children: check who publishes the links named."
         if self.frame is None:
@@ -275,7 +275,7 @@ class LookupException(TransformException):
         return f"No transform of '{self.frame}' has come yet; {len(known)} other frames are known."
 
     def _names(self) -> list[str]:
-        """Return the frame names that were known when the error was created."""
+        """Return the frame names that had been received when the error was created."""
         return list(islice(self._known, self._count))
 
     def _facts(self) -> dict[str, object]:
@@ -287,7 +287,7 @@ class ConnectivityException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return the advice to look at the tree for the missing link."""
+        """Return a sentence that advises to look at the roots of the two trees."""
         return (
             f"No chain of links joins '{self.source}' to '{self.target}' at that time: "
             "'tftool tree' shows the root of each."
@@ -299,13 +299,13 @@ class InvalidArgumentException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return the advice to use the name without its slash."""
+        """Return a sentence that advises to use the frame name without its slash."""
         plain = (self.frame or "").lstrip("/")
         return f"Use '{plain}'." if plain else "Give the name of a frame."
 
 
 class TimeoutException(TransformException):
-    """Error for a wait that exceeded its timeout; the last failed lookup is the cause.
+    """Error for a wait for a transform that exceeded its timeout.
 
     Attributes:
         refusal: The error of the last failed lookup; None if no lookup failed.
@@ -333,7 +333,7 @@ _FEW_NANOSECONDS = 100_000
 
 
 class ExtrapolationException(TransformException):
-    """Error for a time outside the samples of a link in the chain, whose child is `frame`.
+    """Error for a lookup at a time before the first or after the last sample of the child `frame`.
 
     Attributes:
         requested: The requested time, nanoseconds.
@@ -358,7 +358,7 @@ class ExtrapolationException(TransformException):
             self.add_note(hint)
 
     def _hint(self) -> str:
-        """Return a hint if a time of a few nanoseconds was probably meant in seconds; else ""."""
+        """Return a hint if the caller probably passed seconds instead of nanoseconds; else ""."""
         if not 0 < self.requested < _FEW_NANOSECONDS or self.missed < NANOSECONDS // 1000:
             return ""
         asked = self.requested
@@ -375,11 +375,11 @@ class ExtrapolationException(TransformException):
 
 
 class BackwardExtrapolationException(ExtrapolationException):
-    """Error for a time before a link's oldest sample."""
+    """Error for a lookup at a time before the oldest sample of the child `frame`."""
 
     @property
     def remedy(self) -> str:
-        """Return the time between the lookup and the oldest sample, and what to do."""
+        """Return a sentence with the time from lookup to oldest sample, and a remedy."""
         return self._hint() or (
             f"That is {self._by()} before the oldest sample of '{self.frame}': look up a later "
             "time, or time 0 (the latest), or give the buffer a longer cache_time."
@@ -387,11 +387,11 @@ class BackwardExtrapolationException(ExtrapolationException):
 
 
 class ForwardExtrapolationException(ExtrapolationException):
-    """Error for a time after a link's newest sample."""
+    """Error for a lookup at a time after the newest sample of the child `frame`."""
 
     @property
     def remedy(self) -> str:
-        """Return the time between the lookup and the newest sample, and what to do."""
+        """Return a sentence with the time from newest sample to lookup, and a remedy."""
         return (
             f"That is {self._by()} after the newest sample of '{self.frame}': look up time 0 "
             "(the latest), or wait for the next sample."
@@ -399,11 +399,11 @@ class ForwardExtrapolationException(ExtrapolationException):
 
 
 class NoDataForExtrapolationException(ExtrapolationException):
-    """Error for a link without samples, or with a single sample at another time."""
+    """Error for a child `frame` without samples, or with a single sample at another time."""
 
     @property
     def remedy(self) -> str:
-        """Return the time between the lookup and the nearest sample, and what to do."""
+        """Return a sentence with the time from lookup to nearest sample, and a remedy."""
         if self.available == 0:
             return f"There are no samples of '{self.frame}': wait until one is sent."
         side = "after" if self.requested > self.available else "before"
@@ -414,7 +414,7 @@ class NoDataForExtrapolationException(ExtrapolationException):
 
 
 class MalformedMessage(InputError):
-    """Error for bytes that are not a valid message, or a message that cannot be serialised.
+    """Error for bytes that cannot be decoded as a message, or a message that cannot be serialised.
 
     Attributes:
         kind: The expected message type.
@@ -428,11 +428,11 @@ class MalformedMessage(InputError):
 
 
 class LinkError(InputError):
-    """Error for a session (processes that share frames) that does not open or answer."""
+    """Error for a session (processes that exchange transforms) that cannot be opened or joined."""
 
 
 def without_frames(given: object) -> TypeError:
-    """Return the error for an argument that is neither a recording nor a buffer."""
+    """Return a TypeError for an argument that is neither a recording nor a buffer."""
     hint = ""
     if isinstance(given, str | os.PathLike):
         hint = f": tftool.open_recording({os.fspath(given)!r}) opens one"

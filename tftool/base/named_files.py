@@ -81,7 +81,7 @@ def read_named_text(path: Path) -> str:
 def reader_there(path: str, flags: int) -> int:
     """Open a path for writing; raise an error at once if it is a pipe without a reader.
 
-    The function is for the argument `opener` of Python's `open`.
+    This function is used as the argument `opener` of Python's `open`.
 
     Raises:
         OSError: If the path cannot be opened, or no process reads from the pipe.
@@ -100,7 +100,7 @@ def reader_there(path: str, flags: int) -> int:
 
 
 def _opened(path: Path) -> tuple[io.FileIO, int]:
-    """Open a file without blocking; return it with its mode. Folders raise an error."""
+    """Open a file, but no folder, without blocking; return the file and its mode bits."""
     number = os.open(path, _HOW)
     try:
         mode = os.fstat(number).st_mode

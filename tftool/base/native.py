@@ -18,11 +18,11 @@ SWITCH = "TFTOOL_PURE"
 
 
 def built(name: str, interface: int) -> "ModuleType | None":
-    """Import a native module; return None if it is not built, or switched off.
+    """Import a native module; return None if the module is not built, or `TFTOOL_PURE` is set.
 
     Args:
         name: Full name of the module.
-        interface: Expected interface version; a module with another version is not used.
+        interface: Expected interface version. For a module with another version, None is returned.
     """
     if os.environ.get(SWITCH, "") not in ("", "0"):
         return None
@@ -40,12 +40,12 @@ _HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
 
 
 def large_pages(size: int, end: int) -> "mmap.mmap | None":
-    """Allocate memory in large pages; None if the system does not support it.
+    """Allocate memory in large pages of 2 MB; return None on a system without large pages.
 
     Args:
         size: Minimum number of bytes, rounded up to a whole page. Bytes that are never written
             occupy no memory.
-        end: Offset, bytes, from which on ordinary pages are requested.
+        end: Number of bytes at the beginning for which large pages are requested.
     """
     if _HUGE is None:
         return None

@@ -15,7 +15,7 @@ def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float =
 
     Args:
         word: The unknown name.
-        known: The existing names. If names differ only in case, one of them is returned.
+        known: The existing names. Of names that differ only in case, one is returned.
         most: Maximum number of names to return.
         alike: Minimum similarity of a name to the word, from 0 to 1.
     """
@@ -79,7 +79,7 @@ _SHAPELESS = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
 def distinct(names: Iterable[str]) -> dict[str, str]:
-    """Map every name to its escaped form; different names have different forms."""
+    """Map every name to its escaped form, so that different names get different forms."""
     shown: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:
@@ -136,5 +136,5 @@ def short_size(size: int) -> str:
 
 
 def finite(number: float) -> float | None:
-    """Return the number, or None (null in JSON) for NaN and infinities."""
+    """Return a number unchanged, but None (null in JSON) for NaN and infinities."""
     return number if math.isfinite(number) else None

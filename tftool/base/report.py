@@ -1,18 +1,18 @@
-"""Results of a run: single judgements, and their report; for scenarios, comparisons and checks."""
+"""Results of a scenario, comparison or check: single judgements, and a report with all of them."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """One judged statement and its outcome.
+    """One statement about frames that a run tested, and whether it was true.
 
     Attributes:
         subject: The statement, for example "by 20 s: distance from a to b below 0.5 m".
         ok: Whether the statement is true.
         expected: Description of a passing value, for example "below 0.5 m".
         found: The value found.
-        at: Time of the check in seconds from the start; None if the run ended before.
+        at: Time of the test in seconds from the start; None if the run ended before that time.
         line: Line of the file that contains the statement; 0 if there is no file.
     """
 

@@ -1,6 +1,6 @@
 """Times and durations: whole nanoseconds, as in tf2.
 
-A stamp is an `int`. In a query 0 is not a time: it means "latest".
+A stamp is an `int`. As an argument of a lookup, 0 means the latest time with data.
 """
 
 import math
@@ -65,7 +65,7 @@ def whole(stamp: object) -> Stamp:
     """Return a time or duration as an `int`, from any type of integer.
 
     Raises:
-        TypeError: If the stamp is a float, or not an integer.
+        TypeError: If the value is a float or another object that is not an integer.
     """
     # Nearly all stamps are ints; before Python 3.12 a check of a protocol takes microseconds.
     if type(stamp) is int:

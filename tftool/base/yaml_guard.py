@@ -20,7 +20,7 @@ MOST_VALUES = 200_000
 
 
 class TooMuch(yaml.MarkedYAMLError):
-    """Error for a YAML text that is too large, too deep, or expands to too many values."""
+    """Error for a YAML text that is too large, nested too deeply, or expands to too many values."""
 
     def __init__(self, problem: str, mark: Any = None) -> None:
         super().__init__(problem=problem, problem_mark=mark)
@@ -44,7 +44,7 @@ def events(
         most_values: Maximum number of values, with every alias expanded.
 
     Raises:
-        TooMuch: If the text exceeds a limit; the error's mark gives the position.
+        TooMuch: If the text exceeds a limit; `problem_mark` of the error is the position.
         yaml.YAMLError: If the text is not YAML.
     """
     if len(text) > largest:
