@@ -37,7 +37,7 @@ def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, floa
     """Return roll, pitch, yaw of a rotation in radians, pitch within a quarter turn.
 
     At the poles (pitch of ±π/2) yaw is 0 and roll contains the whole turn, so that the angles
-    always mean the same rotation as the quaternion. NaN for a zero quaternion.
+    always mean the same rotation as the quaternion. All three angles of a zero quaternion are NaN.
     """
     return quaternions.rpy(_quad(quaternion))
 
@@ -72,7 +72,7 @@ def _wrapped(angle: float) -> float:
 
 
 def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """Return the second roll, pitch, yaw of a rotation, with pitch beyond a quarter turn."""
+    """Return the other roll, pitch, yaw that mean the same rotation, with |pitch| above π/2."""
     m = matrix_from_quaternion(quaternion)
     if not abs(m[2][0]) < quaternions.POLE:
         return rpy_from_quaternion(quaternion)
@@ -94,7 +94,7 @@ def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
 def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
     """Return the quaternion of a 3×3 matrix, or of the upper left of a 4×4 matrix.
 
-    Its sign is tf2's; see `quaternions.canonical`.
+    The sign of the quaternion is the one that tf2 computes; see `quaternions.canonical`.
 
     Raises:
         ValueError: If the matrix is not a proper rotation (within 1e-6).
@@ -133,8 +133,8 @@ def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]
         of the matrix. The difference is infinite if the matrix is singular or mirrors.
 
     Source:
-        Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 1986, by
-        singular values.
+        Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 1986; computed here
+        by a singular value decomposition.
     """
     import numpy as np
 

@@ -69,7 +69,7 @@ class Turning(NamedTuple):
     """Result of one update of turtlesim's rotate action.
 
     Attributes:
-        remaining: Remaining angle to the goal, the short way, in rad.
+        remaining: Signed angle from the present heading to the goal, from -π to π, in rad.
         delta: Start heading minus present heading, in rad: negative after a left turn, as in
             turtlesim.
         speed: Turn rate to use, in rad/s; 0 when done.
@@ -96,7 +96,7 @@ def advance(start: Placement, forward: float, sideways: float, turn: float) -> P
 
     Args:
         start: Pose before the update.
-        forward: Speed along the heading, in m/s.
+        forward: Speed in the direction of the new heading, in m/s.
         sideways: Speed to the left of the heading, in m/s.
         turn: Turn rate in rad/s.
 
@@ -140,19 +140,19 @@ def turn_towards(goal: float, start: float, theta: float) -> Turning:
 
 
 def float32(value: float) -> float:
-    """Round a number to the nearest 32-bit float, as a message field does.
+    """Round a number to the nearest 32-bit float, as a float32 field of a message does.
 
-    Numbers above the largest such float become infinite.
+    Numbers above the largest 32-bit float become infinite.
     """
     # An array converts like C, to infinity; `struct` raises an error if the number overflows.
     return array("f", (value,))[0]
 
 
 def float32_finite(value: float, what: str) -> float:
-    """Round a number of a request to a 32-bit float; raise an error if it is not finite.
+    """Round a number to a 32-bit float; raise an error if the result is not finite.
 
     Args:
-        value: The number of the request.
+        value: The number, for example a field of a service request.
         what: Name of the number in the error message.
 
     Raises:
@@ -181,8 +181,8 @@ class Gains:
         ki: Output per unit of error that lasts for one second.
         kd: Output per unit of growth of the error in one second.
         integral_limit: Bound on the size of the integral term of the output; None for no limit.
-        output_limit: Bound on the size of the output; None for no limit. While the output is
-            limited, the integral does not grow further in that direction.
+        output_limit: Bound on the size of the output; None for no limit. While the output is at
+            this bound, the integral does not grow further in that direction.
     """
 
     kp: float
@@ -202,7 +202,7 @@ class Gains:
                 raise UsageError(f"{name} must be zero or more, not {limit}")
 
     def limited(self, output_limit: float | None) -> "Gains":
-        """Return the gains with the smaller of two output limits: their own, or `output_limit`."""
+        """Return these gains, with `output_limit` if it is below the present output limit."""
         if output_limit is None or (
             self.output_limit is not None and self.output_limit <= output_limit
         ):
@@ -212,11 +212,11 @@ class Gains:
 
 @dataclass(frozen=True, slots=True)
 class PidState:
-    """State of a PID controller between two steps.
+    """State of a PID controller between two updates.
 
     Attributes:
         integral: Sum of error times time so far.
-        measured: The measurement of the last step; None before the first.
+        measured: The measurement of the last update; None before the first update.
     """
 
     integral: float = 0.0
@@ -236,17 +236,17 @@ def step(
     setpoint: float = 0.0,
     angle: bool = False,
 ) -> tuple[float, PidState]:
-    """Update a controller with one measurement; return its output and new state.
+    """Update a PID controller with one measurement; return the output and the new state.
 
     The derivative term uses the measurement, not the error, so that a jump of the setpoint does not
-    affect it. The derivative is 0 at the first step.
+    affect the derivative. The derivative is 0 at the first update.
 
     Args:
         gains: Gains and limits of the controller.
-        memory: State after the previous step; `FRESH` at first.
+        memory: State after the previous update; `FRESH` for the first update.
         measured: Measured value.
-        interval: Seconds since the previous step, above zero.
-        setpoint: Wanted value.
+        interval: Seconds since the previous update, above zero.
+        setpoint: Value that the controller shall reach.
         angle: Whether the quantity is an angle in radians, so that differences are at most π.
 
     Returns:
@@ -295,7 +295,7 @@ _STOP = Twist2D()
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """Control law from distance and bearing to speed and turn rate; ROS's tutorial's by default.
+    """Control law from distance and bearing to speed and turn rate; by default ROS's.
 
     Attributes:
         distance: Gains from distance in metres to speed in m/s.
@@ -319,7 +319,7 @@ class Law:
 
 @dataclass(frozen=True, slots=True)
 class PursuitState:
-    """State of the distance and the bearing controller between two steps."""
+    """State of the distance controller and the bearing controller between two updates."""
 
     distance: PidState = FRESH
     bearing: PidState = FRESH
@@ -336,10 +336,10 @@ def steer(
 
     Args:
         law: The control law.
-        memory: State after the previous step; `AT_REST` at first.
+        memory: State after the previous update; `AT_REST` for the first update.
         x: Distance of the goal ahead, in metres.
         y: Distance of the goal to the left, in metres.
-        interval: Seconds since the previous step.
+        interval: Seconds since the previous update.
 
     Returns:
         The command, and the new state. Within the dead band the command is zero, and the state is

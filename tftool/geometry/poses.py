@@ -1,8 +1,8 @@
 """Arithmetic of poses as seven plain floats: x, y, z and a unit quaternion x, y, z, w.
 
-Lookups of a buffer spend their time in this module. Each formula is written out in one function and
-creates one tuple: calls of `quaternions.rotate`, `multiply` and a separate slerp would add 15 to 35
-% to a lookup.
+Lookups of a buffer spend most of their time in this module. Therefore each function contains its
+whole formula and creates only one tuple. Calls of `quaternions.rotate`, `multiply` and a separate
+slerp would make a lookup 15 to 35 % slower.
 """
 
 from math import acos, sin

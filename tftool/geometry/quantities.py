@@ -1,7 +1,7 @@
 """Functions that transform points, vectors, poses, covariances and wrenches.
 
-Arguments are plain numbers in the transform's child frame; results are in the parent frame.
-Arguments are never changed. A quaternion of zeros means the identity, as in tf2's own conversions.
+Arguments are plain numbers in the child frame of the transform; results are in its parent frame. No
+argument is changed. A quaternion of zeros means the identity, as in tf2's own conversions.
 """
 
 from collections.abc import Iterable, Sequence

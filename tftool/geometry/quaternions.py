@@ -1,6 +1,6 @@
 """Arithmetic of quaternions as tuples of plain floats, in xyzw order.
 
-Plain tuples save the creation of objects in single lookups. Products apply the right factor first.
+Single lookups are faster with tuples than with objects. A product applies the right factor first.
 """
 
 import math
@@ -61,7 +61,7 @@ def rotate(quaternion: Quad, vector: Triple) -> Triple:
 
 
 def unit(quaternion: Quad) -> Quad:
-    """Scale a quaternion to unit length; all NaN if that is impossible.
+    """Scale a quaternion to unit length; return four NaN if that is impossible.
 
     Scaling is impossible if the quaternion is zero, not finite, or so small that its square
     underflows.
@@ -86,8 +86,8 @@ def unit(quaternion: Quad) -> Quad:
 def canonical(quaternion: Quad) -> Quad:
     """Return a unit quaternion with the sign that tf2 would give it.
 
-    The sign is that of a conversion from a rotation matrix: w positive for turns below 120°;
-    otherwise the largest imaginary part is positive, so that w may be negative.
+    tf2 computes quaternions from rotation matrices. So w is positive for turns below 120°. For
+    larger turns the largest imaginary part is positive, and w may be negative.
     """
     x, y, z, w = quaternion
     return (-x, -y, -z, -w) if leading(x, y, z, w) < 0.0 else quaternion

@@ -129,7 +129,7 @@ class _Parts(NamedTuple):
 
 @refuses_arithmetic
 class Transform(_Parts):
-    """A rotation followed by a translation; immutable, hashable, compared by value.
+    """A rotation followed by a translation, as an immutable, hashable value.
 
     The quaternion is stored unchanged. Calculations normalise it if it is finite and not zero. A
     zero quaternion, which a message may have, makes results NaN.
@@ -149,8 +149,7 @@ class Transform(_Parts):
         """Create a transform from a translation (three numbers) and a quaternion (four numbers).
 
         Raises:
-            ValueError: If the count of numbers is wrong, an entry is not a number, or the
-                quaternion is zero.
+            ValueError: If there are not three and four numbers, or the quaternion is zero.
         """
         turn = _floats(rotation, 4, "rotation")
         if not any(turn):
@@ -230,7 +229,7 @@ def _floats(numbers: Iterable[float], count: int, what: str) -> tuple[float, ...
 
 
 def transform(translation: quaternions.Triple, rotation: quaternions.Quad) -> Transform:
-    """Create a transform from three and four floats without checks, for computed numbers."""
+    """Create a transform from computed floats, without the checks of the class."""
     new = tuple.__new__
     return new(Transform, (new(Vector3, translation), new(Quaternion, rotation)))
 
@@ -265,7 +264,7 @@ def apply(a_from_b: Transform, point: Iterable[float]) -> Vector3:
 
 
 def canonical(pose: Transform) -> Transform:
-    """Return the pose with a unit quaternion in tf2's sign (NaN for a zero quaternion)."""
+    """Return the pose with the unit quaternion that tf2 would return; NaN for a zero quaternion."""
     return transform(pose.translation, quaternions.canonical(quaternions.unit(pose.rotation)))
 
 

@@ -86,7 +86,7 @@ def canonical(quaternions: Floats) -> Floats:
 
 
 def matrices(translations: Floats, rotations: Floats) -> Floats:
-    """Return homogeneous matrices, shape (..., 4, 4), of poses with unit quaternions."""
+    """Return the homogeneous 4×4 matrices of poses with unit quaternions, shape (..., 4, 4)."""
     x, y, z, w = np.moveaxis(rotations, -1, 0)
     result = np.zeros((*x.shape, 4, 4))
     result[..., 0, 0] = 1.0 - 2.0 * (y * y + z * z)

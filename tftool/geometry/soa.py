@@ -1,8 +1,8 @@
-"""Arithmetic of many poses at once, with one array row per component and one column per pose.
+"""Arithmetic of many poses at once in arrays with a row per component and a column per pose.
 
-Batch lookups use these functions with reused arrays: no function allocates memory. Vectors have the
-rows x, y, z, x, y, so that a cross product is three operations on three rows each. Quaternions have
-a row w before these rows. An array with a single column applies to all columns of another array.
+Batch lookups reuse arrays, so no function here allocates memory. A vector array has the rows x, y,
+z, x, y, so that a cross product is three operations on three rows each. A quaternion array has a
+row w before these rows. A single column is broadcast to all columns of another array.
 """
 
 from typing import NamedTuple
@@ -35,10 +35,11 @@ class Arcs(NamedTuple):
     √(1 + s²θ²). `tan_ratio` computes tan(fθ)/(fθ).
 
     Attributes:
-        directions: C, at right angles to A and of length θ, shape (n, 4).
-        half_angle_squared: θ², where θ is half the angle between start and end, radians, shape
+        directions: The vectors C, which are perpendicular to A and have the length θ, shape (n, 4).
+        half_angle_squared: θ², where θ is half the rotation angle from start to end, radians, shape
             (n,).
-        terms: Number of terms of the series of tan(x)/x that the largest turn needs; 0 if too many.
+        terms: Number of terms of the series of tan(x)/x that the largest θ needs; 0 if above the
+            limit.
     """
 
     directions: Floats
@@ -50,8 +51,8 @@ def arcs(starts: Floats, ends: Floats) -> Arcs:
     """Compute the arcs between unit quaternions, shapes (n, 4), in any order of components.
 
     Source:
-        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985, divided by the cosine
-        of the angle so far; one square root at the end of a chain restores the length.
+        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985. Here the formula is
+        divided by the cosine of fθ. One square root at the end of a chain restores the length.
     """
     ends = np.where(_dot(starts, ends) < 0.0, -ends, ends)
     apart = ends - starts
@@ -110,7 +111,7 @@ class VectorRows:
     __slots__ = ("first", "repeat", "xyz", "yzx", "zxy")
 
     def __init__(self, rows: Floats) -> None:
-        """Use five rows of memory; `close` copies the first two rows into the last two."""
+        """Wrap an array with five rows; `close` copies the first two rows into the last two."""
         self.xyz, self.yzx, self.zxy = rows[:3], rows[1:4], rows[2:5]
         self.first, self.repeat = rows[:2], rows[3:]
 
@@ -125,7 +126,7 @@ class QuaternionRows:
     __slots__ = ("first", "repeat", "rows", "w", "wxyz", "xyz", "yzx", "zxy")
 
     def __init__(self, rows: Floats) -> None:
-        """Use six rows of memory; `close` copies x and y into the last two."""
+        """Wrap an array with six rows; `close` copies x and y into the last two."""
         self.rows = rows
         self.w, self.wxyz = rows[0], rows[:4]
         self.xyz, self.yzx, self.zxy = rows[1:4], rows[2:5], rows[3:6]
@@ -148,7 +149,7 @@ def rotate(
     cross: VectorRows,
     spare: Floats,
 ) -> None:
-    """Rotate vectors in place; the repeated x and y are not updated.
+    """Rotate vectors in place, without updating the copies of x and y in the last two rows.
 
     Args:
         quaternions: Rotations to apply.
@@ -176,7 +177,7 @@ def chain(
 ) -> None:
     """Write the products of quaternions into `out`; `second` is applied first.
 
-    `spare` is three rows of working memory.
+    `spare` is an array of three rows for intermediate results.
     """
     xyz, w = out.xyz, out.w
     # Add in the order of `poses.compose`, to get the same last bit without rotation.

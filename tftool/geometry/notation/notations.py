@@ -1,4 +1,4 @@
-"""Table of the notations of a rotation, with functions that read and write each.
+"""Table of the notations of a rotation, with functions that read and write each notation.
 
 A new notation needs one line in `NOTATIONS`.
 """
@@ -35,8 +35,9 @@ class Notation:
         plain: Number of values at the beginning that are not angles.
         read: Function that converts the values to a quaternion in xyzw order.
         write: Function that converts a unit quaternion to the values.
-        as_object: Keys of the values in JSON; empty if another notation has the same values.
-        read_as: Name of the notation as an input; the title if empty.
+        as_object: Function that returns the values by name for JSON; {} if another notation has
+            them.
+        read_as: Name of the notation when it is read; if empty, the title is used.
         aliases: Other words that name the notation in a text.
         wraps: Whether an angle of more than a full turn is probably a mistake.
     """
@@ -53,11 +54,11 @@ class Notation:
 
     @property
     def is_quaternion(self) -> bool:
-        """Whether the notation is a quaternion: it has no angles."""
+        """Whether the notation is a quaternion, that is, has no angles."""
         return self.plain == self.count
 
     def scaled(self, numbers: Numbers, scale: Callable[[float], float]) -> list[float]:
-        """Return the values of a rotation in another unit: `scale` converts an angle."""
+        """Return the values of a rotation with every angle converted to another unit by `scale`."""
         return [*numbers[: self.plain], *map(scale, numbers[self.plain :])]
 
 
@@ -166,7 +167,7 @@ NAMED_FORMS: Final = (*NOTATIONS, "matrix")
 
 
 def notation_of(form: str) -> Notation:
-    """Return the notation with a name of `FORMS`, except "matrix"."""
+    """Return the notation for one of the names in `FORMS` other than "matrix"."""
     return NOTATIONS.get(form) or EULER[form]
 
 

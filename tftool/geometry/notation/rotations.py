@@ -1,7 +1,7 @@
 """Parser of rotations and poses pasted as text, in the notations of other programs.
 
-A label (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) identifies the notation. Three or four
-bare numbers are ambiguous, and refused unless the notation is named.
+Labels (`x: 0 …`, `rpy="…"`, the words of tf2_echo) or the shape of a matrix identify the notation.
+Three or four bare numbers are ambiguous: they raise an error unless the caller names the notation.
 """
 
 import math
@@ -68,9 +68,9 @@ class Written:
     """One transform parsed from a text.
 
     Attributes:
-        transform: The pose; its quaternion of unit length.
+        transform: The pose, with a quaternion of unit length.
         has_translation: Whether the text contains a translation.
-        form: Name of the recognised notation.
+        form: Name of the notation in which the text was written.
         notes: Sentences about unusual features of the text.
     """
 
@@ -140,7 +140,7 @@ def _echoed(text: str, _degrees: bool) -> Written | None:
 
 
 def _described(text: str, _degrees: bool) -> Written | None:
-    """Parse the attributes of an origin in URDF or SDF."""
+    """Parse the attributes xyz and rpy of an `<origin>`, in URDF or SDF."""
     turn = re.search(_ATTRIBUTE.format("rpy"), text)
     place = re.search(_ATTRIBUTE.format("xyz"), text)
     if turn is None and (place is None or "<origin" not in text):
@@ -239,7 +239,7 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
 
 
 def _ambiguous(count: int) -> UsageError:
-    """Return the error that `count` numbers need the name of their notation, or fit none."""
+    """Return the error for `count` bare numbers, which fit several notations or none."""
     if count == 4:
         return UsageError(
             "Four bare numbers can be x y z w or w x y z: choose with --as xyzw or --as wxyz."

@@ -32,7 +32,7 @@ Rotation = Literal["none", "euler", "quaternion"]
 
 @dataclass(frozen=True, slots=True)
 class StaticArguments:
-    """One static transform as given on the command line.
+    """One static transform from the command line of static_transform_publisher.
 
     Attributes:
         transform: The pose of `child` in `parent`; the quaternion is exactly as given.
@@ -62,7 +62,7 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
         The parsed arguments; None if help is requested.
 
     Raises:
-        UsageError: With tf2's own text and a remedy.
+        UsageError: If the arguments are wrong. The error has tf2's own text and a remedy.
     """
     words, given, asks_for_help = _split(argv)
     if asks_for_help:
