@@ -62,13 +62,13 @@ _new: Final = tuple.__new__
 
 
 class Shortened(NamedTuple):
-    """Record of a link whose oldest samples were dropped.
+    """Record of a child frame whose oldest samples were dropped to save memory.
 
     Attributes:
-        child: The link's child frame.
-        authority: Sender of the link's newest sample.
-        samples: Number of samples before.
-        kept: Number of samples after.
+        child: The child frame.
+        authority: Sender of the newest sample of the frame.
+        samples: Number of samples of the frame before.
+        kept: Number of samples of the frame after.
     """
 
     child: str
@@ -78,7 +78,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """Return how many samples each link may keep so that all fit into `room`; at least two."""
+    """Return how many samples each frame may keep so that all fit into `room`; at least 2."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:
@@ -91,14 +91,14 @@ def _share(sizes: list[int], room: int) -> int:
 class Buffer(Door):
     """Transforms of named frames over time, with tf2's semantics.
 
-    A buffer has no clock and never waits. All times are arguments, in nanoseconds; in a query 0
-    means the latest.
+    A link is the pose of a child frame in its parent: static, or moving with many samples. A buffer
+    has no clock and never waits. Times are arguments in nanoseconds; in a lookup, 0 means the
+    latest.
 
-    Threads: a buffer belongs to one thread, usually the event loop's. Only this thread sets,
-    clears, listens, requests, and queries single transforms or snapshots. Other threads may call
-    `lookup_transforms`, `lookup_transforms_full` and `samples` at any time: these copy the data of
-    each link in one step and compute on the copy. The copy of a link shows its state at some time
-    during the call, even if another thread clears the buffer or replaces the link meanwhile.
+    Threads: a buffer belongs to one thread, usually the thread of the event loop. Only this thread
+    may call most methods. Other threads may call `lookup_transforms`, `lookup_transforms_full` and
+    `samples` at any time: these copy the samples of each frame in one step and compute on the copy,
+    which is its state at some time during the call.
     """
 
     def __init__(
@@ -113,11 +113,11 @@ class Buffer(Door):
         """Create an empty buffer.
 
         Args:
-            cache_time: How far back from its newest sample each moving link keeps samples,
-                nanoseconds; NO_LIMIT keeps all samples.
+            cache_time: Age up to which samples of a frame are kept, relative to the newest sample
+                of the same frame, nanoseconds; NO_LIMIT keeps all samples.
             log: Function called with a level ("WARN", "ERROR") and a sentence when a sample is
-                refused. None uses Python's `logging`.
-            max_frames: Maximum number of frame names, because names may come from outside.
+                refused. None logs to Python's `logging`.
+            max_frames: Maximum number of frame names, because a sender may invent names endlessly.
             max_name: Maximum length of a frame name, bytes.
             report: Function called with the exception of a listener or of a request's callback, and
                 with the owner's name. None logs the exception as an error.
@@ -155,7 +155,7 @@ class Buffer(Door):
 
     @native_first
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Insert a sample of a moving link.
+        """Insert one sample of a moving frame: the pose of a child frame in its parent at one time.
 
         Args:
             transform: The pose of a child in its parent. One leading slash is removed from either
@@ -196,9 +196,7 @@ class Buffer(Door):
         return True
 
     def _tell_of(self, transform: TransformStamped, authority: str) -> None:
-        """Notify listeners of a stored sample; only its quaternion's length and sign may have
-        changed.
-        """
+        """Call the listeners with a stored sample, which has a unit quaternion of tf2's sign."""
         stamp, parent, child, pose = transform
         kept: tuple[TransformStamped, ...] = ()
         if self._listening:
@@ -206,7 +204,7 @@ class Buffer(Door):
         self._tell(kept, False, authority, (child,))
 
     def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Set a static link, valid at all times; it replaces all samples of the child.
+        """Set a static transform, valid at all times, which replaces all samples of the child.
 
         Returns:
             Whether the transform was accepted. If not, the log has the reason, and the stored
@@ -218,7 +216,7 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Insert a sample that is new, unusual or static, with every check and log message."""
+        """Insert a sample that is unusual, static or of a new child, with all checks."""
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
@@ -263,7 +261,7 @@ class Buffer(Door):
         authority: str,
         changed: Iterable[str],
     ) -> None:
-        """Call the listeners for each sample, then the requests that wait for a changed frame."""
+        """Call the listeners with each sample, then retry the requests for changed frames."""
         for sample in samples:
             self._listeners.call(sample, static, authority)
         if self._pending:
@@ -282,7 +280,7 @@ class Buffer(Door):
         rotations: "npt.ArrayLike",
         authority: str = "",
     ) -> "Insertion":
-        """Insert many samples of one moving link, as repeated calls of `set_transform` would.
+        """Insert many samples of one moving child, as repeated calls of `set_transform` would.
 
         After all samples are stored, listeners are called with each of them, and pending requests
         are tried again.
@@ -296,8 +294,8 @@ class Buffer(Door):
             authority: Sender of the samples.
 
         Returns:
-            The accepted rows, and the reasons for the rejected rows; true if all rows were
-            accepted. The log has the first ten rejected rows.
+            The accepted rows, and the reasons for the rejected rows; true if all were accepted. The
+            first ten rejected rows are logged.
 
         Raises:
             TypeError: If the stamps are not whole numbers.
@@ -338,7 +336,7 @@ class Buffer(Door):
             authority: Sender of the samples.
 
         Returns:
-            The accepted rows, and the reasons for the rejected rows; None if all rows were
+            The accepted rows, and the reasons for the rejected rows. None if all rows were
             accepted.
 
         Raises:
@@ -354,16 +352,16 @@ class Buffer(Door):
         )
 
     def shorten(self, limit: int) -> "list[Shortened]":
-        """Drop the oldest samples of the longest links until all fit into `limit`.
+        """Drop the oldest samples of the frames with most samples until all fit into `limit`.
 
-        The newest two samples of a link always stay. If samples must be dropped, a quarter more
-        than necessary is dropped, so that not every call drops samples.
+        The newest two samples of a frame always stay. If samples must be dropped, a quarter more
+        than necessary is dropped, so that the next calls need not drop any.
 
         Args:
             limit: Maximum size of all samples, bytes.
 
         Returns:
-            A record of each shortened link.
+            A record of each frame whose samples were dropped.
         """
         links = [
             (frame, frame.link)
@@ -383,17 +381,17 @@ class Buffer(Door):
         return cut
 
     def clear(self) -> None:
-        """Drop all moving samples; names, static links and pending requests are kept."""
+        """Drop all moving transforms; keep names, static transforms and pending requests."""
         for frame in self._tree.frames:
             if frame.link is not None and not frame.link.is_static:
                 frame.link.clear()
         self._solver.drop_paths()
 
     def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
-        """Register `callback` for each accepted sample; return a function that removes it.
+        """Call `callback` with each sample accepted from now on; return a function that ends this.
 
-        Exceptions of the callback are reported under the name `owner`; the sample stays stored, and
-        the inserting code continues.
+        Exceptions of the callback are reported under the name `owner`. The sample stays stored, and
+        the code that inserts the sample continues.
         """
         withdraw = self._listeners.add(callback, owner)
         self._listening = self._listeners.registered
@@ -410,7 +408,7 @@ class Buffer(Door):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Stamp = 0
     ) -> TransformStamped:
-        """Return the pose of source in target, which maps points from source to target.
+        """Return the pose of the source in the target; it maps points from source to target.
 
         Args:
             target_frame: Frame in which the result is expressed.
@@ -418,13 +416,13 @@ class Buffer(Door):
             time: Nanoseconds; 0 for the newest time at which the whole chain has data.
 
         Returns:
-            The transform. Its stamp is the time of the lookup, or 0 if all links are static.
+            The transform. Its stamp is the time of the lookup, or 0 if all of the path is static.
 
         Raises:
             InvalidArgumentException: If a name is empty or starts with a slash.
-            LookupException: If a name was never received, or the chain contains a loop.
+            LookupException: If a frame name was never received, or the frames form a loop.
             ConnectivityException: If the two frames are in different trees.
-            ExtrapolationException: If a link has no data at that time.
+            ExtrapolationException: If a frame between the two frames has no data at that time.
             TypeError: If `time` is not a whole number.
         """
         if type(time) is not int:
@@ -457,7 +455,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> TransformStamped:
-        """Return the pose of source at `source_time` in target at `target_time`, by way of a fixed
+        """Return the pose of source at `source_time` in target at `target_time`, through a fixed
         frame.
 
         Both poses are looked up relative to `fixed_frame`, which is assumed not to move between the
@@ -505,8 +503,8 @@ class Buffer(Door):
             target_frame: Frame in which the results are expressed.
             source_frame: Frame to look up.
             times: Whole nanoseconds, shape (n,), in any order; 0 for the latest.
-            missing: What to do for a time without a pose: "raise", or "nan" for a row of NaN that
-                is not `valid`. A wrong name raises in either case.
+            missing: What to do for a time without a pose: "raise" raises an error, "nan" returns a
+                row of NaN with `valid` false. An unknown frame raises an error in either case.
             threads: Number of threads; None for one per core where that is faster.
 
         Raises:
@@ -559,12 +557,12 @@ class Buffer(Door):
         )
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Stamp:
-        """Return the newest time for which every link between two frames has data; 0 if all are
+        """Return the newest time at which all frames between two frames have data; 0 if all are
         static.
 
         Raises:
-            TransformException: If a name is unknown or invalid, or no chain of links joins the
-                frames.
+            TransformException: If a name is unknown or invalid, or the two frames are in different
+                trees.
         """
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
@@ -578,7 +576,7 @@ class Buffer(Door):
         )
 
     def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
-        """Return the result of `get_latest_common_time`, or 0 instead of an error."""
+        """Return the result of `get_latest_common_time`, or 0 where that method raises an error."""
         try:
             return self.get_latest_common_time(target_frame, source_frame)
         except TransformException:
@@ -645,7 +643,7 @@ class Buffer(Door):
 
     @native_first
     def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
-        """Whether `lookup_transform` would succeed; never raises for a name or a missing time."""
+        """Whether `lookup_transform` would succeed; false for an unknown frame or missing data."""
         if type(time) is not int:
             time = whole(time)
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
@@ -668,7 +666,7 @@ class Buffer(Door):
         )
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
-        """Return tf2's reason why `can_transform` is false; empty if it is true."""
+        """Return tf2's reason why `can_transform` returns false; "" if it returns true."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         reason = self._solver.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
@@ -681,7 +679,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> str:
-        """Return tf2's reason why `can_transform_full` is false; empty if it is true."""
+        """Return tf2's reason why `can_transform_full` returns false; "" if it returns true."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         fixed_frame = tree.plain(fixed_frame)
         for frame, argument in (
@@ -705,17 +703,17 @@ class Buffer(Door):
 
         Args:
             callback: Function called with the request's handle and True once the transform is
-                available, or with False once the time is older than the stored samples. The call
-                that stores the decisive sample also calls the callbacks, in the order of the
-                requests. An exception of a callback is reported like one of a listener; see
-                `listen`.
+                available, or with False once the time is older than the stored samples. Callbacks
+                are called by the method that inserts the decisive sample, in the order of the
+                requests. An exception of a callback is reported like an exception of a listener;
+                see `listen`.
             target_frame: As in `lookup_transform`.
             source_frame: As in `lookup_transform`.
             time: As in `lookup_transform`; a request for time 0 never gets False.
 
         Returns:
-            0 if the transform is available now; NEVER if it cannot become available any more; else
-            a handle for `cancel`. `callback` is kept only if there is a handle.
+            0 if the transform is available now, and NEVER if it cannot become available any more;
+            in both cases `callback` is never called. Else a handle for `cancel`.
         """
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         return self._requests.add(callback, (target_frame, source_frame, whole(time)))
@@ -736,10 +734,10 @@ class Buffer(Door):
         return snapshot.snapshot(self._tree, whole(now), whole(at))
 
     def samples(self, child: str) -> "SampleColumns":
-        """Return a copy of all samples of one link, oldest first, in numpy.
+        """Return a copy of all samples of one child frame, oldest first, in numpy.
 
         Args:
-            child: The child frame of the link. A root frame has no link, and so no samples.
+            child: The child frame. A root frame has no parent, and so no samples.
 
         Raises:
             InvalidArgumentException: If the name is empty or starts with a slash.
@@ -752,16 +750,16 @@ class Buffer(Door):
         return columns.samples(self._tree, self._tree.frames[number])
 
     def frames(self) -> list[str]:
-        """Return every frame name ever seen, in the order of arrival; a child before its parent."""
+        """Return all frame names ever received, in order of arrival; a child before its parent."""
         return [frame.name for frame in self._tree.frames]
 
     def frame_exists(self, frame: str) -> bool:
-        """Whether a frame name was ever seen; always true for tf2's own name NO_PARENT."""
+        """Whether a frame name was ever received; always true for tf2's reserved name NO_PARENT."""
         frame = tree.plain(frame)
         return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
 
     def parent(self, frame: str, time: Stamp = 0) -> str | None:
-        """Return a frame's parent at a time; None for a root, or if there is no data at that time.
+        """Return the parent of a frame at a time; None for a root, or without data at that time.
 
         Raises:
             TypeError: If the time is not a whole number, or the name not a string.
@@ -783,7 +781,7 @@ class Buffer(Door):
         return {self._tree.frames[one].name for one in above}
 
     def rivals(self, frame: str) -> tuple[str, ...]:
-        """Return the publishers that alternate in a frame's samples; empty if there is only one.
+        """Return the publishers that alternately publish a frame; empty if there is only one.
 
         A publisher that replaced another publisher once does not count as a rival.
         """
@@ -801,7 +799,7 @@ class Buffer(Door):
         return tuple(self._tree.authorities[one] for one in dict.fromkeys(turns))
 
     def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
-        """Return the names of the frames from source to target, both included; empty if equal.
+        """Return the frame names from source to target, including both; [] if they are equal.
 
         Raises:
             TransformException: As `lookup_transform`.
@@ -887,12 +885,12 @@ def adopt_records(
 
 
 def lend(buffer: Buffer, child: str, other: Buffer, until: Stamp) -> bool:
-    """Share one frame's samples up to a stamp with another buffer, without a copy.
+    """Let another buffer use the samples of one frame up to a stamp, without a copy.
 
     Args:
         buffer: The buffer whose samples are shared.
-        child: The child frame of the link.
-        other: A buffer that does not know the link yet.
+        child: The child frame.
+        other: A buffer without samples of this frame.
         until: The last stamp to share, nanoseconds.
 
     Returns:

@@ -1,9 +1,9 @@
-"""Callbacks of a buffer and a world: listeners, pending requests, and backward jumps of a clock.
+"""Callbacks of a buffer and a simulated world: listeners, pending requests, backward jumps of a
+clock.
 
-The buffer, topics, the log and the world share the rules of listeners: each registration is
-separate, and the exception of a listener is reported under the name of the listener's owner. The
-other listeners and the publishing code continue. A pending request for a transform is tried again
-only when a frame it depends on changes.
+Buffers, topics, logs and worlds treat listeners alike. An exception of a listener is reported with
+the name of its owner; the other listeners and the publishing code continue. A pending request for a
+transform is tried again only when a frame between its two frames changes.
 """
 
 from collections.abc import Callable
@@ -21,12 +21,11 @@ Report = Callable[[str, Exception], object]
 class Listeners(Generic[*Values]):
     """Registered callbacks, in the order of registration.
 
-    A callback can be registered more than once: it is called once per registration, and each
-    registration is removed separately.
+    A callback that was registered twice is called twice. Each registration is removed separately.
 
     Attributes:
-        registered: Each callback with its owner. Fast code tests this list itself, because `if
-            registered` costs less than a call of `len`.
+        registered: Pairs of callback and owner. Code that must be fast tests this list directly,
+            because `if registered` costs less than a call of `len`.
     """
 
     __slots__ = ("_report", "registered")
@@ -43,7 +42,7 @@ class Listeners(Generic[*Values]):
         self.registered: tuple[tuple[Callable[[*Values], object], str], ...] = ()
 
     def add(self, callback: Callable[[*Values], object], owner: str = "") -> Callable[[], None]:
-        """Register a callback.
+        """Register a callback; return a function that removes it.
 
         Args:
             callback: Function to call.
@@ -61,7 +60,7 @@ class Listeners(Generic[*Values]):
         return stop
 
     def call(self, *values: *Values) -> None:
-        """Call every listener with these values, even if it is removed during the call."""
+        """Call every listener with these values, even a listener that is removed meanwhile."""
         failures: tuple[tuple[str, Exception], ...] = ()
         for callback, owner in self.registered:
             try:
@@ -104,14 +103,14 @@ def must_clear(
     Args:
         change: Size of the jump, nanoseconds; negative for a jump backward. A jump forward makes
             nothing obsolete.
-        source_changed: Whether the source of time changed; then samples are always obsolete.
+        source_changed: Whether the source of time changed, which always makes samples obsolete.
         least_fall: Smallest jump backward that makes samples obsolete, nanoseconds.
     """
     return source_changed or change <= -least_fall
 
 
 class Watch:
-    """Watcher of clock readings that clears a buffer when the clock jumps back.
+    """Detector of backward jumps of a clock, which clears a buffer at such a jump.
 
     A buffer has no clock. Code that fills a buffer from a recording or simulation, which may
     restart, first passes each new time to this class.
@@ -130,7 +129,7 @@ class Watch:
         self._last: Stamp | None = None
 
     def read(self, now: Stamp) -> bool:
-        """Check a clock reading, and clear the buffer if it jumped back; return whether it did."""
+        """Compare the time with the last call; if it is earlier, clear the buffer, return True."""
         last, self._last = self._last, now
         if last is None or not must_clear(now - last, least_fall=self._least_fall):
             return False
@@ -151,14 +150,16 @@ AVAILABLE = 1
 EXPIRED = 2
 
 Callback: TypeAlias = Callable[[int, bool], object]
-"""Function called with the handle, and whether the transform is available or never will be."""
+"""Function called with the handle, and True if the transform is available, False if it never will
+be.
+"""
 
 Lookup: TypeAlias = tuple[str, str, Stamp]
 """Target frame, source frame and time."""
 
 Examine: TypeAlias = Callable[[Lookup, bool], tuple[int, tuple[str, ...]]]
-"""Function that returns PENDING, AVAILABLE or EXPIRED, and the frames that must change before
-the lookup can succeed.
+"""Function that returns the state of a lookup (PENDING, AVAILABLE or EXPIRED), and the frames of
+which one must change before the lookup can succeed.
 
 With the flag (the first attempt), a lookup that succeeds has never expired. Without the flag,
 expiry is checked first, as in tf2.
@@ -166,7 +167,7 @@ expiry is checked first, as in tf2.
 
 
 class Request:
-    """A request to call a function once a transform is available."""
+    """A pending request: a lookup, and the function to call once its transform is available."""
 
     __slots__ = ("callback", "handle", "lookup", "watched")
 
@@ -178,7 +179,7 @@ class Request:
 
 
 class Requests:
-    """Pending requests for transforms, indexed by the frames they wait for.
+    """Pending requests for transforms, indexed by the frames that each request waits for.
 
     After a change of a frame, only the requests that wait for this frame are tried again.
 
@@ -221,7 +222,7 @@ class Requests:
         """Try again every request that waits for one of these frames, oldest first.
 
         Returns:
-            The exceptions that callbacks raised; the other callbacks were called nevertheless.
+            The exceptions that callbacks raised. An exception does not prevent the other callbacks.
         """
         due: set[int] = set()
         for frame in frames:
@@ -243,7 +244,7 @@ class Requests:
         return failures
 
     def _ask(self, request: Request, first: bool) -> int:
-        """Try a request's lookup; if it may succeed later, watch the frames that prevent it."""
+        """Return the state of a lookup; if it is PENDING, register the frames to wait for."""
         status, blocked = self._examine(request.lookup, first)
         if status == PENDING:
             self._watch(request, blocked)

@@ -1,10 +1,10 @@
-"""Frames by name and number, each with its link to a parent, which may change over time.
+"""Frames by name and number, each with the link to its parent; the parent may change over time.
 
-This module uses parents only: it finds the links between two frames at a time, and the latest time
-at which all of these links have data. `path` computes poses.
+This module finds the links between two frames at a time, and the latest time at which all of these
+links have data. It computes no poses; `solver` does.
 
-As in tf2, an insertion removes one leading slash of a name, but a query refuses the slash. Old
-publishers still send the slash; a query with a slash is a mistake in the program.
+As in tf2, an insertion removes one leading slash of a frame name, because old publishers still send
+the slash. A lookup refuses the slash, because it is a mistake in the program.
 """
 
 from collections.abc import Iterable
@@ -46,8 +46,8 @@ def stripped(name: str) -> str:
 def plain(name: str) -> str:
     """Return a frame name as an object of exactly the class `str`.
 
-    A subclass of `str` may define comparison and hash. As a dictionary key it would run them
-    during a lookup, and they could change the data being read.
+    A subclass of `str` may define its own `__eq__` and `__hash__`. If it were a dictionary key,
+    each lookup would run these methods, and they could change the data being read.
 
     Raises:
         TypeError: If the name is not a string.
@@ -59,7 +59,7 @@ def plain(name: str) -> str:
 
 
 def fault(name: str) -> str:
-    """Return why a frame name is invalid, in tf2's words; empty if it is valid.
+    """Return tf2's sentence why a frame name is invalid; "" if the name is valid.
 
     Raises:
         TypeError: If the name is not a string.
@@ -89,8 +89,8 @@ class Frame:
     Attributes:
         name: Name of the frame.
         number: Index of the frame in `FrameTree.frames`.
-        link: Link to the parent; None if no sample was ever set.
-        authority: Sender of the newest sample; None if there was no sample.
+        link: Link to the parent, with the samples; None if no sample was ever set.
+        authority: Sender of the newest sample; None if no sample was ever set.
     """
 
     __slots__ = ("authority", "link", "name", "number")
@@ -114,15 +114,15 @@ class Walk:
     """Path between two frames, found by following links from child to parent.
 
     Attributes:
-        ended: ARRIVED, UNCONNECTED, REFUSED or LOOP.
+        ended: Outcome of the search: ARRIVED, UNCONNECTED, REFUSED (missing data) or LOOP.
         up: Child frames of the links from the source up to the common ancestor.
         down: Child frames of the links from the target up to the common ancestor.
         top: Last frame reached by going up from the source.
         end: Last frame reached by going up from the target.
-        refused: Child frame of the link without data at that time, if REFUSED.
-        timeless: Whether the path is the same at every time: no link lacked data, and no visited
-            link ever changes its parent.
-        above: If ARRIVED, the visited frames above the common ancestor.
+        refused: Frame without data at that time, if the outcome is REFUSED.
+        timeless: Whether the path is the same at every time, because no visited frame lacked data
+            or ever has another parent.
+        above: Visited frames above the common ancestor, if the outcome is ARRIVED.
     """
 
     __slots__ = ("above", "down", "end", "ended", "refused", "timeless", "top", "up")
@@ -138,7 +138,7 @@ class Walk:
         self.above: list[int] = []
 
     def close(self, ended: int) -> "Walk":
-        """Finish the walk: record its outcome, and remove the links above the common ancestor."""
+        """Finish the search: record the outcome, and remove frames above the common ancestor."""
         self.ended = ended
         if ended == ARRIVED:
             up, down = self.up, self.down
@@ -158,10 +158,10 @@ class FrameTree:
     Attributes:
         frames: Frames in the order of their first registration.
         numbers: Index in `frames` of each frame name.
-        senders: For the child of each moving link, the parent, sender, origin and history of its
-            newest sample, so that the next sample needs one lookup.
-        authorities: Every authority (name of a sender), in the order of their numbers.
-        limit: Age up to which samples are kept, nanoseconds.
+        senders: For each moving child frame, parent, sender and origin of its newest sample, and
+            its history; an insertion needs only this.
+        authorities: Names of senders (authorities); the index of a name is its number.
+        limit: Age up to which samples are kept, relative to the newest one, nanoseconds.
         max_name: Maximum length of a name, bytes.
     """
 
@@ -198,17 +198,17 @@ class FrameTree:
         return frame
 
     def has_room(self, child: str, parent: str, limit: int) -> bool:
-        """Whether both frame names are known, or can be added without exceeding `limit` names."""
+        """Whether both frame names exist, or can be added without exceeding `limit` names."""
         new = (child not in self.numbers) + (parent not in self.numbers)
         return new == 0 or len(self.frames) + new <= limit
 
     def hang(self, child: str, parent: str, static: bool) -> tuple[Frame, Link, bool]:
-        """Register both frame names, and return the child's link of this kind (static or moving).
+        """Register both frame names; return the child's link, static or moving as requested.
 
         A link of the other kind is replaced by an empty link, and its samples are dropped.
 
         Returns:
-            The child, its link, and whether the link is new.
+            The child frame, its link, and whether the link is new.
         """
         frame = self.register(child)
         link = frame.link
@@ -233,7 +233,7 @@ class FrameTree:
             self.senders[frame.name] = (parent, authority, origin, frame.link)
 
     def origin(self, parent: str, authority: str) -> int:
-        """Return the numbers of a parent and an authority in one word, an origin; see `history`."""
+        """Return the numbers of parent and authority in one integer (origin); see `history`."""
         number = self._authority_numbers.get(authority)
         if number is None:
             number = 0
@@ -251,11 +251,11 @@ class FrameTree:
         return 0 if link is None else link.newest_stamp
 
     def walk(self, target: int, source: int, time: Stamp) -> Walk:
-        """Find the path from source to target at one time (0: at each link's newest sample).
+        """Find the path from source to target at one time; 0 uses the newest parent of each frame.
 
-        As in tf2, the walk goes from the source up to the target, to the root, or to a link without
-        data at that time. Then it goes from the target up to the last frame of the first part, or
-        to the source. Missing data above the common ancestor does not matter.
+        As in tf2, the search first goes from the source up to the target, to the root, or to a
+        frame without data at that time. Then it goes from the target up to the end of the first
+        part, or to the source. Missing data above the common ancestor does not matter.
         """
         walk = Walk(source, target)
         frames, up, down = self.frames, walk.up, walk.down
@@ -321,10 +321,10 @@ class FrameTree:
         return walk.close(UNCONNECTED)
 
     def is_steady(self, walk: Walk) -> bool:
-        """Whether the path by newest parents is the same at every time with data.
+        """Whether the path that `walk` found is the path at every time with data.
 
-        Links above the common ancestor may change, if no path up from there can become a loop or
-        too long.
+        Frames above the common ancestor may change their parents, if no path through them can form
+        a loop or become too long.
         """
         frames = self.frames
         for number in (*walk.up, *walk.down):
@@ -357,7 +357,7 @@ class FrameTree:
         return [] if link.parent < 0 else [link.parent]
 
     def _may_circle(self, numbers: Iterable[int]) -> bool:
-        """Whether the parents of these frames, at any times, form a cycle."""
+        """Whether these frames can form a loop, if each frame may have any of its parents."""
         above = {number: self.parents(number) for number in numbers}
         while above:
             # Frames without a remaining parent are on no cycle: remove them, again and again.
@@ -374,7 +374,7 @@ class FrameTree:
         Links with stamp 0 (static links, for example) are always valid and are ignored.
 
         Returns:
-            The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 if no link has a stamp.
+            The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp, or 0 if no link has one.
         """
         if target == source:
             return ARRIVED, self.newest_stamp(target)

@@ -1,6 +1,6 @@
 """Links of a child to its parent over time: static or moving.
 
-Memory layout of the samples of a moving link; batch lookups and `Buffer.samples` read it too:
+Memory layout of the samples of a moving link, which batch lookups and `Buffer.samples` read too:
 
 - `records` is one flat array of 64-bit words, oldest sample first, WORDS words per sample: the
   stamp in nanoseconds, then the bits of the doubles x, y, z and of the quaternion x, y, z, w. Stamp
@@ -99,7 +99,7 @@ LONGEST: Final = 1.0 + quaternions.ROUNDING
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Fields:
-        """Fields shared by both kinds of link; a native base class where the kernel is built."""
+        """Fields of `StaticLink` and `History`; the C kernel, if built, has its own such class."""
 
         __slots__ = (
             "_newest",
@@ -127,7 +127,7 @@ class StaticLink(Fields):
         newest_stamp: Always 0, as in tf2.
         oldest_stamp: Always 0.
         parent: Number of the parent; NO_PARENT before there is one.
-        origin: Numbers of the parent and the authority in one word; see the head of this module.
+        origin: Numbers of parent and authority in one integer; see the docstring of this module.
         mixed: Always false: a static link has one parent.
     """
 
@@ -177,22 +177,22 @@ class StaticLink(Fields):
 class History(Fields):
     """A moving link: its samples of the last `limit` nanoseconds, as in tf2.
 
-    Pruning is lazy: only an insertion prunes, before it adds. Among equal stamps the last inserted
-    one is the newest.
+    Old samples are removed (pruned) only by an insertion, before the new sample is stored. Of
+    samples with equal stamps, the one inserted last is the newest.
 
     Attributes:
         is_static: Always false.
-        limit: How far back from the newest sample samples are kept, nanoseconds.
+        limit: Age up to which samples are kept, relative to the newest sample, nanoseconds.
         newest_stamp: Stamp of the newest sample; 0 without samples.
         oldest_stamp: Stamp of the oldest sample; 0 without samples.
         parent: Number of the newest sample's parent; NO_PARENT without samples.
-        origin: The newest sample's origin; see the head of this module.
+        origin: Origin of the newest sample; see the docstring of this module.
         origins: Origin of each record; None while all records have the same origin.
         mixed: Whether the stored samples have different parents.
-        records: See the head of this module.
-        start: Number of the first record that is not pruned.
-        count: Number of records, including pruned ones.
-        period: Last measured time between samples, nanoseconds; used to guess the place of a stamp.
+        records: The samples; see the docstring of this module.
+        start: Index of the first record that is not pruned.
+        count: Number of records up to the newest sample, including pruned records.
+        period: Last measured time between samples, nanoseconds, used to guess the index of a stamp.
         large_from: Number of records from which `use_large_pages` is called.
     """
 
@@ -207,7 +207,7 @@ class History(Fields):
         self.clear()
 
     def clear(self) -> None:
-        """Drop all samples; afterwards any stamp is accepted again."""
+        """Drop all samples; afterwards samples with any stamp are accepted."""
         self.records: array[int] = array("q")
         self.start: int = 0
         self.count: int = 0
@@ -240,9 +240,9 @@ class History(Fields):
         return self._newest
 
     def at(self, time: Stamp) -> Sample:
-        """Return the interpolated pose at a time (0: the newest); NO_POSE without data.
+        """Return the interpolated pose at a time (0: the newest pose); NO_POSE without data then.
 
-        Between two samples with different parents, return the older one unchanged.
+        Between two samples with different parents, return the pose of the older sample unchanged.
         """
         newest = self.newest_stamp
         if not self.oldest_stamp < time < newest:
@@ -273,7 +273,7 @@ class History(Fields):
     def parent_at(self, time: Stamp) -> int:
         """Return the number of the parent at a time; NO_PARENT without data.
 
-        It is the parent in the last sample at or before the time; for time 0 in the newest sample.
+        This is the parent in the last sample at or before the time; for time 0, in the newest.
         """
         if time == self.newest_stamp or time == 0:
             return self.parent
@@ -290,7 +290,7 @@ class History(Fields):
         return self._stamp(self.index(time)) if time > self.oldest_stamp else self.oldest_stamp
 
     def refusal(self, time: Stamp) -> Refusal:
-        """Return why the link has no pose at a time, and the stamp nearest to the time."""
+        """Return the reason why there is no pose at a time, with the nearest stamp."""
         if len(self) <= 1:
             return NO_DATA, self.newest_stamp
         if time > self.newest_stamp:
@@ -307,9 +307,9 @@ class History(Fields):
     def columns(self) -> "Columns":
         """Return the records and origins of all samples, oldest first; see `Columns`.
 
-        The records are not copied, and do not change while the view exists: the array grows only as
-        a copy. The records show one state, even if another thread inserts or prunes meanwhile:
-        after taking the view, the function compares the values it read before.
+        The records are a view, not a copy. While the view exists, an insertion writes into a copy
+        of the array. If another thread inserts or prunes during the call, the function notices
+        changed fields after taking the view, and tries again.
         """
         while True:
             records, start, count = self.records, self.start, self.count
@@ -361,7 +361,7 @@ class History(Fields):
     def index(self, time: Stamp) -> int:
         """Return the index of the last sample at or before `time`; oldest <= time < newest.
 
-        Guess by the mean rate, correct the guess once, and search only when that fails.
+        The index is guessed from the mean rate, corrected once, and searched if that fails.
         """
         records = self.records
         # The stamp at `low` is not after the time; the stamp at `high` is after it.
@@ -396,14 +396,14 @@ class History(Fields):
             origin: Numbers of the parent and the authority in one word.
             pose: Position and quaternion in xyzw order, as received: the quaternion may have any
                 length and either sign.
-            validated: Whether stamp and numbers are checked, and the quaternion has unit length and
-                tf2's sign.
+            validated: Whether the caller has checked stamp and numbers, and given the quaternion
+                unit length and tf2's sign.
 
         Returns:
             TOO_OLD if the sample is older than the limit; KNOWN if an equal sample is stored;
-            PARENT_CHANGED if the sample changes the set of the link's parents; else STORED.
-            NEEDS_CHECK, with nothing changed, if the stamp is not an `int` or the pose has
-            something other than numbers.
+            PARENT_CHANGED if the sample is the first, or has another parent than the newest sample;
+            else STORED. NEEDS_CHECK, with nothing changed, if the stamp is not an `int` or the pose
+            contains NaN or cannot be scaled.
 
         Raises:
             struct.error: If the stamp does not fit into 64 bits; nothing was changed.
@@ -454,7 +454,7 @@ class History(Fields):
         return self._append_origin(origin)
 
     def _insert_scaled(self, stamp: Any, origin: int, pose: Any) -> int:
-        """Insert a sample whose quaternion needs scaling, if no other check is needed."""
+        """Scale the quaternion of a sample to unit length, and insert the sample; see `insert`."""
         (x, y, z), turn = pose
         turn = quaternions.canonical(quaternions.unit(turn))
         if type(stamp) is not int or x + y + z != x + y + z or turn[3] != turn[3]:
@@ -462,7 +462,7 @@ class History(Fields):
         return self.insert(stamp, origin, ((x, y, z), turn), True)
 
     def _append_origin(self, origin: int) -> int:
-        """Record the origin of the sample just appended; return PARENT_CHANGED or STORED."""
+        """Record the origin of the last appended sample; return PARENT_CHANGED or STORED."""
         if origin == self.origin and self.origins is None:
             return STORED
         count = self.count
@@ -483,14 +483,14 @@ class History(Fields):
         return PARENT_CHANGED
 
     def _note_origins(self, count: int) -> "array[int]":
-        """Return the array of origins; create it if the first `count` records shared one."""
+        """Return the array of origins, created with `count` equal entries if it is missing."""
         origins = self.origins
         if origins is None:
             origins = self.origins = array("q", [self.origin]) * count
         return origins
 
     def _insert_late(self, stamp: Stamp, origin: int, record: "array[int]") -> int:
-        """Insert the first sample, or one that is not newer than all others."""
+        """Insert the first sample of all, or a sample that is not newer than the newest sample."""
         newest = self.newest_stamp
         parent = origin & PARENT_MASK
         if not self.count:
@@ -578,7 +578,7 @@ class History(Fields):
             self.records = copy
 
     def _is_read(self) -> bool:
-        """Whether the array of records must not change: a batch reads it, or it is borrowed."""
+        """Whether the array of records cannot be resized: it is borrowed, or a batch reads it."""
         try:
             self.records.append(0)
             self.records.pop()
@@ -628,15 +628,15 @@ class History(Fields):
         self.mixed = self._newest_parent_start > 0
 
     def borrow(self, records: "Words", origin: int) -> None:
-        """Replace all samples by borrowed samples with increasing stamps and one origin.
+        """Use an array of another owner as the samples, with increasing stamps and one origin.
 
-        The borrowed samples are copied only at an insertion or pruning: until then they may be in
-        foreign memory, and `records` is a read-only view.
+        The array is copied only at the first insertion or pruning. Until then `records` is a
+        read-only view of the array.
         """
         self.replace(memoryview(records).toreadonly(), array("q", [origin]))
 
     def lend(self, other: "History", origin: int, until: Stamp) -> bool:
-        """Share the samples up to a stamp with another history, without a copy.
+        """Let another history use the samples up to a stamp, without a copy.
 
         Args:
             other: An empty history.
@@ -644,7 +644,7 @@ class History(Fields):
             until: The last stamp to share, nanoseconds.
 
         Returns:
-            Whether the samples could be shared; false if some were pruned here, or have several
+            Whether the samples could be shared. False if samples were pruned, or have several
             origins.
         """
         if self.origins is not None or self.start or not self.count:
@@ -664,7 +664,7 @@ class History(Fields):
         return True
 
     def _find_newest_parent_start(self) -> int:
-        """Return the index from which on all samples have the newest sample's parent."""
+        """Return the first index from which on every sample has the newest sample's parent."""
         if self.origins is None:
             return self.start
         first = self.count - 1

@@ -21,7 +21,7 @@ BUILD: Final = "native" if IS_NATIVE else "pure Python"
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Door:
-        """Fields of a buffer that its methods read first; a native base class where built.
+        """Fields that methods of `Buffer` read first; if built, the C kernel defines it.
 
         Attributes:
             _paths: Paths of the solver.
@@ -46,7 +46,7 @@ else:
 
 
 class _NativeFirst:
-    """Marker of a decorated method; on creation of the class the kernel's method replaces it."""
+    """Marker of a method that the kernel's method replaces when the class is created."""
 
     def __init__(self, plain: Any) -> None:
         self._plain = plain

@@ -25,7 +25,7 @@ _NAME_SHOWN: Final = 32
 def unknown(
     frame: str, argument: str, call: str, known: Collection[str], *, target: str, source: str
 ) -> LookupException:
-    """Return the error for an unknown frame; `known`, all names, is used for the remedy only."""
+    """Return the error for an unknown frame; the remedy suggests similar names among `known`."""
     return LookupException(
         f'"{frame}" passed to {call} argument {argument} does not exist. ',
         frame=frame,
@@ -73,7 +73,7 @@ def loop(frames: str, target: str, source: str) -> LookupException:
 
 
 def shortfall(refusal: Refusal, time: Stamp) -> str:
-    """Return the sentence that a link has no data at a time, with the data it has."""
+    """Return tf2's sentence that the data of a frame begins or ends at another time."""
     kind, available = refusal
     asked, has = display(time), display(available)
     if kind == NO_DATA:
@@ -102,7 +102,7 @@ _EXTRAPOLATIONS: dict[int, type[ExtrapolationException]] = {
 def extrapolation(
     refusal: Refusal, frame: str, time: Stamp, target: str, source: str
 ) -> ExtrapolationException:
-    """Return the error for a lookup at a time at which the link of `frame` has no data."""
+    """Return the error for a lookup at a time at which `frame` has no data."""
     kind, available = refusal
     return _EXTRAPOLATIONS[kind](
         f"{shortfall(refusal, time)}, when looking up transform from frame [{source}] "
@@ -131,7 +131,7 @@ def objections(
     rotation: tuple[float, float, float, float],
     authority: str,
 ) -> list[str]:
-    """Return the log lines about a sample, one per fault; empty if the sample is valid.
+    """Return a log line for each fault of a sample; empty if the sample is valid.
 
     Args:
         child: Child frame, without its leading slash.
@@ -237,7 +237,7 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
 
 
 def long_name(child: str, parent: str, authority: str, limit: int) -> str:
-    """Return the log line for a frame name longer than `limit` bytes; empty if both names fit."""
+    """Return the log line for a frame name longer than `limit` bytes; "" if both are shorter."""
     for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
         # A character in UTF-8 has at most four bytes, so a short name needs no encoding.
         if 4 * len(name) <= limit:

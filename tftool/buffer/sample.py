@@ -29,24 +29,24 @@ class TransformStamped(NamedTuple):
 
 @refuses_arithmetic
 class FrameInfo(NamedTuple):
-    """State of one frame in a snapshot: its link to its parent, and its poses.
+    """State of one frame in a snapshot: its parent, its samples, and its poses in parent and root.
 
     Attributes:
         frame: Name of the frame.
         parent: Parent at the shown time; None for a root.
-        is_static: Whether the link to the parent is static.
+        is_static: Whether the transform from the parent is static.
         authority: Sender of the newest sample; None for a frame without samples.
         samples: Number of stored samples.
         rate: Samples per second by tf2's formula, hertz; 10000 for a single sample and for a static
-            link.
-        oldest: Stamp of the oldest sample; 0 for a static link.
-        newest: Stamp of the newest sample; 0 for a static link.
+            frame.
+        oldest: Stamp of the oldest sample; 0 for a static frame.
+        newest: Stamp of the newest sample; 0 for a static frame.
         buffer_length: `newest` − `oldest`, nanoseconds.
-        age: Nanoseconds from `newest` to the snapshot's `now`; 0 for static links and roots.
+        age: Nanoseconds from `newest` to the snapshot's `now`; 0 for static frames and roots.
         transform: Pose in the parent at the shown time, identity for a root; None if there is no
             data at that time.
-        root: Root of the frame's tree; None if the chain to the root contains a loop.
-        root_from_frame: Pose in the root; None if a link of the chain has no data.
+        root: Root of the frame's tree; None if the frame is in or below a loop.
+        root_from_frame: Pose in the root; None if a frame on the way to the root has no data.
     """
 
     frame: str
@@ -70,7 +70,7 @@ class Snapshot:
 
     Attributes:
         now: The clock's time, nanoseconds; ages are relative to it.
-        at: The time of the poses, nanoseconds; 0 for the latest data of each chain.
+        at: The time of the poses, nanoseconds; 0 for the latest time with data of each frame.
         frames: All frames including roots, in the order in which their names were first seen.
     """
 

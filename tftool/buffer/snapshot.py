@@ -18,23 +18,23 @@ _Located: TypeAlias = tuple[int, Sample | None, Sample | None]
 
 
 def snapshot(tree: FrameTree, now: Stamp, at: Stamp) -> Snapshot:
-    """Return the state of all frames at one time; 0 is the latest time of each frame's chain."""
+    """Return the state of all frames at a time; 0 means the latest time with data of each."""
     sweep = _Sweep(tree, at)
     return Snapshot(now, at, tuple(sweep.info(frame, now) for frame in tree.frames))
 
 
 def rate(link: Link) -> float:
-    """Return a link's rate in hertz by tf2's formula; 10000 for one sample or a static link."""
+    """Return the rate of a link's samples in hertz by tf2's formula; 10000 for one sample."""
     return rate_of(len(link), link.newest_stamp - link.oldest_stamp)
 
 
 def rate_of(samples: int, span: Duration) -> float:
-    """Return the rate, hertz, of samples that span some nanoseconds, by tf2's formula."""
+    """Return the rate in hertz, by tf2's formula, of some samples within `span` nanoseconds."""
     return samples * 1e9 / max(span, _SHORTEST)
 
 
 class _Sweep:
-    """Computation of all frames' poses, which walks each chain once per time needed."""
+    """Computation of the poses of all frames, which computes each frame only once per time."""
 
     def __init__(self, tree: FrameTree, at: Stamp) -> None:
         self.frames = tree.frames
@@ -83,7 +83,7 @@ class _Sweep:
         return link.parent if parent < 0 else parent
 
     def latest_of(self, number: int) -> tuple[Stamp, int]:
-        """Return the newest time with data for a frame's chain of newest parents, and its root."""
+        """Return the newest time at which all frames up to the root have data, and the root."""
         chain: list[int] = []
         while True:
             known = self.latest.get(number)
@@ -108,7 +108,7 @@ class _Sweep:
         return latest, root
 
     def locate(self, number: int, time: Stamp) -> _Located:
-        """Return a frame's root, and its poses in its parent and in the root, at a time."""
+        """Return the root of a frame at a time, and the frame's poses in its parent and root."""
         located = self.located.get(time)
         if located is None:
             located = self.located[time] = {}

@@ -26,7 +26,7 @@ _new: Final = tuple.__new__
 class Path(NamedTuple):
     """Links from the source and from the target up to their common ancestor.
 
-    It is a tuple because the native kernel reads it by index.
+    A path is a tuple because the native kernel reads its fields by index.
 
     Attributes:
         up: Links from the source upward.
@@ -91,7 +91,7 @@ def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
 
 
 def folded(links: Iterable[Link]) -> tuple[Link, ...]:
-    """Merge each run of consecutive static links into one static link."""
+    """Replace consecutive static links by one static link with the product of their poses."""
     result: list[Link] = []
     run: list[Link] = []
     for link in links:
@@ -178,7 +178,7 @@ def full(
 def twist(
     buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
 ) -> Velocity:
-    """Return the linear velocity of `tracking`'s origin and its angular velocity, in `observation`.
+    """Return the linear and angular velocity of the frame `tracking`, expressed in `observation`.
 
     The result is the mean over `interval` around `time`, or over the part of the interval for which
     the buffer has data.
@@ -251,9 +251,9 @@ class Solver:
         return time, (*pose.translation, *pose.rotation)
 
     def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
-        """Return the effective time and the path at that time, by walking the trees.
+        """Find the path from source to target; return the time of the lookup, the path, and a flag.
 
-        The third value returned says whether the path was cached for the next lookup.
+        For `time` 0 the latest common time is returned. The flag is true if the path was cached.
 
         Raises:
             TransformException: As in `Buffer.lookup_transform`.
@@ -322,7 +322,7 @@ class Solver:
         return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
 
     def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
-        """Return a request's state, and the frames that must change before it succeeds."""
+        """Return the state of a lookup, and the frames, one of which must change for success."""
         target, source, time = lookup
         if target == source:
             return AVAILABLE, ()
@@ -364,7 +364,7 @@ class Solver:
         return number
 
     def fault(self, frame: str) -> str:
-        """Return `can_transform`'s sentence about the fault of a frame name; empty if valid."""
+        """Return `can_transform`'s sentence about an invalid or unknown frame name; else ""."""
         if why := tree.fault(frame):
             return why
         return "" if frame in self._tree.numbers else "frame does not exist"
@@ -377,7 +377,7 @@ class Solver:
             self._kept = 0
 
     def _remember(self, target: int, source: int, walk: Walk, path: Path) -> bool:
-        """Cache the path of a successful walk if none of its links ever changes its parent.
+        """Cache a path for later lookups, if no frame on the path ever has another parent.
 
         Returns:
             Whether the path was cached.

@@ -1,8 +1,8 @@
 """Rates and delays of arriving transforms, by the formulas of `tf2_monitor` and exactly.
 
-Properties that begin with `tf2_` repeat the formulas of `tf2_monitor`, for comparison with its
-output; the other properties are exact. Known errors of `tf2_monitor`: its rates are too high by one
-message, its net delay starts at zero and rises for minutes, and it counts a static transform as
+Properties that begin with `tf2_` use the formulas of `tf2_monitor`, so that its output can be
+compared. The other properties are exact. Known errors of `tf2_monitor`: its rates are too high by
+one message, its net delay starts at zero and rises for minutes, and it counts a static transform as
 very late.
 """
 
@@ -44,7 +44,7 @@ class Series:
         Args:
             now: Arrival time, nanoseconds.
             tf2_delay: `now` minus the message's stamp, seconds.
-            dated: Whether the stamp is the time of measurement; false for a static transform.
+            dated: Whether the stamp is a time of measurement; false for a static transform.
         """
         self.total += 1
         self._arrivals.append(now)
@@ -80,12 +80,12 @@ class Series:
 
     @property
     def average_delay(self) -> float | None:
-        """Mean delay of the messages from stamp to arrival, seconds; None if none has a stamp."""
+        """Mean delay from stamp to arrival, seconds; None if all messages are static."""
         return sum(self._delays) / len(self._delays) if self._delays else None
 
     @property
     def latest_delay(self) -> float | None:
-        """Delay of the newest message from stamp to arrival, seconds; None without a stamp."""
+        """Delay of the newest moving transform, seconds; None if all messages are static."""
         return self._delays[-1] if self._delays else None
 
     @property
@@ -97,7 +97,7 @@ class Series:
 
     @property
     def tf2_rate(self) -> float:
-        """Message rate in hertz by tf2_monitor's formula; 1e8 for a single message."""
+        """Message rate in hertz by tf2_monitor's formula, which gives 1e8 for a single message."""
         return len(self._arrivals) / max(1e-8, self._span())
 
     @property
@@ -123,7 +123,7 @@ class FrameTraffic:
         frame: Name of the frame.
         parent: Parent frame in the newest message.
         sender: Sender of the newest message.
-        is_static: Whether the newest message was static.
+        is_static: Whether the newest message came on the static topic.
         series: Recent messages about the frame.
     """
 
@@ -139,7 +139,7 @@ class Traffic:
     """Rates and delays of all received transforms, by frame and by publisher.
 
     Attributes:
-        links: Traffic of each frame, in the order of arrival.
+        links: Recent messages about each frame, in the order of arrival.
         senders: Recent messages of each publisher, by authority, in the order of arrival.
     """
 
@@ -159,7 +159,7 @@ class Traffic:
         *,
         is_static: bool = False,
     ) -> None:
-        """Record the arrival of one publisher's message, which may have many transforms."""
+        """Record the arrival of one message of a publisher, which may contain many transforms."""
         delays = []
         for sample in transforms:
             delay = as_seconds(now - sample.stamp)
@@ -175,7 +175,7 @@ class Traffic:
 
 
 class NetDelay:
-    """Age of the newest result of a repeated lookup, with its mean."""
+    """Age of the results of a repeated lookup: the newest age, and the mean of all."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -184,7 +184,7 @@ class NetDelay:
         self._sum = 0.0
 
     def add(self, delay: float) -> None:
-        """Record the age of a lookup's result, seconds."""
+        """Record the age of the transform that a lookup returned, seconds."""
         self.count += 1
         self._sum += delay
         self.maximum = max(self.maximum, delay)

@@ -1,4 +1,4 @@
-"""Arithmetic of a batch lookup: multiplies the poses of one chain of links at many times.
+"""Arithmetic of a batch lookup: products of the poses along one chain of frames at many times.
 
 The arithmetic works on blocks of a few thousand times. Its arrays are allocated once and stay in
 the processor's cache.
@@ -44,8 +44,8 @@ _WXYZ = [6, 3, 4, 5]
 
 
 class Intervals:
-    """Intervals between neighbouring samples of one link, with precomputed numbers for
-    interpolation.
+    """Intervals between neighbouring samples of one edge, with precomputed numbers to interpolate
+    its poses.
 
     At the fraction f of an interval the position is P + f·D, and the rotation is computed as in
     `soa.Arcs`. Quaternions are in wxyz order. Each row has four numbers because loading 32 bytes
@@ -53,16 +53,17 @@ class Intervals:
 
     Attributes:
         stamps: Start of each interval, nanoseconds, int64, shape (k,).
-        lengths: Length of each interval, nanoseconds, shape (k,); infinite where the link does not
-            move.
+        lengths: Length of each interval, nanoseconds, shape (k,); infinite where the older sample
+            is used unchanged, such as after the last sample.
         half_angle_squared: θ² of the arcs, shape (k,).
         places: P in metres, shape (k, 4); column 3 is unused.
         paths: D in metres, shape (k, 4); column 3 is unused.
         starts: A of the arcs, shape (k, 4).
         directions: C of the arcs, shape (k, 4).
-        endless: Whether some interval begins or ends at a position with an infinite number.
-        row_by_row: Whether interval i belongs to the requested time i.
-        terms: Number of series terms that the largest turn needs; 0 if too many.
+        endless: Whether the position of some sample contains an infinite number.
+        row_by_row: Whether there is one interval per requested time, in the same order.
+        terms: Number of terms of the series of tan(x)/x that the largest θ needs; 0 if above the
+            limit.
     """
 
     __slots__ = (
@@ -79,10 +80,10 @@ class Intervals:
     )
 
     def __init__(self, column: Column, first: npt.NDArray[np.intp] | slice) -> None:
-        """Compute the intervals of some samples of a column.
+        """Compute the intervals that begin at some samples of an edge.
 
         Args:
-            column: The samples.
+            column: The samples of the edge.
             first: Row of the first sample of each interval. An infinite interval follows the last
                 sample.
         """
@@ -117,10 +118,10 @@ class Intervals:
     def fetch(
         self, table: npt.NDArray[T], index: npt.NDArray[np.intp], out: npt.NDArray[T]
     ) -> None:
-        """Write each time's entry of one table of intervals into `out`.
+        """Write the row of `table` for the interval of each time into `out`.
 
         Args:
-            table: Shape (k,) or (k, 4).
+            table: Array with one row per interval, shape (k,) or (k, 4).
             index: The interval of each time, shape (n,).
             out: Output, shape (n,) or (n, 4).
         """
@@ -131,12 +132,12 @@ class Intervals:
 
 
 class MovingEdge:
-    """A moving link, with tables precomputed for a batch lookup."""
+    """A moving edge, with tables precomputed for a batch lookup."""
 
     __slots__ = ("_buckets", "column", "intervals")
 
     def __init__(self, column: Column, count: int) -> None:
-        """Precompute those tables of a link that save time in lookups at `count` times."""
+        """Precompute the tables of an edge that save time in a lookup at `count` times."""
         self.column = column
         k = len(column.stamps)
         self.intervals = (
@@ -146,14 +147,14 @@ class MovingEdge:
 
     @property
     def buckets(self) -> Buckets:
-        """Search index over the samples' stamps, built when unsorted times first occur."""
+        """Index to find samples by stamp, built when a block of unsorted times first occurs."""
         if self._buckets is None:
             self._buckets = Buckets(self.column.stamps)
         return self._buckets
 
 
 class StaticEdge:
-    """A static link for a batch lookup: one pose as a column, valid at every time."""
+    """A static edge for a batch lookup: one pose as a column, valid at every time."""
 
     __slots__ = ("place", "turn")
 
@@ -227,13 +228,13 @@ class BlockArrays:
         self.count = count
         rows = _RowAllocator(room, count)
         self._flags = rows(1)[0].view(np.bool_)[:count]
-        # For each link of a group: the interval, and the fractions of translation and rotation.
+        # For each edge of a group: the interval, and the fractions of translation and rotation.
         self._index = rows(GROUP).view(np.intp)[:, :count]
         self._shares, self._ratios = rows(GROUP), rows(GROUP)
         # First the square of half the rotation angle, then the factor for `rotate`.
         self._squares = rows(GROUP)
         self._whole: Stamps = self._squares.view(np.int64)
-        # All links share these rows: a link's fetched samples are used before the next link's.
+        # All edges share these rows: an edge's fetched samples are used before the next edge's.
         shared = rows(8)
         self._some, self._more = shared.reshape(2, count, 4)
         self._spare, self._cross = shared[:3], VectorRows(shared[3:])
@@ -252,9 +253,9 @@ class BlockArrays:
         """Write the pose of source in target for each time.
 
         Args:
-            up: Links from the source up to the common ancestor.
-            down: Links from the target up to the common ancestor.
-            times: Nanoseconds at which every link has data, shape (n,), n as allocated.
+            up: Edges from the source up to the common ancestor.
+            down: Edges from the target up to the common ancestor.
+            times: Nanoseconds at which every edge has data, shape (n,), n as allocated.
             in_order: Whether the times never decrease.
             translations: Output in metres, shape (n, 3).
             rotations: Output, unit quaternions in xyzw order, shape (n, 4).
@@ -266,9 +267,9 @@ class BlockArrays:
             self._join(translations, rotations)
 
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
-        """Multiply the poses of one side's links at each time, into the arrays of `side`."""
+        """Multiply the poses of one side's edges at each time, into the arrays of `side`."""
         side.empty = not edges
-        # In groups: one numpy call serves several links, as long as the arrays fit into the
+        # In groups: one numpy call serves several edges, as long as the arrays fit into the
         # cache.
         for start in range(0, len(edges), GROUP):
             group = edges[start : start + GROUP]
@@ -294,10 +295,10 @@ class BlockArrays:
     def _prepare(
         self, edges: Sequence[MovingEdge], times: Stamps, in_order: bool
     ) -> list[tuple[Intervals, Indices, Floats, Floats, Floats]]:
-        """Find the interval of each time in some links, and the fractions for interpolation.
+        """Find the interval of each time in each edge, and the fractions for interpolation.
 
         Returns:
-            For each link its intervals and four arrays with one entry per time: the index of the
+            For each edge its intervals and four arrays with one entry per time: the index of the
                 interval, the fraction of the translation, the fraction of the rotation, and the
                 factor for `rotate`.
         """
@@ -332,7 +333,7 @@ class BlockArrays:
         return list(zip(found, self._index, shares, ratios, squares, strict=False))
 
     def _find(self, edge: MovingEdge, times: Stamps, in_order: bool, index: Indices) -> Intervals:
-        """Write the index of each time's interval into `index`; return the table of intervals."""
+        """Write the index of each time's interval into `index`; return the edge's intervals."""
         column = edge.column
         if in_order:
             find_sorted(column.stamps, times, index)
@@ -357,7 +358,7 @@ class BlockArrays:
         place: VectorRows,
         turn: QuaternionRows,
     ) -> None:
-        """Interpolate a link's pose at each time, from the fractions `share` and `ratio`."""
+        """Write the interpolated poses of an edge at all times into `place` and `turn`."""
         some, more = self._some, self._more
         intervals.fetch(intervals.places, index, some)
         intervals.fetch(intervals.paths, index, more)
@@ -401,7 +402,7 @@ class BlockArrays:
         multiply(turn.w, scale, rotations.T[3])
 
     def _square(self, turn: QuaternionRows) -> Floats:
-        """Return the squared lengths of quaternions; exactly 1 if within rounding of 1."""
+        """Return the squared lengths of quaternions, rounded to 1 if nearly 1."""
         square: Floats = self._shares[0]
         off, spare, near = self._ratios[0], self._spare, self._flags
         multiply(turn.xyz, turn.xyz, spare)
@@ -416,7 +417,7 @@ class BlockArrays:
         return square
 
     def _lead(self, turn: QuaternionRows) -> Floats:
-        """Return each quaternion's component that `quaternions.canonical` makes positive."""
+        """Return the component of each quaternion that `quaternions.canonical` makes positive."""
         small, large, size = self._ratios[0], self._flags, self._spare
         lead: Floats = self._shares[0]
         multiply(turn.w, turn.w, small)

@@ -1,4 +1,4 @@
-"""Columns of a link's samples in numpy, and the search for times among its stamps."""
+"""Columns of an edge's samples in numpy, and the search for times among its stamps."""
 
 import numpy as np
 import numpy.typing as npt
@@ -21,9 +21,9 @@ _MOST_STEPS = 3
 
 
 class Column:
-    """Samples of a moving link when the lookup began, oldest first.
+    """Samples that a moving edge had when the lookup began, oldest first.
 
-    While a column exists, its records do not change; see `History.columns`.
+    While this object exists, the records do not change; see `History.columns`.
 
     Attributes:
         records: Samples in memory order, shape (k, 8); see `history`.
@@ -33,7 +33,7 @@ class Column:
         origin: Parent and authority of the newest sample in one word; see `history`.
         origins: Parent and authority of each sample in one word; see `history`. None if all samples
             have the same parent and authority.
-        parents: Number of each sample's parent; None if all samples have the same parent.
+        parents: Number of the parent frame of each sample; None if it is the same for all.
     """
 
     __slots__ = ("_samples", "_stamps", "origin", "origins", "parents", "records")
@@ -89,16 +89,16 @@ class Column:
 
 
 class Columns:
-    """Columns of the links that a batch lookup uses, each copied once."""
+    """Samples of the edges that a batch lookup uses; each edge is copied once."""
 
     __slots__ = ("_held",)
 
     def __init__(self) -> None:
-        # The link is stored too: its `id` is unique only while the link exists.
+        # The edge is stored too: its `id` is unique only while the edge exists.
         self._held: dict[int, tuple[Link, Column | Sample | None]] = {}
 
     def of(self, link: Link) -> "Column | Sample | None":
-        """Return the column of a moving link, or the sample of a static one."""
+        """Return the samples of a moving edge, or the only sample of a static edge."""
         held = self._held.get(id(link))
         if held is None:
             held = (link, Column(link) if isinstance(link, History) else link.newest)
@@ -107,7 +107,7 @@ class Columns:
 
 
 def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
-    """Return all samples of one frame's link; see `Buffer.samples`."""
+    """Return all samples of one frame's edge; see `Buffer.samples`."""
     link = frame.link
     is_static = link is not None and link.is_static
     stamps: Stamps = np.zeros(0, dtype=np.int64)
@@ -180,11 +180,11 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
 
 
 class Buckets:
-    """Index that divides a history's time into short, equal spans to find samples quickly.
+    """Index that divides the time from the first to the last sample into short, equal buckets.
 
-    For times in random order, two loads and a comparison replace a binary search. A bucket spans a
-    power of two of nanoseconds and at most half the distance between samples, so that one
-    comparison is nearly always enough.
+    To find the samples before times in random order, two loads and a comparison replace a binary
+    search. A bucket spans a power of two of nanoseconds and at most half the distance between
+    samples, so that one comparison is nearly always enough.
     """
 
     __slots__ = ("_before", "_next", "_oldest", "_shift", "_stamps", "_steps")
@@ -207,7 +207,7 @@ class Buckets:
     def find(
         self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
     ) -> None:
-        """Write into `index` the last sample at or before each time, for times in any order."""
+        """Write into `index` the index of the last sample at or before each time, in any order."""
         # If samples come in bursts, some buckets are full, and a binary search is faster.
         if self._steps > _MOST_STEPS:
             index[:] = np.searchsorted(self._stamps, times, "right") - 1
@@ -222,7 +222,7 @@ class Buckets:
 
 
 def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
-    """Write into `index` the last sample at or before each time; the times are sorted.
+    """Write the index of the last sample at or before each time into `index`; times sorted.
 
     If there are fewer samples than times, the function searches the samples among the times.
     """
@@ -238,7 +238,7 @@ def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
 
 
 def settle_oldest(column: Column, times: Stamps, index: Indices) -> None:
-    """Correct `index` at the oldest stamp: of equal stamps, tf2 uses the sample inserted first."""
+    """Correct `index` for times equal to the oldest stamp: tf2 uses the first inserted sample."""
     stamps = column.stamps
     if len(stamps) > 2 and stamps[0] == stamps[1] and stamps[0] != stamps[-1]:
         index[times == stamps[0]] = 0

@@ -40,9 +40,9 @@ class Insertion:
     """Result of a bulk insertion; true if every sample was accepted.
 
     Attributes:
-        accepted: Whether each row was accepted, shape (n,). A row that is already stored counts as
-            accepted, as in `set_transform`.
-        reasons: Row numbers of the rejected rows, by tf2's code for the reason (TF_NAN_INPUT,
+        accepted: Whether each row was accepted, shape (n,). A row equal to a stored sample counts
+            as accepted, as in `set_transform`.
+        reasons: Indices of the rejected rows, by tf2's code for the reason (TF_NAN_INPUT,
             TF_OLD_DATA, …).
     """
 
@@ -84,7 +84,7 @@ class CheckedRows:
             stamps: Whole nanoseconds, shape (n,).
             translations: Metres, shape (n, 3).
             rotations: Quaternions in xyzw order, shape (n, 4).
-            rest: Child, parent and authority.
+            rest: Child frame, parent frame and authority (name of the sender).
         """
         self.stamps = stamps_of(stamps, "stamps")
         n = len(self.stamps)
@@ -105,7 +105,7 @@ class CheckedRows:
         self.validated: Flags = ~np.any(list(self.reasons.values()), axis=0)
 
     def taken(self, accepted: Flags) -> Iterator[tuple[int, Sample]]:
-        """Yield row number, stamp and pose of the accepted rows, in the order of insertion."""
+        """Yield stamp and pose of the accepted rows, in the order of insertion."""
         for row in np.flatnonzero(accepted).tolist():
             x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
             yield int(self.stamps[row]), (x, y, z, qx, qy, qz, qw)
@@ -127,19 +127,19 @@ def insert(
     translations: npt.ArrayLike,
     rotations: npt.ArrayLike,
 ) -> tuple[Insertion, CheckedRows]:
-    """Insert many samples of one link into a tree, after checking each.
+    """Insert many samples of one child frame into a tree, after a check of each sample.
 
     Args:
         tree: The tree to insert into.
         log: Function called with a sentence about each rejected sample.
         max_frames: Maximum number of frame names in the tree.
-        link: Parent, child and authority.
+        link: Parent frame, child frame and authority (name of the sender).
         stamps: Nanoseconds, shape (n,).
         translations: Metres, shape (n, 3).
         rotations: Quaternions in xyzw order, shape (n, 4).
 
     Returns:
-        The accepted rows with the reasons for the rejected rows, and the checked rows.
+        The result with the accepted and the rejected rows, and the checked rows.
     """
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     rows = CheckedRows(stamps, translations, rotations, (child, parent, authority))
@@ -193,15 +193,15 @@ def adopt(
     records: npt.NDArray[np.int64],
     kept: int = 0,
 ) -> bool:
-    """Insert recorded samples of a new child without copying them: its history shares the array.
+    """Insert samples of a new child frame without copying them: the tree uses the array `records`.
 
     Args:
         tree: The tree to insert into.
         max_frames: Maximum number of frame names in the tree.
-        link: Parent, child and authority.
+        link: Parent frame, child frame and authority (name of the sender).
         records: Samples in the memory layout of `History`, shape (n, 8): stamps and seven doubles.
         kept: Number of records at the beginning that need no check: their stamps increase and their
-            quaternions are in stored form.
+            quaternions have unit length and tf2's sign.
 
     Returns:
         Whether all records were accepted. If not, nothing was changed, and `insert` must check them
@@ -255,14 +255,14 @@ def adopt(
 
 
 def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
-    """Return the records as a flat array of words: a view if contiguous, else a copy."""
+    """Return the records as a flat array of 64-bit words: a view if contiguous, else a copy."""
     if not records.flags.c_contiguous:
         return _words(records)
     return records.data.cast("B").cast("q")
 
 
 def _is_canonical(turns: Floats) -> bool:
-    """Whether finite quaternions are in stored form: unit length and tf2's sign."""
+    """Whether all quaternions have unit length and tf2's sign."""
     x, y, z, w = np.moveaxis(turns, -1, 0)
     # Add in the order of the scalar code, so that the last bit is the same.
     with np.errstate(over="ignore", under="ignore"):
@@ -317,7 +317,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return a mask over `order`: false for a repetition of an earlier sample at the same stamp."""
+    """Return a mask over `order`, false for a sample that repeats an earlier one of equal stamp."""
     # tf2 ignores a sample equal to a stored one with its stamp: check runs of equal stamps only.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]

@@ -76,7 +76,7 @@ def lookup_transforms_full(
     missing: str = "raise",
     threads: int | None = None,
 ) -> TransformArray:
-    """Return poses by way of a fixed frame; see `Buffer.lookup_transforms_full`."""
+    """Return poses computed through a fixed frame; see `Buffer.lookup_transforms_full`."""
     if missing not in ("raise", "nan"):
         raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
     for frame, argument in (
@@ -159,7 +159,7 @@ class _Batch:
         self.valid = np.empty(n, dtype=np.bool_)
 
     def run(self, complete: bool, workers: int) -> None:
-        """Solve every row; if `complete`, raise the error of the first row without a result."""
+        """Look up all times; if `complete`, raise the error of the first time without a result."""
         n = len(self.times)
         # More than two threads share the memory that two threads use.
         crowd = max(workers / 2, 1)
@@ -184,7 +184,7 @@ class _Batch:
                 raise
 
     def fill(self, start: int, complete: bool) -> None:
-        """Solve one chunk of rows, beginning at row `start`."""
+        """Look up one chunk of times, beginning with row `start`."""
         rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
@@ -218,7 +218,7 @@ class _Batch:
                 self.put(row, self.ask(int(self.times[row])))
 
     def begin(self, times: Stamps, start: int) -> Indices:
-        """Solve the rows that the constant path covers; return the indices of unsolved rows."""
+        """Solve the rows with data on the steady path; return the indices of the other rows."""
         rows = slice(start, start + len(times))
         usable = (times >= self.first) & (times <= self.last) & (times != 0)
         self.valid[rows] = False
@@ -231,12 +231,12 @@ class _Batch:
         return rest
 
     def has_all(self, times: Stamps) -> bool:
-        """Whether the constant path has data for all times, and no row requests the latest."""
+        """Whether the steady path has data at all these times, of which none is 0 (latest)."""
         least, most = int(times.min()), int(times.max())
         return self.first <= least and most <= self.last and (least > 0 or bool(times.all()))
 
     def solve(self, path: Path, rows: "slice | Indices") -> None:
-        """Solve rows with a path that has data for them."""
+        """Solve rows with a path that has data at the times of all these rows."""
         times = self.times[rows]
         if not len(times):
             return
@@ -269,10 +269,10 @@ class _Batch:
         self.rooms.append(room)
 
     def solve_natively(self, path: Path, times: Stamps, rows: "slice | Indices") -> int | None:
-        """Solve rows natively with one path; rows without data become NaN.
+        """Solve rows with one path in the C kernel; rows without data become NaN.
 
         Returns:
-            Number of solved rows; None, with nothing changed, if the kernel cannot solve this path.
+            Number of rows without data; None if the kernel cannot solve this path at all.
         """
         up, down = self.held(path.up), self.held(path.down)
         if isinstance(rows, slice):
@@ -286,7 +286,7 @@ class _Batch:
         return missing
 
     def held(self, links: Iterable[Link]) -> tuple[Link, ...]:
-        """Return copies of the links with the samples they had when this batch copied them."""
+        """Return copies of the links, each with the samples at its first use in this batch."""
         found: list[Link] = []
         for link in links:
             held = self.columns.of(link)
@@ -311,7 +311,7 @@ class _Batch:
             return kernel.room(min(len(self.times), self.block))
 
     def edges(self, links: Iterable[Link]) -> list[kernel.Edge]:
-        """Return the links prepared for the arithmetic; each link is prepared once."""
+        """Return the links with precomputed tables for the arithmetic in numpy."""
         ready: list[kernel.Edge] = []
         for link in links:
             edge = self.ready.get(id(link))
@@ -328,7 +328,7 @@ class _Batch:
         return ready
 
     def fill_latest(self, rows: Indices) -> None:
-        """Solve the rows whose time is 0 (the latest); all get the same result."""
+        """Write the latest pose into all rows whose time is 0."""
         if not len(rows):
             return
         if self.latest is None:
@@ -349,7 +349,7 @@ class _Batch:
 
 
 def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
-    """Return the path if it is the same at all times with data; None if it changes over time."""
+    """Return the steady path, valid at all times; None if the path changes over time."""
     walk = tree.walk(target, source, 0)
     if walk.ended != ARRIVED or not tree.is_steady(walk):
         return None
@@ -359,10 +359,10 @@ def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
 def _paths_by_moment(
     tree: FrameTree, columns: Columns, target: int, source: int, times: Stamps
 ) -> Iterator[tuple[Path, Indices]]:
-    """Yield each path that some times need, with the rows of these times.
+    """Yield the paths that are valid at some of the times, each with the indices of these times.
 
-    All times between two changes (a link begins, ends, or changes its parent) share one path. Rows
-    whose time has no path are left out.
+    A path changes when the samples of a frame begin, end, or get another parent. All times between
+    two changes share one path. Times without a path are left out.
     """
     # Between two marks no link changes, so one walk finds the path for all times there.
     marks = _marks(tree, columns, (target, source))
@@ -385,7 +385,7 @@ def _paths_by_moment(
 
 
 def _covered(path: Path, columns: Columns, times: Stamps) -> npt.NDArray[np.bool_]:
-    """Return a mask of the times for which every link of a path has data."""
+    """Return a mask of the times at which every edge of a path has data."""
     result = np.ones(len(times), dtype=np.bool_)
     for link in path.moving:
         column = columns.of(link)
@@ -395,7 +395,7 @@ def _covered(path: Path, columns: Columns, times: Stamps) -> npt.NDArray[np.bool
 
 
 def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps:
-    """Return every stamp at which the path up from one of the frames may change."""
+    """Return all stamps at which the path from one of the frames up to its root may change."""
     marks: list[Stamps] = [np.zeros(0, dtype=np.int64)]
     waiting, seen = list(frames), set(frames)
     while waiting:
@@ -416,7 +416,7 @@ def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps
 
 
 def _identities(tree: FrameTree, frame: str, times: Stamps) -> TransformArray:
-    """Return one identity per time: a frame's pose in itself. Unknown names are accepted."""
+    """Return the pose of a frame (even an unknown one) in itself for each time: the identity."""
     number = tree.numbers.get(frame)
     newest = 0 if number is None else tree.newest_stamp(number)
     n = len(times)
@@ -433,7 +433,7 @@ def _identities(tree: FrameTree, frame: str, times: Stamps) -> TransformArray:
 
 
 def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[Stamps, Stamps]:
-    """Return both arrays of times, with equal lengths; a single time is repeated."""
+    """Return both arrays of times with equal lengths: a single time is repeated for all rows."""
     theirs, ours = np.asarray(target_times), np.asarray(source_times)
     if theirs.ndim == 0 and ours.ndim == 1:
         theirs = np.broadcast_to(theirs, ours.shape)
@@ -449,7 +449,7 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
 
 
 def _workers(threads: int | None) -> int:
-    """Return the number of threads: `threads`, or one for each available core if None."""
+    """Return `threads`, or the number of available processor cores if `threads` is None."""
     if threads is None:
         # The number of cores that this process may use, if known; the machine may have more.
         allowed = getattr(os, "sched_getaffinity", None)

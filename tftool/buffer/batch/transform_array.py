@@ -31,13 +31,13 @@ class Velocities(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SampleColumns:
-    """Samples of one link, oldest first: the result of `Buffer.samples`.
+    """Samples of one child frame, oldest first: the result of `Buffer.samples`.
 
     The arrays are read-only copies. Samples with equal stamps are in the order of insertion.
 
     Attributes:
         frame: The child.
-        is_static: Whether the link is static; a static link has one sample, with stamp 0.
+        is_static: Whether the frame is static; a static frame has one sample, with stamp 0.
         stamps: Nanoseconds, int64, shape (n,), ascending.
         parents: The parent of each sample, `str` objects, shape (n,).
         poses: x, y, z in metres and a unit quaternion x, y, z, w, shape (n, 7).
@@ -130,11 +130,11 @@ class TransformArray:
         return batch.matrices(self.translations, self.rotations)
 
     def apply(self, points: npt.ArrayLike) -> Floats:
-        """Transform points from `child_frame_id` to `frame_id`.
+        """Transform points, given in `child_frame_id`, to `frame_id`.
 
         Args:
-            points: Metres. Shape (3,): one point, moved by each row. Shape (n, 3): point i, moved
-                by row i. Shape (n, k, 3): k points for each row.
+            points: Metres. Shape (3,): one point, transformed by each of the n rows. Shape (n, 3):
+                point i is transformed by row i. Shape (n, k, 3): k points for each row.
 
         Returns:
             A new array of shape (n, 3) or (n, k, 3).
@@ -170,7 +170,7 @@ class TransformArray:
     def __matmul__(self, other: "TransformArray | Transform") -> "TransformArray":
         """Chain row by row: `a_from_b @ b_from_c` is `a_from_c`.
 
-        If `other` is a `Transform`, each row is chained with that transform; names and stamps stay.
+        If `other` is a `Transform`, each row is multiplied by it; names and stamps stay unchanged.
 
         A row is valid if both of its factors are valid; a quaternion of zeros is not valid.
 
@@ -208,9 +208,9 @@ class TransformArray:
         """Return the velocity of the child's origin and its angular velocity, expressed in
         `frame_id`.
 
-        Each row is the mean velocity from the previous to the next row; the first and the last row
-        use their only neighbour. A row is NaN if one of the two rows used is invalid, or if both
-        have the same stamp.
+        Row i is the mean velocity from pose i - 1 to pose i + 1. The first row uses poses 0 and 1,
+        the last row uses the last two poses. A row is NaN if one of its two poses is invalid, or if
+        both have the same stamp.
         """
         n = len(self)
         here = np.arange(n)
