@@ -42,7 +42,7 @@ class MessageField:
 
     Attributes:
         name: Name of the field.
-        kind: Type of the field or of its elements: a primitive's name, or a message class.
+        kind: Type of the field or of an array's elements: a primitive's name, or a message class.
         size: None for a single value, a number for a fixed array, -1 for a sequence.
         bound: Maximum length of a bounded sequence; None without a bound.
         text_bound: Maximum number of characters of a bounded string; None without a bound.
@@ -71,10 +71,10 @@ class Message:
     interface__: ClassVar[str] = ""
 
     def __init__(self, **kwargs: Any) -> None:
-        """Set every field to its default, then set the fields given by keyword.
+        """Set all fields to their defaults, then set the fields that are keyword arguments.
 
         Raises:
-            AssertionError: If a keyword is not a field's name, or a value does not fit its field.
+            AssertionError: If there is no field with a keyword's name, or a value does not fit.
         """
         for field in self.fields__:
             if field.name in kwargs:
@@ -127,9 +127,9 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 def build(kind: Any, *values: Any, **named: Any) -> Any:
-    """Create a message without checks: the first fields by position, further fields by name.
+    """Create a message of class `kind` without checks; positional values are for the first fields.
 
-    This is ten times as fast as the constructor, which checks every value.
+    This function is ten times as fast as the constructor, which checks every value.
     """
     message = object.__new__(kind)
     stores = kind.stores__
@@ -143,7 +143,7 @@ def build(kind: Any, *values: Any, **named: Any) -> Any:
 
 
 def duplicate(message: Any) -> Any:
-    """Return a deep copy of a message with 32-bit fields rounded, as its receiver gets it."""
+    """Return a deep copy of a message, with float32 fields rounded as if it was received."""
     kind = type(message)
     same = object.__new__(kind)
     for field in kind.fields__:
@@ -165,7 +165,7 @@ def _duplicated(field: MessageField, value: Any) -> Any:
 
 
 def _layout_of(kind: type[Message]) -> tuple[Any, ...]:
-    """Return the names and types of all fields, including the fields of nested messages."""
+    """Return names, sizes and types of all fields, recursively for nested messages."""
     return tuple(
         (
             field.name,
@@ -183,7 +183,7 @@ def interface_name(kind: Any) -> str:
 
 
 def recast(message: Any, kind: type[Message]) -> Any:
-    """Copy a message to another class with the same fields, for example of another ROS release."""
+    """Return a copy of a message in another class with the same fields, as of another release."""
     copy = duplicate(message)
     if type(copy) is kind:
         return copy
@@ -194,7 +194,7 @@ def recast(message: Any, kind: type[Message]) -> Any:
 
 
 def completed(message: Any, kind: type[Message]) -> Any:
-    """Copy a message to a class with more fields; the additional fields get their defaults."""
+    """Return a copy of a message in a class with more fields, which get their defaults."""
     if type(message) is kind:
         return message
     made = kind()
@@ -225,7 +225,7 @@ def is_part(asked: Any, part: str, kind: Any) -> bool:
 
 
 def plain_name(ros_type: str) -> str:
-    """Return a type's name in the spelling that turtlesim's types have in every ROS release."""
+    """Return the name of a type, with the package turtlesim instead of turtlesim_msgs."""
     # In newer ROS 2 releases, turtlesim's interfaces are in the package turtlesim_msgs.
     return ros_type.replace("turtlesim_msgs/", "turtlesim/")
 
@@ -240,8 +240,8 @@ MOST_NESTED: Final = 64
 class Interfaces(Schema):
     """Classes of all interfaces (messages, services, actions) by name, created on first use.
 
-    The process has one set, `INTERFACES`. Each recording has its own set, because its definitions
-    may come from another release or from ROS 1.
+    The process has one instance, `INTERFACES`. Each recording has its own instance, because its
+    definitions may come from another ROS release or from ROS 1.
     """
 
     def __init__(self) -> None:
@@ -282,13 +282,12 @@ class Interfaces(Schema):
     def recorded(self, name: str, text: str = "") -> type[Message]:
         """Return the class of a recorded message type.
 
-        If the recording has two definitions of one type, each message is read by the definition of
-        its channel.
+        If a recording has two definitions of one type, each definition gets its own class.
 
         Args:
             name: Name of the type, "geometry_msgs/PoseStamped" or "geometry_msgs/msg/PoseStamped".
-            text: The recorded definition, followed by the definitions of its parts (see `define`);
-                "" to use ROS 2's own definition.
+            text: The recorded definition, followed by the definitions of nested types (see
+                `define`); "" to use ROS 2's own definition.
 
         Raises:
             InputError: If the type is unknown or contains itself, or the definition is wrong.
@@ -299,9 +298,9 @@ class Interfaces(Schema):
         return self.part(full)
 
     def earlier(self, full: str) -> list[type[Message]]:
-        """Return the classes that a message type had in earlier ROS distributions; often none.
+        """Return a message type's classes in earlier ROS distributions; [] if it never changed.
 
-        In each class, a field or a field of a nested message differs from the present class.
+        Each class has other fields than the present class, or nested messages with other fields.
         """
         found: list[type[Message]] = []
         for texts in definitions.EARLIER:
@@ -410,7 +409,7 @@ class Interfaces(Schema):
 
 
 class _Later:
-    """A nested class, created on first use."""
+    """Descriptor of a nested class, such as `Event` of a service, created when first read."""
 
     def __init__(self, make: Callable[[], type[Any]]) -> None:
         self._make = make
@@ -466,7 +465,7 @@ def _nothing(kind: str) -> Any:
 
 
 def _literal(place: str, kind: str, text: str) -> Any:
-    """Convert the text of a constant or default to a value; error messages begin with `place`.
+    """Convert the text of a constant or default to a value; the error message begins with `place`.
 
     Raises:
         InputError: If the text is not a value of that type.

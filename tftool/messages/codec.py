@@ -41,15 +41,15 @@ class Codec:
     """
 
     def __init__(self, kind: type[Message], layout: Layout = CDR) -> None:
-        """Prepare the byte layout of a message class.
+        """Compile a message class for one byte layout.
 
         Args:
             kind: The class of the messages.
             layout: Byte layout of the messages.
 
         Raises:
-            MalformedMessage: If the byte layout of a field's type differs between ROS 2 releases,
-                or the type has more fields than `MOST_FIELDS`.
+            MalformedMessage: If a field is a wstring, whose bytes differ between ROS 2 releases, or
+                the type has more than `MOST_FIELDS` fields.
         """
         self.kind = kind
         self.layout = layout
@@ -57,7 +57,7 @@ class Codec:
         self._plan = _Planner(self.name, layout).plan(kind)
 
     def encode(self, message: Any) -> bytes:
-        """Serialise a message; return its bytes.
+        """Serialise a message; return the bytes.
 
         Raises:
             MalformedMessage: If a value does not fit its field.
@@ -70,7 +70,7 @@ class Codec:
             raise MalformedMessage(self.name, f"a value does not fit its field: {error}") from error
 
     def decode(self, payload: Payload) -> Any:
-        """Deserialise a message; it does not refer to the bytes afterwards.
+        """Deserialise a message; the message contains copies of the bytes, not references.
 
         Raises:
             MalformedMessage: If the bytes are not a message of this type.
@@ -87,12 +87,12 @@ class Codec:
 class RecordedCodec:
     """Serialiser of a message type that was recorded without its definition.
 
-    It tries the definitions of all ROS distributions. Messages of earlier distributions have their
-    own classes, by which they are written again.
+    The definitions of all ROS distributions are tried. A message of an earlier distribution gets a
+    class of its own, and is serialised again by that class.
     """
 
     def __init__(self, interfaces: Interfaces, full: str, layout: Layout) -> None:
-        """Prepare the byte layouts of the present and the earlier definitions of a type.
+        """Compile the present and the earlier definitions of a type.
 
         Args:
             interfaces: The present definitions.
@@ -107,7 +107,7 @@ class RecordedCodec:
         self._codecs = [Codec(kind, layout) for kind in kinds]
 
     def encode(self, message: Any) -> bytes:
-        """Serialise a message, with the definition of its class; return its bytes.
+        """Serialise a message by the definition that its class has; return the bytes.
 
         Raises:
             MalformedMessage: If a value does not fit its field.
@@ -115,10 +115,10 @@ class RecordedCodec:
         return next(one for one in self._codecs if one.kind is type(message)).encode(message)
 
     def decode(self, payload: Payload) -> Any:
-        """Deserialise a message, with the first definition that fits the bytes.
+        """Deserialise a message by the first definition that fits the bytes.
 
         Raises:
-            MalformedMessage: If no class fits the bytes.
+            MalformedMessage: If no definition fits the bytes.
         """
         first: MalformedMessage | None = None
         for one in self._codecs:
@@ -134,7 +134,7 @@ _codecs: dict[Any, Codec] = {}
 
 
 def codec(kind: type[Message]) -> Codec:
-    """Return the serialiser of a message class in ROS 2's layout (CDR), created at most once."""
+    """Return the serialiser of a message class in ROS 2's layout (CDR), from a cache."""
     found = _codecs.get(kind)
     if found is None:
         found = _codecs[kind] = Codec(kind)
@@ -142,10 +142,10 @@ def codec(kind: type[Message]) -> Codec:
 
 
 class _Run:
-    """Step of a codec for consecutive numbers of fixed size, including those of nested messages."""
+    """Step of a codec for consecutive numbers of fixed size, also across nested messages."""
 
     def __init__(self, leaves: list[tuple[str, str]], layout: Layout) -> None:
-        """Prepare the layout of (path of a field, `struct` letter) pairs; padding has no path."""
+        """Compile pairs of a field's path and its `struct` letter; the path of padding is ""."""
         self._get = _getter([path for path, _ in leaves if path])
         self._letters = [letter for _, letter in leaves]
         self.smallest = sum(map(struct.calcsize, self._letters))
@@ -224,7 +224,7 @@ class _Array:
             writer.pass_on(raw)
 
     def _raw(self, value: Any) -> memoryview:
-        """Return the little-endian bytes of an array field's value, without a copy if possible."""
+        """Return the little-endian bytes of an array, without a copy if possible."""
         if self._kind == "byte":
             return memoryview(b"".join(value))
         if self._kind == "bool":
@@ -296,7 +296,7 @@ _Step = _Run | _Text | _Array | _List
 
 
 class _Planner:
-    """Creator of the byte layout of a type; each nested type of a list is processed once."""
+    """Compiler of message classes for one byte layout; each nested type is compiled once."""
 
     def __init__(self, name: str, layout: Layout) -> None:
         self._name = name
@@ -305,7 +305,7 @@ class _Planner:
         self._fields = 0
 
     def plan(self, kind: type[Message]) -> "_Plan":
-        """Return the byte layout of a message class."""
+        """Return the compiled byte layout of a message class."""
         found = self._plans.get(kind)
         if found is None:
             found = self._plans[kind] = _Plan(kind, self._steps(kind))
@@ -371,7 +371,7 @@ class _Planner:
 
 
 def _numbers_held(value: Any) -> memoryview | None:
-    """Return the memory of an array of numbers, without a copy; None for other values."""
+    """Return a memoryview of an array of numbers; None for other values."""
     try:
         view = memoryview(value)
     except TypeError:
@@ -380,7 +380,7 @@ def _numbers_held(value: Any) -> memoryview | None:
 
 
 def _letter_of(view: memoryview) -> str:
-    """Return `struct`'s letter for an array's numbers, the same for numpy and Python arrays."""
+    """Return the `struct` letter of the numbers in a numpy or Python array."""
     # Where C's long has 8 bytes, arrays call such integers "l"; fields always call them "q".
     letter = view.format
     return _WIDE.get(letter, letter) if view.itemsize == 8 else letter

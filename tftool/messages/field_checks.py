@@ -16,12 +16,12 @@ Check = Callable[[Any], Any]
 
 
 def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
-    """Return the function that checks one value of a field (of an array: one element).
+    """Return the function that checks the value of a field, or one element of an array field.
 
     Args:
         name: The field's name.
         kind: A primitive's name, or the class of a message.
-        text: Maximum number of characters of a string; None without a bound.
+        text: Maximum number of characters, if the field is a bounded string; else None.
     """
     if not isinstance(kind, str):
         return _check_message(name, kind)
@@ -74,14 +74,14 @@ def array_check(
 
 
 def typecode(kind: str | type[Any]) -> str | None:
-    """Return a numeric type's typecode in the module `array`; None if a list stores the type."""
+    """Return the typecode of a numeric type in the module `array`; None for other types."""
     if not isinstance(kind, str):
         return None
     return INTEGERS[kind] if kind in INTEGERS else FLOATS.get(kind)
 
 
 def packed(kind: str | type[Any], size: int, values: Sequence[Any]) -> Any:
-    """Return the values of an array or sequence in the type in which a field stores them."""
+    """Return the values as a field stores them: as `array.array`, numpy array or list."""
     code = typecode(kind)
     if code is None:
         return values

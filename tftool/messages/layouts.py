@@ -46,15 +46,15 @@ class Layout:
     Attributes:
         name: Name of the layout in error messages.
         header: Bytes that are written before the first field.
-        headers: Byte order by header, for all readable headers; empty if there is no header.
+        headers: Byte order for each header that can be read; empty for a layout without header.
         alignment: Largest alignment of a number, bytes; 1 for no alignment.
         word: Alignment of a length, bytes.
         texts_end_with_zero: Whether a string ends with a zero byte, which its length includes.
-        empty_size: Bytes of a structure without a field.
-        letters: Codes of `struct` for single fields that differ from their definition, by
-            (structure, field).
-        hidden: By structure, the name and `struct` padding of a first field that ROS 2's
-            definitions do not have.
+        empty_size: Number of bytes of a structure without fields.
+        letters: `struct` letters of the fields whose type in this layout differs from their ROS 2
+            definition, by (structure, field).
+        hidden: First fields that only this layout has, such as `seq` of ROS 1's Header: name and
+            `struct` padding, by structure.
     """
 
     name: str
@@ -126,7 +126,7 @@ Duration of builtin_interfaces.
 
 
 def check_rest(kind: str, rest: int) -> None:
-    """Raise an error if a message is followed by more bytes than padding.
+    """Raise an error if more bytes follow a message than padding can have.
 
     Raises:
         MalformedMessage: If more than 7 bytes remain.
@@ -172,12 +172,12 @@ def _decoded(raw: bytes) -> str:
 class Writer(bytearray):
     """Writer of one message's bytes after its header.
 
-    The bytearray has the bytes since the last large array. Large arrays are copied only once, when
-    all parts are joined.
+    The writer itself is a bytearray with the bytes since the last large array. Large arrays are
+    copied only once, when all parts are joined.
 
     Attributes:
         before: Number of bytes in `parts`.
-        parts: Parts of the message before this bytearray.
+        parts: Parts of the message before the bytes in this bytearray.
     """
 
     # Class attributes instead of a constructor save time: each message creates a writer.
@@ -198,7 +198,7 @@ class Writer(bytearray):
         self += bytes(-(self.before + len(self)) % layout.word) + _LENGTH.pack(len(raw)) + raw
 
     def pass_on(self, raw: memoryview) -> None:
-        """Append a large array's bytes without a copy; they must not change until `finish`."""
+        """Append a large array without a copy; its bytes must not change until `finish`."""
         self.parts = (*self.parts, bytes(self), raw)
         self.before += len(self) + raw.nbytes
         self.clear()
@@ -223,7 +223,7 @@ class Reader:
         self._items = 0
 
     def take(self, length: int, align: int = 1) -> int:
-        """Move past `length` bytes; return the offset of the first of them."""
+        """Skip padding and then `length` bytes; return the offset of the first of these bytes."""
         start = self.position
         if align > 1:
             start += -(start - self._start) % align
@@ -248,7 +248,7 @@ class Reader:
         return length
 
     def count(self, smallest: int, bound: int | None) -> int:
-        """Read a list's number of items, each of at least `smallest` bytes."""
+        """Read the number of items of a list; an item has at least `smallest` bytes."""
         count = self.length()
         rest = self._size - self.position
         if count * smallest > rest:
@@ -262,7 +262,7 @@ class Reader:
         return count
 
     def admit(self, items: int) -> None:
-        """Count list items that were read; raise an error above `MOST_ITEMS`."""
+        """Add to the number of list items of the message; raise an error above `MOST_ITEMS`."""
         self._items += items
         if self._items > MOST_ITEMS:
             raise MalformedMessage(

@@ -1,11 +1,11 @@
-"""Parser of interface definitions: fields of each interface, and structures derived from it.
+"""Parser of definitions of messages, services and actions, and of structures derived from these.
 
 A service consists of a request and a response; an action consists of three services and two
 messages. ROS 2 derives these structures, and an event for every service, from the definition. Each
 `Structure` has its own name, such as "std_srvs/srv/SetBool_Request".
 
-Definitions come from three places: ROS 2's own are included in tftool; others come from a
-workspace, or from a recording of ROS 1 or ROS 2.
+ROS 2's own definitions are included in tftool. Further definitions come from a workspace, or from a
+recording of ROS 1 or ROS 2.
 """
 
 import re
@@ -68,7 +68,7 @@ class FieldDefinition:
 
     Attributes:
         name: Name of the field.
-        type: Type of the field or of its elements: a primitive, or a structure's full name.
+        type: Type of the field or of an array's elements: a primitive, or a structure's full name.
         size: None for a single value, a number for a fixed array, -1 for a sequence.
         bound: Maximum length of a bounded sequence; None without a bound.
         text_bound: Maximum number of characters of a bounded string; None without a bound.
@@ -113,7 +113,7 @@ def full_name(name: str) -> str:
 
 
 class Schema:
-    """Set of interface definitions by name, each parsed on first use.
+    """Set of interface definitions by name, each parsed when first requested.
 
     Definitions of a workspace's packages and of recordings can be added.
     """
@@ -123,7 +123,7 @@ class Schema:
         self._read: dict[str, Structure] = {}
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
-        """Add the interface definitions of a package, by (kind, name); replace older ones."""
+        """Add a package's interface definitions by (kind, name), replacing its earlier ones."""
         self._texts[package] = dict(texts)
         for full in [full for full in self._read if full.startswith(f"{package}/")]:
             del self._read[full]
@@ -137,7 +137,7 @@ class Schema:
                 each after a line of '=' and a line "MSG: package/Name".
 
         Returns:
-            Whether these definitions are used now. False if a structure with another definition was
+            Whether the definitions were added. False if another definition of a structure was
             parsed before, for example if two releases recorded into one file.
 
         Raises:
@@ -192,7 +192,7 @@ class Schema:
         """Return the parts of a service's or action's definition by name: "Request", "Goal", ….
 
         Raises:
-            InputError: If there is no such interface, or it has other parts.
+            InputError: If there is no such interface, or the definition has more or fewer parts.
         """
         full = f"{package}/{kind}/{name}"
         text = self.text(package, kind, name)
@@ -249,7 +249,7 @@ class Schema:
 
 
 def _of_action(folder: str, base: str, part: str) -> str | None:
-    """Return the definition of a type that ROS 2 derives from an action; None for others."""
+    """Return the definition of a type that ROS 2 derives from an action; else None."""
     action = base.rpartition("_")[0]
     if part == "FeedbackMessage":
         return f"{_GOAL_ID}{folder}{base}_Feedback feedback"
@@ -279,7 +279,7 @@ def _sections(full: str, text: str) -> dict[str, str]:
 
 
 def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Structure:
-    """Parse the definition of one structure; if recorded with ROS 1's types, by ROS 1's rules."""
+    """Parse the definition of one structure; a `recorded` one may use ROS 1's types."""
     fields: list[FieldDefinition] = []
     constants: list[tuple[str, str, str]] = []
     for raw in text.splitlines():
@@ -299,7 +299,7 @@ def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Str
 
 
 def _without_comment(line: str) -> str:
-    """Return a line of a definition without its comment; a '#' in quotes is kept."""
+    """Return a line of a definition without its comment; a '#' within quotes begins no comment."""
     quote = ""
     for at, char in enumerate(line):
         if quote:

@@ -47,13 +47,13 @@ _WORD: Final = {order: struct.Struct(f"{order}I") for order in "<>"}
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Names of one transform in a message, and the byte offsets of its numbers.
+    """Frame names of one transform in a message, and byte offsets of its stamp and numbers.
 
     Attributes:
         parent: Name of the parent, as sent.
         child: Name of the child, as sent.
-        stamp: Offset of the stamp, two words of 4 bytes.
-        numbers: Offset of the seven doubles.
+        stamp: Offset of the stamp: seconds and nanoseconds, 4 bytes each.
+        numbers: Offset of the seven doubles x y z and x y z w.
     """
 
     parent: str
@@ -68,7 +68,7 @@ class Walked:
 
     Attributes:
         order: Byte order of the message, in `struct`'s notation.
-        places: Byte positions of each transform.
+        places: Frame names and byte offsets of each transform.
         fixed: Ranges (begin, end) of the bytes that are equal in all messages with the same frames.
     """
 
@@ -153,7 +153,7 @@ def _byte_order(payload: bytes) -> str:
 
 
 def row_span(layout: Layout, length: int) -> tuple[int, int]:
-    """Return the offset and the width of the row, in whole words, that contains a message.
+    """Return offset and width of the row of 64-bit words that contains a message.
 
     Returns:
         Offset of the row from the first byte of the message, and its width in bytes. A row begins
@@ -185,7 +185,7 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
 
 
 def _items(rows: npt.NDArray[Any], begin: int, size: int) -> npt.NDArray[np.void]:
-    """Return a view of a byte range of every row, with one large item per row."""
+    """Return a view of one byte range of every row, with one item of `size` bytes per row."""
     return np.ndarray(
         (len(rows),), f"V{size}", buffer=rows.data, offset=begin, strides=rows.strides[:1]
     )
@@ -195,13 +195,13 @@ class Template:
     """Common bytes of all messages with the same layout, length and frames.
 
     Attributes:
-        places: Byte positions of each transform.
+        places: Frame names and byte offsets of each transform.
     """
 
     __slots__ = ("_begin", "_masks", "_values", "_words", "places")
 
     def __init__(self, layout: Layout, payload: bytes, walked: Walked) -> None:
-        """Make the template of a little-endian message that was parsed."""
+        """Create the template from one little-endian message, whose offsets `walk` found."""
         self.places = walked.places
         begin, width = row_span(layout, len(payload))
         self._begin = begin
@@ -217,7 +217,7 @@ class Template:
         self._values = row.view(np.uint64)[self._words]
 
     def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
-        """Return the mask of the rows with the template's frames, shape (n,); None if all match."""
+        """Return a mask of the rows with this template's frames, shape (n,); None if all match."""
         # This copy is changed in place. Rows with bits that are set after masking do not match.
         apart = rows.take(self._words, axis=1)
         apart ^= self._values
@@ -228,7 +228,7 @@ class Template:
         return found
 
     def cut(self, rows: Words, place: Place, records: Records) -> None:
-        """Copy one transform of each row into records, an array of shape (n, 8)."""
+        """Copy the transform at `place` from each row into `records`, an array of shape (n, 8)."""
         if not len(rows):
             return
         _items(records, 8, 56)[:] = _items(rows, place.numbers - self._begin, 56)
@@ -260,7 +260,7 @@ class TransformRow(NamedTuple):
 
 
 class TransformRows:
-    """A parsed TFMessage that can be written again with other transforms.
+    """A parsed TFMessage that can be serialised again with other transforms.
 
     Attributes:
         payload: Bytes of the message.
@@ -291,7 +291,7 @@ class TransformRows:
     def rewritten(self, rows: Sequence[TransformRow]) -> bytes:
         """Return the bytes of the message with other transforms.
 
-        If only stamps and numbers differ, everything else is kept bit by bit.
+        If only stamps and numbers differ, all other bytes stay unchanged.
 
         Raises:
             MalformedMessage: If a stamp does not fit into ROS's seconds.

@@ -146,7 +146,7 @@ class TransformColumns:
 
 
 def decode_columns(payload: bytes) -> TransformColumns:
-    """Return the transforms of a large tf2_msgs/TFMessage as arrays, one row each.
+    """Return the transforms of a large tf2_msgs/TFMessage as arrays with a row per transform.
 
     Raises:
         MalformedMessage: If the bytes are not a TFMessage.
@@ -185,7 +185,7 @@ def decode_columns(payload: bytes) -> TransformColumns:
 
 
 def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[str]) -> int:
-    """Append the name at a word offset to `names`; return the offset after the name."""
+    """Append the name at an offset in words of 4 bytes to `names`; return the offset after it."""
     length = words[word]
     begin = word * 4 + 4
     if length > len(payload) - begin:
@@ -197,7 +197,7 @@ def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[
 
 
 def _head(key: tuple[str, str, int]) -> bytes:
-    """Return the bytes of a transform's two names with lengths, padded to the first double."""
+    """Return the bytes of two frame names with lengths, padded up to the first double."""
     parent, child, phase = key
     head = _text(parent)
     head += bytes(-len(head) % 4) + _text(child)

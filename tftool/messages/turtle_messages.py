@@ -1,4 +1,4 @@
-"""Message classes that turtle nodes use, and functions that create their messages.
+"""Message classes of the turtle nodes, and functions that create messages of these classes.
 
 tftool's nodes exchange the same messages as users' nodes and other processes. Each turtle sends
 poses 62 times a second, so messages are created without checks: the reader or
@@ -32,7 +32,7 @@ _Time: Final[Any] = INTERFACES.message("builtin_interfaces/msg/Time")
 
 
 def twist(linear_x: float = 0.0, angular_z: float = 0.0, linear_y: float = 0.0) -> Any:
-    """Return the Twist message of a planar velocity: m/s forward, rad/s, m/s to the left."""
+    """Return a Twist message of a planar velocity: m/s forward, rad/s of turn, m/s to the left."""
     # Assignments instead of `build` are seven times as fast, for a message at every update.
     linear, angular, message = _new(_Vector3), _new(_Vector3), _new(Twist)
     linear._x, linear._y, linear._z = linear_x, linear_y, 0.0
