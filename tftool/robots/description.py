@@ -68,7 +68,7 @@ class Surface:
 
     Attributes:
         name: Name of the material; may be empty.
-        color: Red, green, blue and opacity from 0 to 1; None if not given.
+        color: Red, green, blue and opacity from 0 to 1; None if the description has no colour.
         texture: File name of the picture on the surface; empty if there is none.
     """
 
@@ -85,7 +85,7 @@ class LinkShape:
         name: Name of the shape; often empty.
         origin: Pose of the shape in the link.
         geometry: The shape.
-        material: Colour and texture; None for collisions, or if not given.
+        material: Colour and texture; None for a collision shape, or if the description has none.
     """
 
     name: str
@@ -102,7 +102,7 @@ class RobotLink:
         name: Name of the link and of its frame.
         visuals: Shapes to draw.
         collisions: Collision shapes.
-        mass: Mass in kilograms; None if not given.
+        mass: Mass in kilograms; None if the description has no mass.
     """
 
     name: str
@@ -113,7 +113,7 @@ class RobotLink:
 
 @dataclass(frozen=True, slots=True)
 class JointLimit:
-    """Limits of a joint's position and speed; radians or metres, and per second.
+    """Limits of a joint: positions in radians or metres, speed in radians or metres per second.
 
     Attributes:
         lower: Smallest position.
@@ -130,7 +130,7 @@ class JointLimit:
 
 @dataclass(frozen=True, slots=True)
 class JointMimic:
-    """Rule that a joint follows a leader: position = multiplier · leader's position + offset."""
+    """Rule that a joint's position is multiplier · position of `joint` + offset."""
 
     joint: str
     multiplier: float = 1.0
@@ -148,8 +148,8 @@ class RobotJoint:
         child: The child link.
         origin: The child's pose in the parent at position zero.
         axis: Unit vector in the joint's frame; the joint turns about it or slides along it.
-        limit: Limits of position and speed; None if not given.
-        mimic: Rule by which the joint follows another joint; None if the joint follows none.
+        limit: Limits of position and speed; None if the description has none.
+        mimic: Rule by which the joint follows another joint; None for an independent joint.
     """
 
     name: str
@@ -163,12 +163,12 @@ class RobotJoint:
 
     @property
     def moves(self) -> bool:
-        """Whether the joint has one position value: it is revolute, continuous or prismatic."""
+        """Whether the joint has a position, that is, is revolute, continuous or prismatic."""
         return self.type in ("revolute", "continuous", "prismatic")
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """Minimum and maximum position, radians or metres; None without limits (a wheel)."""
+        """Minimum and maximum position, radians or metres; None without limits, as of a wheel."""
         if self.limit is None or self.type not in LIMITED_TYPES:
             return None
         return self.limit.lower, self.limit.upper

@@ -24,8 +24,8 @@ class Mesh(NamedTuple):
     """Triangles of one colour in a mesh file.
 
     Attributes:
-        points: Corners, metres, shape (n, 3).
-        triangles: Three indices of corners each, shape (m, 3).
+        points: Coordinates of the corners, metres, shape (n, 3).
+        triangles: Indices in `points` of the three corners of each triangle, shape (m, 3).
         color: Red, green and blue from 0 to 1; None if the file has no colour.
     """
 

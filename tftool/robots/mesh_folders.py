@@ -1,8 +1,8 @@
-"""Search for a robot's mesh files, limited to known folders, for the browser's page.
+"""Search for the mesh files of a robot, which the 3-D view in the browser requests.
 
-File names in a description are untrusted. Only meshes and textures inside known folders
-are served: never an absolute path, `file://`, or a file outside that `..` or a symbolic link
-reaches.
+File names in a description are untrusted. Only meshes and textures inside the folders of
+`MeshFolders` are served. Absolute paths and `file://` are refused, and so are paths that leave
+these folders by `..` or a symbolic link.
 """
 
 import os
@@ -55,17 +55,17 @@ class MeshRefused(Exception):
 
 @dataclass(frozen=True, slots=True)
 class ServedFile:
-    """Bytes of a file for the browser's page, with the media type."""
+    """Media type and bytes of a file that the 3-D view in the browser requested."""
 
     kind: str
     content: bytes
 
 
 class MeshFolders:
-    """Folders from which meshes are served to the browser's page.
+    """Folders from which meshes are served to the 3-D view in the browser.
 
     Attributes:
-        roots: Folders with served files; a file's address is `/mesh/<index of its folder>/<path>`.
+        roots: Folders with served files; a file's address is `/mesh/<index of the folder>/<path>`.
     """
 
     def __init__(self, description: Path | None = None, given: Sequence[Path] = ()) -> None:
@@ -74,7 +74,7 @@ class MeshFolders:
         Args:
             description: File of the robot's description, if any: its package and the packages
                 beside it are searched.
-            given: Folders with packages, or packages themselves.
+            given: Folders that contain ROS packages, or are packages themselves.
         """
         self.roots: list[Path] = []
         self._given = [folder.resolve() for folder in given]
@@ -82,7 +82,7 @@ class MeshFolders:
         self._packages: dict[str, Path | None] = {}
 
     def address(self, name: str) -> str:
-        """Return the address from which the browser's page requests a mesh or texture.
+        """Return the address at which the browser finds a mesh or texture.
 
         Args:
             name: File name in the description: `package://…`, or a relative path.
@@ -98,7 +98,7 @@ class MeshFolders:
         return f"/mesh/{self.roots.index(root)}/{shown}"
 
     def read(self, address: str) -> ServedFile:
-        """Return the file at an address; a mesh may also refer to files by relative addresses.
+        """Return the file at an address that `address` returned, or relative to such an address.
 
         Raises:
             MeshRefused: If there is no such file, or it may not be served.
@@ -116,7 +116,7 @@ class MeshFolders:
             raise MeshRefused(f"'{path.name}' cannot be read: {error.strerror}.") from error
 
     def _place(self, name: str) -> tuple[Path, str]:
-        """Return the folder of a mesh named in the description, and the path within that folder."""
+        """Return the folder of a mesh that the description names, and the path in this folder."""
         match = _PACKAGE.fullmatch(name)
         if match:
             package = self._package(match[1])
@@ -154,10 +154,10 @@ class MeshFolders:
         return [*([] if self._beside is None else [self._beside]), *self._given]
 
     def _inside(self, root: Path, name: str) -> Path:
-        """Return the path of a file below a folder, checked to be inside the folder.
+        """Return the path of a file relative to `root`, after a check that it is in that folder.
 
         Raises:
-            MeshRefused: If the path leads outside, or is not a file of a known kind.
+            MeshRefused: If the path leads out of the folder, or is not a mesh or texture.
         """
         if "\0" in name or "\\" in name:
             raise MeshRefused("a name of a mesh has an invalid character")
@@ -200,7 +200,7 @@ class MeshFolders:
                 yield Path(entry) / inside / name
 
     def _around(self) -> list[Path]:
-        """Return the packages that contain the description, the nearest first."""
+        """Return the ROS packages whose folders contain the description, the innermost first."""
         if self._beside is None:
             return []
         above = [self._beside, *self._beside.parents][:6]
@@ -208,7 +208,7 @@ class MeshFolders:
 
 
 def package_name(folder: Path) -> str:
-    """Return the package's name in a folder's package.xml; empty if there is none."""
+    """Return the package name in the package.xml of a folder; "" without such a file or name."""
     try:
         raw = (folder / "package.xml").read_bytes()
         if len(raw) > 1 << 20 or b"<!DOCTYPE" in raw or b"<!ENTITY" in raw:
@@ -219,7 +219,7 @@ def package_name(folder: Path) -> str:
 
 
 def packages_around(file: Path, name: str) -> Iterator[Path]:
-    """Yield folders of a package in the workspace of a file, the nearest first.
+    """Yield folders that may be the package `name`, in the workspace that contains a file.
 
     The search goes up from the file's package to the workspace's src, at most `UPWARDS` folders.
     """
@@ -239,7 +239,7 @@ def packages_around(file: Path, name: str) -> Iterator[Path]:
 
 
 def _below(folder: Path, name: str) -> Iterator[Path]:
-    """Yield folders of a package below a folder, the nearest first."""
+    """Yield folders below `folder` that may be the package `name`, the least deep first."""
     level: Iterable[Path] = [folder]
     seen = 0
     for _ in range(DEEPEST):

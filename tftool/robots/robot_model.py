@@ -1,4 +1,4 @@
-"""Robot that computes the poses of its links from joint positions, like robot_state_publisher."""
+"""Poses of a robot's links from joint positions, computed like robot_state_publisher does."""
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -80,10 +80,10 @@ class JointColumns:
 class Robot:
     """A robot description that computes the poses of its links.
 
-    A joint without a position is at zero if its limits allow that, else in their middle, as in
-    joint_state_publisher. A mimic joint follows its leader, also through other mimic joints,
-    unless it has its own position. A planar joint stays at its origin; a floating joint has no
-    frame, as in robot_state_publisher.
+    A joint without a given position is at zero if its limits allow zero, else in the middle of its
+    limits, as in joint_state_publisher. A mimic joint without a given position follows the joint
+    that it mimics. A planar joint stays at its origin. The child of a floating joint gets no pose,
+    as in robot_state_publisher.
     """
 
     def __init__(self, description: RobotDescription) -> None:
@@ -145,10 +145,10 @@ class Robot:
     def transforms(
         self, given: Mapping[str, float] | None = None, stamp: Stamp = 0
     ) -> tuple[TransformStamped, ...]:
-        """Return every link's pose in its parent, in the order of the description's joints.
+        """Return each link's pose in its parent link, in the order of the description's joints.
 
         Args:
-            given: Positions by joint, see `positions`.
+            given: Positions by joint; see `positions`.
             stamp: Stamp, nanoseconds.
 
         Raises:
@@ -172,16 +172,15 @@ class Robot:
         return self._above[link]
 
     def takes(self, name: str) -> bool:
-        """Whether a name belongs to a movable joint of the robot."""
+        """Whether the robot has a movable joint with this name."""
         joint = self.joints.get(name)
         return joint is not None and joint.moves
 
     def moved(self, given: Mapping[str, float], stamp: Stamp = 0) -> tuple[TransformStamped, ...]:
-        """Return the poses, in their parents, of the links that one joint state moves.
+        """Return the poses of the links that a joint state moves, each pose in the link's parent.
 
-        As in robot_state_publisher, names of other things than movable joints are ignored, and so
-        are positions that are not finite. A mimic joint follows its leader unless it has its own
-        position.
+        As in robot_state_publisher, unknown names, fixed joints and positions that are not finite
+        are ignored. A mimic joint without a position in `given` follows the joint that it mimics.
 
         Args:
             given: Positions by joint.
@@ -203,9 +202,9 @@ class Robot:
         return tuple(poses)
 
     def batch(self, names: Sequence[str], positions: npt.ArrayLike) -> tuple[JointColumns, ...]:
-        """Return the poses of all joints that the given joints move, for many joint states.
+        """Return the poses of the children of moved joints, for many joint states.
 
-        As in robot_state_publisher, joints that mimic a given joint are included.
+        As in robot_state_publisher, joints that mimic one of the joints `names` are included.
 
         Args:
             names: Names of the joints, in the order of the columns.
@@ -231,11 +230,11 @@ class Robot:
     def motion(
         self, states: JointStates, wanted: Callable[[RobotJoint], bool] | None = None
     ) -> Iterator[tuple[RobotJoint, Records]]:
-        """Yield the poses of moved joints for many joint states, as samples in a buffer's layout.
+        """Yield the poses of moved joints' children over time, in the memory layout of a buffer.
 
-        As in robot_state_publisher, names of other things than movable joints are ignored, and a
-        mimic joint follows its leader unless it has its own position. A position that is not finite
-        leaves a gap in the samples.
+        As in robot_state_publisher, unknown names and fixed joints are ignored, and a mimic joint
+        without positions follows the joint that it mimics. A position that is not finite gives no
+        sample.
 
         Args:
             states: Positions over time.
@@ -263,7 +262,7 @@ class Robot:
             yield joint, records
 
     def _moved(self, names: Sequence[str], columns: Floats) -> Iterator[tuple[RobotJoint, Floats]]:
-        """Yield every joint that the given joints move, with its positions, shape (n,)."""
+        """Yield the joints in `names` and the joints that mimic these, each with its positions."""
         given = {name: columns[:, place] for place, name in enumerate(names)}
         chosen = frozenset(given)
         for joint in self.joints.values():
@@ -280,9 +279,9 @@ class Robot:
         """Return a buffer with the frames of all links.
 
         Args:
-            given: Positions by joint (see `positions`) or None, for static links only. With joint
-                states, the moved links have samples at the states' stamps, and the links of other
-                movable joints have no samples.
+            given: Positions by joint (see `positions`), or None: all poses are then static. With
+                joint states, moved links have samples at the stamps of the states, and links of
+                other movable joints have no samples.
 
         Raises:
             UsageError: See `positions`.
@@ -303,23 +302,23 @@ class Robot:
         return buffer
 
     def leader(self, name: str, given: Collection[str] = ()) -> str:
-        """Return the name of the joint that determines a joint's position: its leader, or itself.
+        """Return the name of the joint that a joint mimics in the end, or its own name if none.
 
         Args:
             name: The joint.
-            given: Joints with their own positions, which do not follow a leader.
+            given: Joints with a given position, which therefore do not mimic another joint.
         """
         return self._leader(self.joints[name], frozenset(given))[0].name
 
     def drive(self, name: str) -> tuple[str, float, float]:
-        """Return the joint that determines a joint's position, with a factor and an offset.
+        """Return the joint that a joint mimics in the end, with a factor and an offset.
 
         Args:
             name: The joint.
 
         Returns:
-            Name of the determining joint, factor and offset: the position of `name` is the position
-            of that joint times the factor, plus the offset.
+            Name of the mimicked joint (`name` itself if none), factor and offset: the position of
+            `name` is the position of that joint times the factor, plus the offset.
         """
         leader, factor, offset = self._leader(self.joints[name], frozenset())
         return leader.name, factor, offset
@@ -337,7 +336,7 @@ class Robot:
             raise UsageError(f"joint '{name}' is {joint.type}: it has no position")
 
     def _leader(self, joint: RobotJoint, given: frozenset[str]) -> tuple[RobotJoint, float, float]:
-        """Return the joint that determines a joint's position, with factor and offset."""
+        """Return the joint that `joint` mimics in the end, with factor and offset; see `drive`."""
         factor, offset = 1.0, 0.0
         leader, seen = joint, {joint.name}
         while leader.name not in given and leader.mimic is not None:
@@ -371,7 +370,7 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
 
 
 def set_still(buffer: Buffer, joint: RobotJoint, position: float = 0.0, prefix: str = "") -> None:
-    """Insert the child of a joint into a buffer as a static link; the sender names the joint."""
+    """Insert a joint's child as a static transform; `joint_in_words` gives the sender's name."""
     parent, child = prefix + joint.parent, prefix + joint.child
     pose = TransformStamped(0, parent, child, _pose(joint, position))
     buffer.set_transform_static(pose, joint_in_words(joint, position))
@@ -392,7 +391,7 @@ def _rest(joint: RobotJoint) -> float:
 
 
 def _pose(joint: RobotJoint, position: float) -> Transform:
-    """Return the pose of a joint's child in its parent, at a position."""
+    """Return the pose of a joint's child link in its parent link, at a position of the joint."""
     if joint.type in ("revolute", "continuous"):
         return joint.origin @ Transform(rotation=quaternion_from_axis_angle(joint.axis, position))
     if joint.type == "prismatic":

@@ -1,6 +1,6 @@
-"""Reader of the static transforms in launch files and scripts, which does not run them.
+"""Reader of static transforms from launch files and shell scripts, without running these files.
 
-A launch file in Python is read as text: computed values are unknown, and are reported.
+A launch file in Python is parsed, not executed, so computed values are unknown and reported.
 """
 
 import ast
@@ -29,11 +29,11 @@ _EXECUTABLES: Final = ("exec", "executable", "node_executable", "type")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StaticFrames:
-    """Static transforms that a launch file or script publishes, as a source of frames.
+    """Static transforms that a launch file or a shell script publishes.
 
     Attributes:
         name: The file, as it was given.
-        links: Published links, in the order of the file.
+        links: Published transforms, in the order of the file.
         notes: Sentences about parts that cannot be read.
         start: Always 0, because static transforms are valid at all times.
         end: Always 0, like `start`.
@@ -47,7 +47,7 @@ class StaticFrames:
 
     @property
     def buffer(self) -> Buffer:
-        """Return a buffer with all links; if a child has several links, the last one is used."""
+        """Return a buffer with all transforms; of several transforms of a child, the last."""
         found = Buffer(NO_LIMIT)
         for one in self.links:
             sample = TransformStamped(0, one.parent, one.child, one.transform)
@@ -55,14 +55,14 @@ class StaticFrames:
         return found
 
     def close(self) -> None:
-        """Do nothing: no file is open."""
+        """Do nothing, because no file is open."""
 
 
 def load_statics(path: Path, name: str | None = None) -> StaticFrames:
     """Read the static transforms that a launch file or script publishes.
 
     Raises:
-        InputError: If the file cannot be read, or publishes no static transform.
+        InputError: If the file cannot be read, or contains no static transform that can be read.
     """
     name = name or str(path)
     links, mistakes, computed = read_statics(path, name)
@@ -78,7 +78,7 @@ Remark = tuple[int, str]
 
 
 def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Remark], list[Remark]]:
-    """Return a file's static transforms, its mistakes, and the parts that only a run can show.
+    """Return a file's static transforms, remarks on mistakes, and remarks on computed values.
 
     Raises:
         InputError: If the file cannot be read.

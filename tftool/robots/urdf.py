@@ -1,9 +1,9 @@
-"""Parser of robot descriptions in URDF, which finds all mistakes with their positions.
+"""Parser of robot descriptions in URDF, which reports all mistakes with line and column.
 
 The rules are those of `urdfdom`, ROS's own reader: namespaces and unknown elements are ignored; a
-missing origin is zero, a missing axis is x; rpy rotates about fixed axes. In addition, this parser
-refuses a document type (it could expand without bound), numbers that are not finite, and an axis of
-length zero on a movable joint.
+missing origin is zero, a missing axis is the x axis; rpy rotates about fixed axes. In addition,
+this parser refuses a document type (it could expand without bound), numbers that are not finite,
+and an axis of length zero on a movable joint.
 """
 
 import contextlib
@@ -51,13 +51,13 @@ _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
 def load_description(
     path: str | Path, arguments: Mapping[str, str] | None = None, *, plain: bool = False
 ) -> RobotDescription:
-    """Read a URDF file; in a file named .xacro, xacro is expanded first.
+    """Read a URDF file; if its name ends in .xacro, expand xacro first.
 
     Args:
         path: The file.
         arguments: Values of xacro arguments by name. A xacro file can
             evaluate Python expressions: do not expand files from strangers.
-        plain: Whether to refuse a file that contains xacro.
+        plain: Whether to raise an error for a file that contains xacro, instead of expanding it.
 
     Raises:
         InputError: If the file cannot be read, or contains xacro and is not named .xacro.
@@ -86,7 +86,7 @@ def load_description(
 
 
 def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -> str:
-    """Return the text of a description with its xacro expanded; without xacro, unchanged.
+    """Return the text of a description after expansion of xacro; text without xacro is unchanged.
 
     Raises:
         InputError: If the file cannot be read or expanded.
@@ -99,8 +99,8 @@ def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -
 def is_xacro(text: str) -> bool:
     """Whether a description contains xacro that must be expanded.
 
-    An expanded file may still declare xacro's namespace. A file to expand has elements of that
-    namespace, or an attribute with `${…}` or `$(…)`.
+    The namespace of xacro alone proves nothing, because expanded files keep its declaration. So the
+    file must have elements of that namespace, or an attribute with `${…}` or `$(…)`.
     """
     parser = expat.ParserCreate("utf-8")
     found = False
@@ -121,9 +121,9 @@ def is_xacro(text: str) -> bool:
 
 
 def _without_declaration(text: str) -> str:
-    """Return a text with its XML declaration blanked out: its encoding is not valid any more.
+    """Return a text with blanks in place of its XML declaration, which names an outdated encoding.
 
-    Like other readers, this accepts a declaration after an empty line, or with a misspelt word.
+    Like other readers, accept a declaration after an empty line, or with a misspelt word.
     """
     found = _DECLARATION.match(text)
     if found is None:
@@ -132,7 +132,7 @@ def _without_declaration(text: str) -> str:
 
 
 class UnexpandedXacro(InputError):
-    """Error for a URDF that contains xacro elements; nothing in it is executed."""
+    """Error for a URDF that contains xacro elements, which tftool does not execute."""
 
 
 def parse_description(text: str, name: str = "robot_description") -> RobotDescription:
@@ -195,7 +195,7 @@ class _Element:
 
 
 class _Unreadable(Exception):
-    """Signal that a part of the description cannot be read; its mistake is already recorded."""
+    """Exception for an unreadable part of the description, whose mistake is already recorded."""
 
 
 class _Reader:
@@ -276,10 +276,10 @@ class _Reader:
 
     @contextlib.contextmanager
     def _left_out(self) -> Iterator[None]:
-        """Convert mistakes that do not affect frames to notes, within a `with` block.
+        """Convert mistakes found in a `with` block, which do not affect frames, to notes.
 
-        urdfdom continues after mistakes in a link's appearance or mass, so robots run with such
-        files.
+        ROS's reader continues after mistakes in a link's appearance or mass, so robots run with
+        such files.
         """
         before, self.mistakes = self.mistakes, []
         try:
@@ -292,7 +292,7 @@ class _Reader:
             self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
-        """Return the position of an element's attribute; if not found, that of the element."""
+        """Return line, column and width of an attribute, or else of the element's tag."""
         wanted = re.compile(rf"(?<![\w:]){re.escape(attribute)}\s*=\s*(\"[^\"]*\"|'[^']*')")
         column = element.column
         for line in range(element.line, min(element.line + 20, len(self.lines))):
@@ -619,7 +619,7 @@ class _Reader:
 
 
 class _Doctype(Exception):
-    """Signal of a document type in the XML, which could expand without bound."""
+    """Exception for a document type in the XML, whose entities could expand without bound."""
 
 
 def _refuse_doctype(*_declared: object) -> None:
@@ -631,7 +631,7 @@ def _end(joint: _Element, tag: str) -> _Element:
 
 
 def _loops(joint_above: Mapping[str, RobotJoint]) -> list[list[RobotJoint]]:
-    """Return the joints of every loop in the tree, each loop once."""
+    """Return the joints of every loop that the joints form, each loop once."""
     done: set[str] = set()
     loops = []
     for start in joint_above:

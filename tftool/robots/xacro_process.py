@@ -1,4 +1,4 @@
-"""Expansion of xacro in a separate process, because xacro can run Python code that never ends.
+"""Expansion of xacro in a separate process, because a xacro file can run endless Python code.
 
 The process gets the path and the arguments on its command line, and prints one JSON object.
 """
@@ -115,10 +115,10 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
 
 
 def _as_installed(package: Path) -> Path:
-    """Return a package's folder as installed: with the nested folders that CMake would install.
+    """Return a folder like the share folder of a package after its installation by CMake.
 
     `install(DIRECTORY description/urdf DESTINATION share/…)` copies urdf/ beside package.xml. A
-    temporary folder of links reproduces this; without such lines the source folder is returned.
+    temporary folder with symbolic links reproduces this. Without such lines, return `package`.
     """
     try:
         text = (package / "CMakeLists.txt").read_text(encoding="utf-8", errors="replace")
