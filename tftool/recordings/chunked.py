@@ -1,4 +1,4 @@
-"""Base classes to read and write files whose messages are packed in chunks: MCAP and ROS 1."""
+"""Base classes of readers and writers of MCAP files and ROS 1 bags, which consist of chunks."""
 
 import io
 import itertools
@@ -33,7 +33,7 @@ from tftool.recordings.decompression import Ahead, Packed, compressor, unpack, u
 FAULTS: Final = (InputError, struct.error, KeyError)
 """Exceptions that damaged records raise."""
 
-_MOST_NOTED: Final = 20
+_MOST_NOTED: Final = 20  # sentences about damage: a hostile file may be damaged everywhere
 _LARGE_PIECE: Final = (
     1 << 16
 )  # bytes; joining larger pieces costs more than writing them separately
@@ -43,7 +43,7 @@ NOTHING_YET: Final = 2**64 - 1
 
 
 def reason_of(error: Exception) -> str:
-    """Return why a record cannot be read, as part of a sentence."""
+    """Return the reason why a record cannot be read, as a part of a sentence."""
     if isinstance(error, KeyError):
         return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
     return "a record is cut" if isinstance(error, struct.error) else str(error)
@@ -64,8 +64,9 @@ class WalkedMessages:
         return len(self.starts)
 
     def append(self, channel: int, log_time: int, start: int, length: int) -> None:
-        """Append a message: channel, log time, offset and length of its payload."""
+        """Append a message: channel, log time, and offset and length of the payload."""
         self.channels.append(channel)
+        # MCAP's times are unsigned, and may be larger than any stamp.
         self.log_times.append(min(log_time, LAST_STAMP))
         self.starts.append(start)
         self.lengths.append(length)
@@ -83,25 +84,25 @@ class WalkedMessages:
 
 @dataclass(slots=True, eq=False)
 class Chunk:
-    """One chunk of a file, with the facts in the file's index; see `Block`.
+    """One chunk of a file, described by the file's index or the chunk's header; see `Block`.
 
     Attributes:
         reader: Reader of the file.
         position: Offset of the chunk's record.
-        place: Offset of the compressed data; 0 while unknown.
+        place: Offset of the compressed data; 0 before the header of the chunk was read.
         packed: Size of the compressed data, bytes.
         size: Size of the uncompressed data, bytes.
-        method: Compression.
+        method: Name of the compression; "" or "none" for uncompressed data.
         start: Log time of the first message.
         end: Log time of the last message.
         crc: CRC of the uncompressed data; 0 for none.
         cut: Whether the file ends within the chunk.
         length: Size of the chunk's record, bytes.
-        behind: Offset of the record after the chunk's message indexes.
+        behind: Offset of the first record after the chunk and its message indexes.
         indexes: Offset of each channel's message index, in MCAP.
-        counts: Number of messages of each channel, from the indexes; None if unknown.
+        counts: Number of messages of each channel, from the indexes; None if there are no indexes.
         whole: Whether the chunk may be copied unchanged.
-        walked: Messages found by reading the chunk's records, if there is no index.
+        walked: Messages found by reading all records of the chunk; None if there is an index.
     """
 
     reader: "ChunkedReader"
@@ -129,7 +130,7 @@ class Chunk:
 
     @property
     def owners(self) -> Collection[int]:
-        """Return the numbers of the channels with messages in the chunk, from its indexes."""
+        """Return the numbers of the channels with messages in the chunk, as its indexes say."""
         return self.indexes.keys() or (self.counts or {}).keys()
 
     def raw(self) -> Piece:
@@ -137,7 +138,8 @@ class Chunk:
         return Piece(self.reader.fileno(), self.position, self.behind - self.position)
 
     def table(self) -> MessageTable:
-        """Return the chunk's messages; from a damaged chunk, the messages before the damage."""
+        """Return the messages in the chunk; of a damaged chunk, those before the damage."""
+        # The index of a damaged chunk may point into the damage, so its records are read in order.
         by_index = self.whole and self.counts and self.sound()
         found = self.reader.indexed_table(self) if by_index else None
         return self.reader.walked_table(self) if found is None else found
@@ -159,12 +161,12 @@ class Chunk:
 
 
 class ChunkedReader(File):
-    """Base class of readers of files in chunks; see `ContainerReader`.
+    """Base class of readers of files with chunks; see `ContainerReader`.
 
     Attributes:
-        damage: Sentences about damage, each once, limited in number.
+        damage: Sentences about damage of the file, at most `_MOST_NOTED` different ones.
         is_indexed: Whether the file has an index.
-        schemas: Name, encoding and definition of each message type, by number, in MCAP.
+        schemas: Name, encoding and definition of each message type, by its number in an MCAP file.
     """
 
     kind = ""
@@ -172,10 +174,10 @@ class ChunkedReader(File):
     magic = b""
 
     def __init__(self, path: Path, style: dict[str, Any]) -> None:
-        """Open the file, and check that it is of this format.
+        """Open the file, and check its first bytes.
 
         Raises:
-            InputError: If the file is another container.
+            InputError: If the file does not begin with the magic bytes of this format.
             OSError: If the file cannot be opened.
         """
         super().__init__(path)
@@ -201,12 +203,12 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Add a sentence about the file's damage to `damage`, which has each sentence once."""
+        """Add a sentence about damage of the file to `damage`, unless it is there already."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 
     def note_chunk(self, chunk: Chunk, reason: str) -> None:
-        """Note a chunk's first damage, which causes any later damage in the chunk."""
+        """Report the first damage of a chunk; further damage usually follows from the first."""
         chunk.whole = False
         if chunk not in self._damaged:
             self._damaged.add(chunk)
@@ -215,7 +217,9 @@ class ChunkedReader(File):
     # Channels
 
     def _learn(self, number: int, channel: Channel) -> None:
-        """Register the channel of a record, unless its number is known already."""
+        """Register a channel; after `MOST_STREAMS` channels, messages of further ones are not
+        read.
+        """
         self.channels[number] = channel
         if len(self.streams) < MOST_STREAMS:
             self._numbers[number] = len(self.streams)
@@ -233,25 +237,26 @@ class ChunkedReader(File):
                 self.counts[self._numbers[channel]] += count
 
     def _scan(self, chunks: Iterator[Chunk]) -> None:
-        """Find the channels and chunks of a file without an index, up to its end or damage.
+        """Collect the channels and chunks of a file without an index, up to its end or damage.
 
-        A chunk's records are read only if its indexes are incomplete: they may describe channels.
+        A chunk's records are read only if it has no indexes, or these name undescribed channels.
 
         Raises:
             InputError: If nothing of the file can be read.
         """
         for chunk in chunks:
             self._chunks.append(chunk)
+            # Records inside a chunk may be the only description of its channels.
             if chunk.counts is None or not chunk.counts.keys() <= self.channels.keys():
                 self._walk(chunk, learns=True)
             else:
                 self._count(chunk.counts)
 
     def _note_end(self, position: int) -> None:
-        """Note the offset at which a file that is read sequentially is cut off.
+        """Report the offset at which the file is cut off or damaged.
 
         Raises:
-            InputError: If nothing was found before this offset.
+            InputError: If there is no message and no channel before this offset.
         """
         found = sum(self.counts)
         self.damage.append(
@@ -264,29 +269,29 @@ class ChunkedReader(File):
             )
 
     def origin(self, number: int) -> Any:
-        """Return a channel's description in the file, for `adopt` of the writer of this format."""
+        """Return a channel's description as stored in the file, for `adopt` of a writer."""
         raise NotImplementedError
 
     # A chunk's messages
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """Yield the headers of all messages in some records.
+        """Yield the headers of the messages among the records of a chunk.
 
         Args:
             data: Bytes of the records.
-            learns: Whether to register channels that the records describe.
+            learns: Whether to register channels that records of the chunk describe.
 
         Raises:
-            InputError: If a record is damaged; the other errors of `FAULTS` are possible too.
+            InputError: If a record is damaged. All exceptions in `FAULTS` are possible.
         """
         raise NotImplementedError
 
     def unpacked(self, chunk: Chunk, ahead: Ahead | None = None) -> "bytes | memoryview":
-        """Decompress a chunk; return as many bytes as possible if it is cut or damaged.
+        """Decompress a chunk; if the chunk is cut off or damaged, return as many bytes as possible.
 
         Args:
             chunk: The chunk.
-            ahead: Pool of threads that may be decompressing the chunk already.
+            ahead: Pool of threads that may have decompressed the chunk already.
 
         Raises:
             InputError: If not even the compressed bytes can be read.
@@ -301,6 +306,8 @@ class ChunkedReader(File):
                 return unpack_beginning(chunk.method, data, chunk.size)
             return unpack(chunk.method, data, chunk.size)
         except InputError as error:
+            # Read the bytes again, because a thread may have read them before: decompress what
+            # precedes the damage.
             data = self.at(chunk.place, chunk.packed)
             self.note_chunk(chunk, str(error))
             return unpack_beginning(chunk.method, data, chunk.size)
@@ -319,7 +326,7 @@ class ChunkedReader(File):
         return data
 
     def check_crc(self, chunk: Chunk, crc: int) -> None:
-        """Compare the CRC of a chunk's data with that in the file; note a difference."""
+        """Compare a chunk's computed CRC with that in the file; report a difference as damage."""
         if crc != chunk.crc:
             self.note(
                 f"The CRC of the chunk at byte {chunk.position} is wrong: its messages are "
@@ -328,7 +335,7 @@ class ChunkedReader(File):
             chunk.whole = False
 
     def walked_table(self, chunk: Chunk) -> MessageTable:
-        """Return the messages in a chunk's records; register the channels they describe."""
+        """Read all records of a chunk; return the messages, and register described channels."""
         heads: list[MessageHead] = []
         data = self.examined(chunk)
         if data is None:
@@ -348,17 +355,19 @@ class ChunkedReader(File):
         return found
 
     def indexed_table(self, chunk: Chunk) -> MessageTable | None:
-        """Return an undamaged chunk's messages as columns; None if its indexes are incomplete."""
+        """Return the messages that a chunk's indexes list; None if an index is incomplete."""
         data = np.frombuffer(self.unpacked(chunk), dtype=np.uint8)
         try:
             parts = list(self._parts(chunk, data))
             owners = [np.full(len(begins), channel) for channel, begins, _, _ in parts]
             columns = zip(*(part[1:] for part in parts), strict=True)
             channels, begins, starts, lengths = map(np.concatenate, (owners, *columns))
+            # Each channel has its own index: merge the channels in the order of the file.
             order = np.argsort(starts, kind="stable")
             starts, lengths, begins = starts[order], lengths[order], begins[order]
             ends = np.concatenate([[0], starts + lengths])
             begins = np.append(begins, len(data))
+            # Records that overlap: an index is wrong.
             if (begins < ends).any():
                 return None
             for gap in np.flatnonzero(begins > ends).tolist():
@@ -373,23 +382,23 @@ class ChunkedReader(File):
             return None
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Yield the places of messages in a chunk, from the chunk's indexes.
+        """Yield the offsets of the messages in a chunk, as its indexes give them.
 
         Returns:
-            For each channel its number, and for each message the offsets of the record and of the
-            payload, and the payload's length, shape (n,).
+            For each channel its number, and for its messages the offsets of records, the offsets of
+            payloads, and the lengths of payloads, each of shape (n,).
 
         Raises:
-            InputError: If the index does not point to messages; other `FAULTS` are possible too.
+            InputError: If an index does not point to messages; other `FAULTS` are possible.
         """
         raise NotImplementedError
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, publish times and sequence numbers, by payload offsets."""
+        """Return log times, publish times and sequence numbers of messages with these payloads."""
         raise NotImplementedError
 
     def known(self, messages: MessageTable) -> MessageTable:
-        """Return the messages whose channel is known; note others as damage."""
+        """Return the messages whose channel the file describes; report others as damage."""
         is_known = np.isin(messages.channels, list(self.channels))
         if is_known.all():
             return messages
@@ -397,12 +406,12 @@ class ChunkedReader(File):
         return messages.chosen(np.flatnonzero(is_known))
 
     def _walk(self, chunk: Chunk, *, learns: bool) -> None:
-        """Read a chunk's records one by one; store the messages in `chunk.walked`.
+        """Read all records of a chunk one by one; store the offsets of the messages in
+        `chunk.walked`.
 
         Args:
             chunk: The chunk.
-            learns: Whether to count the messages, and to register new channels. Known channels are
-                not changed.
+            learns: Whether to count the messages, and to register channels that are new.
         """
         found = chunk.walked = WalkedMessages()
         try:
@@ -412,6 +421,7 @@ class ChunkedReader(File):
         except FAULTS as error:
             if not chunk.cut:
                 self.note_chunk(chunk, reason_of(error))
+        # When the index is wrong, the messages were counted before.
         if learns:
             self._count(Counter(found.channels))
         if chunk.cut or len(found):
@@ -421,17 +431,18 @@ class ChunkedReader(File):
     # Batches
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the number of messages of some streams, from the file's counts."""
+        """Return the number of messages in the streams `wanted`, without reading them."""
         return sum(self.counts[number] for number in wanted)
 
     def _chosen(self, wanted: Collection[int]) -> dict[int, int]:
-        """Return the indices in `streams` of wanted channels, by their numbers in the file."""
+        """Return a map from the numbers of wanted channels to their indices in `streams`."""
         return {channel: number for channel, number in self._numbers.items() if number in wanted}
 
     def _chunk_batches(
         self, chosen: dict[int, int], batch_of: "Callable[[Chunk, Ahead], Batch | None]"
     ) -> Iterator[tuple[Chunk, Batch | None]]:
-        """Yield every chunk with a batch of its messages of chosen channels, or None."""
+        """Yield every chunk, with a batch of its messages in chosen channels, or None."""
+        # Chunks without a chosen channel are skipped: their bytes are not even read.
         read = [
             chunk.walked is not None or any(owner in chosen for owner in chunk.owners)
             for chunk in self._chunks
@@ -446,6 +457,7 @@ class ChunkedReader(File):
                         else:
                             batch = batch_of(chunk, ahead)
                     except FAULTS as error:
+                        # The index of the chunk is wrong, but its records may be intact.
                         self.note_chunk(chunk, reason_of(error))
                         try:
                             batch = self._rest_of(chunk, chosen)
@@ -463,8 +475,9 @@ class ChunkedReader(File):
     def _rest_of(
         self, chunk: Chunk, chosen: dict[int, int], ahead: Ahead | None = None
     ) -> Batch | None:
-        """Return chosen messages found by reading a chunk's records, without its index."""
+        """Return a chunk's messages in chosen channels by reading all its records."""
         if chunk.walked is None:
+            # The header of the chunk cannot be read, so the offset of its data is unknown.
             if not chunk.place:
                 return None
             self._walk(chunk, learns=False)
@@ -483,10 +496,11 @@ class ChunkedReader(File):
 
 
 def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
-    """Return the stream number of each channel; -1 for channels that are not chosen."""
+    """Translate channel numbers to stream numbers by `chosen`; -1 for other channels."""
     owners = np.frombuffer(channels, dtype=np.uint32)
     if not chosen:
         return np.full(len(owners), -1, dtype=np.int32)
+    # One binary search for all messages, in place of a dictionary lookup for each.
     keys = np.array(sorted(chosen), dtype=np.uint32)
     numbers = np.array([chosen[key] for key in keys.tolist()], dtype=np.int32)
     places: Stamps = np.minimum(np.searchsorted(keys, owners), len(keys) - 1)
@@ -494,7 +508,7 @@ def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
 
 
 class ChunkedWriter:
-    """Base class of writers of files in chunks; see `ContainerWriter`.
+    """Base class of writers of files with chunks; see `ContainerWriter`.
 
     A chunk is written when it is full, or by `flush`. Up to the last written chunk, the file can be
     read even if the program crashes.
@@ -502,8 +516,8 @@ class ChunkedWriter:
     Attributes:
         method: Compression of the chunks.
         position: Number of bytes in the file so far.
-        counts: Number of messages by channel.
-        first_free: First number for channels without a given number.
+        counts: Number of messages of each channel.
+        first_free: First number for channels that the caller gives no number.
     """
 
     first_free = 0
@@ -560,9 +574,10 @@ class ChunkedWriter:
         self.position = self._file.seek(self.position + piece.length)
 
     def _put(self, *pieces: bytes) -> None:
-        """Append bytes to the file; if that fails, remove the incomplete part."""
+        """Append bytes to the file; `position` moves only after all bytes were written."""
         for run in _runs(pieces):
             view = memoryview(run)
+            # An unbuffered file may write fewer bytes than given.
             while view:
                 view = view[self._file.write(view) or 0 :]
         if self._with_crc:
@@ -572,7 +587,7 @@ class ChunkedWriter:
 
 
 def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
-    """Join small pieces of bytes, so that they are written together; yield large ones unchanged."""
+    """Join small pieces of bytes, which are then written at once; yield large pieces unchanged."""
     small: list[bytes] = []
     for piece in pieces:
         if len(piece) < _LARGE_PIECE:

@@ -71,15 +71,15 @@ _LARGEST_BATCH = 1 << 22  # bytes in one such batch
 
 
 class SingleMessages:
-    """Messages read one by one from the file, and collected into batches."""
+    """Collector of messages that are read from the file one by one, and returned in batches."""
 
     def __init__(self, file: File, chosen: Mapping[int, int], head: int | None) -> None:
-        """Create an empty collection for chosen channels.
+        """Create an empty collector of messages of chosen channels.
 
         Args:
             file: The file.
-            chosen: Stream number of each chosen channel, by the channel's number.
-            head: Number of bytes needed from each message; None for all.
+            chosen: Index of the stream of each chosen channel, by the number of the channel.
+            head: Number of bytes needed from each message; None for all bytes.
         """
         self._file = file
         self._chosen = chosen
@@ -106,11 +106,11 @@ class SingleMessages:
 
         Args:
             places: Offset of each message's record, relative to `offset`.
-            offset: Offset in the file.
+            offset: Offset in the file that is added to `places`.
             end: Offset before which all messages must end.
 
         Raises:
-            InputError: If there is no message at an offset; no message is added then.
+            InputError: If there is no message at an offset. No message is added then.
         """
         before = len(self)
         try:
@@ -123,6 +123,7 @@ class SingleMessages:
             raise
 
     def _read(self, place: int, end: int) -> None:
+        # Read as many bytes as the last messages had, so that one read is usually enough.
         piece = self._file.at(place, min(self._guess, end - place))
         code, length, channel, _, log_time, _ = MESSAGE_RECORD.unpack_from(piece)
         whole = length + 9
@@ -138,7 +139,7 @@ class SingleMessages:
         self._bytes += whole
 
     def taken(self) -> Batch:
-        """Return a batch of the messages read since the last call."""
+        """Return the messages read since the last call as a batch."""
         sizes = np.fromiter(map(len, self._pieces), dtype=np.int64, count=len(self))
         ends = np.cumsum(sizes)
         batch = Batch(
@@ -163,6 +164,7 @@ def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, S
     Raises:
         InputError: If the index points to something other than these messages.
     """
+    # The C code checks the same; at the first difference the code below raises the error.
     if SCAN is not None:
         found = tuple(np.empty(len(pairs), dtype=np.int64) for _ in range(3))
         if SCAN.indexed(data, np.ascontiguousarray(pairs), *found, channel):
@@ -198,6 +200,7 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
         code, length = unpack_from(data, position)
         first = position + 9
         position = first + length
+        # Zeros at the end of a file: its blocks were never written.
         if not code:
             raise InputError("a record has the invalid code 0")
         if position > size:
@@ -206,7 +209,7 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
 
 
 class IndexEntry(NamedTuple):
-    """Facts about a chunk in the summary at the end of a file.
+    """Chunk index record, which describes a chunk in the summary at the end of a file.
 
     Attributes:
         start: Log time of the chunk's first message.
@@ -244,10 +247,10 @@ class IndexEntry(NamedTuple):
 
 
 def index_entry(summary: bytes, first: int, last: int, size: int) -> IndexEntry:
-    """Parse a chunk index in the summary of a file of `size` bytes.
+    """Parse the chunk index record from `first` to `last` in the summary of a file of `size` bytes.
 
     Raises:
-        InputError: If the record is cut, or names bytes after the file's end.
+        InputError: If the record is cut off, or the chunk extends beyond the end of the file.
     """
     start, end, position, length, count = _CHUNK_INDEX_HEAD.unpack_from(summary, first)
     indexes = entries_at(summary, first + 32, last)
@@ -294,7 +297,7 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
         last: Offset before which the string must end.
 
     Returns:
-        The string, in which bytes that are not UTF-8 become surrogates, and the end.
+        The string, in which bytes that are not UTF-8 become surrogates, and the offset after it.
     """
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length

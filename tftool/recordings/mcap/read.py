@@ -88,8 +88,8 @@ class Mcap(ChunkedReader):
 
         Args:
             path: Path of the file.
-            by_index: Whether messages are read by the index, which is built if the file has none;
-                otherwise they are read with `blocks`.
+            by_index: Whether messages will be read with `batches`, by the index, which is built if
+                the file has none; otherwise with `blocks`.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -119,13 +119,14 @@ class Mcap(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """Find the channels and chunks, by the index or without it."""
+        """Find the channels and chunks by the summary; without a summary, read the whole file."""
         if not self._by_index:
             self._read_style()
         complete = False
         try:
             complete = self._read_summary()
         except (InputError, struct.error) as error:
+            # Half a summary may have described wrong channels: forget them.
             self._forget()
             self.damage.append(f"Its summary cannot be read ({reason_of(error)}).")
         if self._by_index and not complete:
@@ -143,6 +144,7 @@ class Mcap(ChunkedReader):
         """Detect from the first records how the file was written: profile, library, compression."""
         position = len(MCAP_MAGIC)
         try:
+            # The header is the first record. Compression is a property of chunks.
             while position + 9 <= self.size:
                 code, length = RECORD.unpack(self.at(position, 9))
                 if code == HEADER:
@@ -166,17 +168,20 @@ class Mcap(ChunkedReader):
             struct.error: If a record of the summary is cut.
         """
         size = self.size
+        # The footer has a fixed size, so it can be found from the end of the file.
         tail = self.at(max(0, size - FOOTER_SIZE), min(size, FOOTER_SIZE))
         if not tail.endswith(MCAP_MAGIC) or tail[0] != FOOTER:
             self.damage.append("The recording was not closed.")
             return False
         (begin,) = U64.unpack_from(tail, 9)
         (crc,) = U32.unpack_from(tail, 25)
+        # An offset of 0 means that the writer left the summary out.
         if not begin:
             return False
         if not len(MCAP_MAGIC) <= begin <= size - FOOTER_SIZE:
             raise InputError(f"it should begin at byte {begin}")
         summary = self.at(begin, size - FOOTER_SIZE - begin)
+        # The CRC covers the summary, and the footer up to the CRC itself; 0 means none.
         if crc and zlib.crc32(tail[:25], zlib.crc32(summary)) != crc:
             raise InputError("its CRC is wrong")
         counts: dict[int, int] = {}
@@ -188,6 +193,7 @@ class Mcap(ChunkedReader):
             elif code == CHUNK_INDEX and self._by_index:
                 self._take_entry(summary, first, last)
             elif code == STATISTICS:
+                # Between total (8 bytes) and times are the numbers of other records (18 bytes).
                 has_statistics = True
                 (total,) = U64.unpack_from(summary, first)
                 span = struct.unpack_from("<QQ", summary, first + 26)
@@ -195,12 +201,14 @@ class Mcap(ChunkedReader):
         self.is_indexed = True
         if not self._by_index:
             data_end = self.at(begin - DATA_END_SIZE, DATA_END_SIZE)
+            # Write a CRC of the data only if the input has one.
             if data_end[0] == DATA_END:
                 self.style["with_crc"] = data_end[9:] != bytes(4)
             return True
         if not self._chunks and (total or not has_statistics):
             # No index contains messages outside chunks.
             return False
+        # A writer may order the summary differently from the file.
         self._chunks.sort(key=lambda one: one.position)
         if has_statistics:
             self._count(counts)
@@ -229,7 +237,7 @@ class Mcap(ChunkedReader):
         )
 
     def _forget(self) -> None:
-        """Drop everything found so far, to start again."""
+        """Drop channels, schemas and chunks found so far, before the file is read sequentially."""
         super()._forget()
         self.is_indexed = False
         self.schemas.clear()
@@ -237,7 +245,7 @@ class Mcap(ChunkedReader):
         self._schema_of.clear()
 
     def _describe(self, code: int, body: bytes) -> None:
-        """Register the schema or channel that a record describes."""
+        """Register the schema or channel in a record; ignore the number of a known channel."""
         check_told(len(body))
         number, schema = struct.unpack_from("<HH", body)
         if code == SCHEMA:
@@ -287,7 +295,7 @@ class Mcap(ChunkedReader):
             self.start, self.end = min(min(moments), LAST_STAMP), min(max(moments), LAST_STAMP)
 
     def _found_chunks(self) -> Iterator[Chunk]:
-        """Yield the chunks; collect the messages between them."""
+        """Yield the chunks; store the messages outside chunks in `_loose`."""
         for block in self._pieces():
             if isinstance(block, Chunk):
                 yield block
@@ -301,7 +309,7 @@ class Mcap(ChunkedReader):
             self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> "Iterator[Chunk | Loose]":
-        """Yield chunks and messages while reading record by record; note how the file ends."""
+        """Yield chunks, and blocks of messages outside chunks, reading record by record."""
         position, size = len(MCAP_MAGIC), self.size
         block, base, code = b"", 0, 0
         loose = Loose(self)
@@ -312,12 +320,15 @@ class Mcap(ChunkedReader):
                 base, block = position, self.up_to(position, 64 if code == CHUNK else _BLOCK)
             code, length = RECORD.unpack_from(block, position - base)
             body, end = position + 9, position + 9 + length
+            # After these records comes the summary, which repeats schemas and channels.
             if code in (DATA_END, FOOTER):
                 self._ended = True
                 break
+            # The file ends within this record; only the beginning of a chunk is worth reading.
             if code == 0 or (end > size and code != CHUNK):
                 break
             try:
+                # Yield messages before the next chunk, to keep the order of the file.
                 if len(loose) and (code not in (MESSAGE, *_TELLING) or loose.is_full(end)):
                     yield loose
                     loose = Loose(self)
@@ -337,6 +348,7 @@ class Mcap(ChunkedReader):
                 elif not self._by_index:
                     self._take_extra(code, position, length)
             except (InputError, struct.error) as error:
+                # The length of the record is known, so reading continues after it.
                 self.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
                 if end > size:
                     break
@@ -346,8 +358,9 @@ class Mcap(ChunkedReader):
             yield loose
 
     def _chunk_at(self, position: int, end: int) -> Chunk:
-        """Return the chunk whose record has this start and end in the file."""
+        """Parse the header of a chunk record, and the message indexes after the chunk."""
         stop = min(end, self.size)
+        # The head is short: RECORD 9, CHUNK_HEAD 28, name of the compression, size 8.
         head = self.at(position, min(stop - position, 256))
         low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
         (length,) = U32.unpack_from(head, 37)
@@ -356,6 +369,7 @@ class Mcap(ChunkedReader):
         method = head[41 : 41 + length].decode("utf-8", "surrogateescape")
         (packed,) = U64.unpack_from(head, 41 + length)
         place = position + 49 + length
+        # A recorder that was killed leaves a chunk with fewer bytes than stated.
         there = min(packed, stop - place)
         chunk = Chunk(
             self,
@@ -405,15 +419,16 @@ class Mcap(ChunkedReader):
             chunk.counts = counts
 
     def _take_extra(self, code: int, position: int, length: int) -> None:
-        """Collect a record for `extras`: an attachment or metadata."""
+        """Add the record to `extras` if it is an attachment or metadata."""
         if code == ATTACHMENT:
             self._take_attachment(position, length)
         elif code == METADATA:
             self.extras.metadata.append(self.at(position + 9, length))
 
     def _take_attachment(self, position: int, length: int) -> None:
-        """Store the byte range of an attachment, which may be larger than memory."""
+        """Add the byte range of an attachment, which may exceed the memory, to `extras`."""
         body = position + 9
+        # Two times of 8 bytes, then name and media type, then the size of the data.
         place = body + 16
         for _ in range(2):
             (size,) = U32.unpack(self.at(place, 4))
@@ -441,7 +456,7 @@ class Mcap(ChunkedReader):
                 self._describe(code, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Yield the places of messages from a chunk's indexes; see `ChunkedReader`."""
+        """Yield the offsets of the messages in a chunk; see `ChunkedReader`."""
         for channel, place in chunk.indexes.items():
             pairs = self._pairs(channel, place)
             if len(pairs):
@@ -450,6 +465,7 @@ class Mcap(ChunkedReader):
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
         """Return log times, publish times and sequence numbers; see `ChunkedReader`."""
+        # Before the payload: sequence number 4, log time 8, publish time 8.
         log_times = np.minimum(words_at(data, starts - 16, "<u8"), LAST_STAMP).astype(np.int64)
         return log_times, words_at(data, starts - 8, "<u8"), words_at(data, starts - 20, "<u4")
 
@@ -480,7 +496,7 @@ class Mcap(ChunkedReader):
     def _batch(
         self, chunk: Chunk, chosen: Mapping[int, int], singly: SingleMessages, ahead: Ahead
     ) -> Batch | None:
-        """Return a batch of a chunk's messages; None without any, or if `singly` read them."""
+        """Return a chunk's messages in chosen channels; None if none, or if `singly` read them."""
         parts = []
         for channel, place in chunk.indexes.items():
             if channel in chosen:
@@ -490,6 +506,7 @@ class Mcap(ChunkedReader):
         if not parts:
             return None
         count = sum(len(pairs) for pairs, _ in parts)
+        # Few transforms between large images: read them alone, not the whole chunk.
         if not chunk.is_packed and count * _SPARSE < chunk.packed:
             places = sorted(place for pairs, _ in parts for place in pairs[:, 1].tolist())
             singly.read(places, chunk.place, chunk.place + chunk.packed)
@@ -505,11 +522,12 @@ class Mcap(ChunkedReader):
     def _loose_batches(
         self, chosen: Mapping[int, int], progress: Progress | None, head: int | None
     ) -> Iterator[Batch]:
-        """Yield batches of the messages outside chunks."""
+        """Yield the messages outside chunks in batches."""
         singly = SingleMessages(self, chosen, head)
         for channel, start in zip(self._loose.channels, self._loose.starts, strict=True):
             if channel not in chosen:
                 continue
+            # Only offsets were stored while the file was scanned.
             place = start - IN_CHUNK
             try:
                 singly.read([place], 0, self.size)
@@ -528,6 +546,7 @@ class Mcap(ChunkedReader):
         guess = self._index_sizes.get(channel, _INDEX_AT_ONCE)
         head = self.up_to(place, guess)
         code, length, told, count = INDEX_HEAD.unpack_from(head)
+        # A wrong count must not make this read more than the record has.
         if code != MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
             raise InputError(f"it has no message index at byte {place}")
         if 15 + count > len(head):
@@ -538,7 +557,7 @@ class Mcap(ChunkedReader):
 
 
 class Loose:
-    """Block of messages outside chunks; see `Block`."""
+    """Consecutive messages outside chunks; see `Block`."""
 
     whole = False
     counts: Mapping[int, int] | None = None
@@ -562,7 +581,7 @@ class Loose:
         return self.found.span[1]
 
     def is_full(self, end: int) -> bool:
-        """Whether the block is large enough without the message that ends at this offset."""
+        """Whether a further message that ends at `end` would make the block too large."""
         too_long = end - self.found.starts[0] > MOST_BYTES_HELD
         return too_long or len(self) >= _MOST_HELD
 
@@ -574,6 +593,7 @@ class Loose:
         """Read the block's messages; return them as columns."""
         reader, found = self._reader, self.found
         begin = found.starts[0] - IN_CHUNK
+        # One read for all messages, with the few small records between them.
         try:
             data = reader.at(begin, found.starts[-1] + found.lengths[-1] - begin)
         except InputError as error:

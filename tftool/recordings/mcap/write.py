@@ -74,11 +74,11 @@ _UNCHUNKED: Final = 1 << 16  # bytes written at a time in a file without chunks
 
 
 class McapWriter(ChunkedWriter):
-    """Writer of an MCAP file; new schemas, like channels, get numbers from `first_free` on."""
+    """Writer of an MCAP file; new channels and schemas get numbers from `first_free` on."""
 
     @classmethod
     def in_style(cls, path: Path, style: Mapping[str, Any], *, profile: str) -> "McapWriter":
-        """Create an output file of an edit; see `ContainerFormat.create_like`."""
+        """Create an output file of `tftool edit`; see `ContainerFormat.create_like`."""
         before = style.get("library", "")
         # Each changed chunk of an input becomes one chunk: `end_block` ends it.
         size = LARGEST_CHUNK if style.get("chunked") else CHUNK_SIZE
@@ -106,7 +106,7 @@ class McapWriter(ChunkedWriter):
         Args:
             path: Path of the file.
             profile: Profile of the channels: "ros2", "ros1", or "".
-            library: Name of the writing library.
+            library: Name of the program that writes the file.
             compression: Compression of each chunk: "zstd", "lz4" or "none"; None for "zstd".
             chunk_size: Size of a chunk's uncompressed messages, bytes; 0 for no chunks.
             with_crc: Whether to write CRCs of the chunks and of all data.
@@ -147,9 +147,9 @@ class McapWriter(ChunkedWriter):
         """Register a channel; return its number for `write`.
 
         Args:
-            channel: The channel; a known channel keeps its number.
+            channel: The channel; a channel that is registered already keeps its number.
             number: Number for the channel; None for any unused number.
-            schema: Number of the channel's schema, which must be known; None to choose by the type.
+            schema: Number of a registered schema; None to choose it by the channel's type.
 
         Raises:
             InputError: If there are too many channels or schemas.
@@ -181,7 +181,7 @@ class McapWriter(ChunkedWriter):
         return number
 
     def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
-        """Whether the schema numbers are free in this file, or belong to the same schemas."""
+        """Whether each schema number is unused in this file, or belongs to the same schema."""
         here = {number: key for key, number in self._schemas.items()}
         return all(
             here[number] == schema if number in here else number not in self._schema_records
@@ -191,7 +191,7 @@ class McapWriter(ChunkedWriter):
     def add_channel(
         self, number: int, schema: int, topic: str, encoding: str, metadata: bytes
     ) -> None:
-        """Register a channel by the contents of its record; `metadata` is the packed map."""
+        """Register a channel by the fields of its record; `metadata` is serialised."""
         self._schema_of[number] = schema
         self._channel_records[number] = record(
             CHANNEL, struct.pack("<HH", number, schema) + text(topic) + text(encoding) + metadata
@@ -319,7 +319,7 @@ class McapWriter(ChunkedWriter):
         self._chunks.append(entry.record())
 
     def end_block(self, chunk: Chunk) -> None:
-        """End the current chunk, which replaces an input's chunk, with that chunk's compression."""
+        """End the current chunk, which has the messages of `chunk`; compress it like `chunk`."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
             if chunk.method != self.method:
@@ -343,7 +343,7 @@ class McapWriter(ChunkedWriter):
     def adopt(
         self, channel: Channel, number: int, origin: tuple[int, tuple[str, str, bytes] | None]
     ) -> None:
-        """Register a channel of another file under the number it has there.
+        """Register a channel of another file under the same number.
 
         Args:
             channel: The channel.
@@ -387,7 +387,7 @@ class McapWriter(ChunkedWriter):
         self._attachments.append(record(ATTACHMENT_INDEX, told))
 
     def copy_metadata(self, body: bytes) -> None:
-        """Copy a metadata record's body from another file.
+        """Copy the body of a metadata record from another file.
 
         Raises:
             struct.error: If the record is not metadata.

@@ -32,8 +32,8 @@ U32: Final = struct.Struct("<I")
 U64: Final = struct.Struct("<Q")
 
 _TIME = struct.Struct("<II")
-_LARGEST_HEADER = 1 << 20
-_HEAD = 4096
+_LARGEST_HEADER = 1 << 20  # bytes; a longer header means damage
+_HEAD = 4096  # bytes that contain nearly every header, so that one read is enough
 
 
 def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int]:
@@ -54,7 +54,7 @@ def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int
 
 
 class ChunkInfo(NamedTuple):
-    """Entry of a chunk in a bag's index: offset, times, and number of messages per connection."""
+    """Chunk info record of a bag's index: offset, times, and messages per connection."""
 
     position: int
     start: Stamp
@@ -63,10 +63,10 @@ class ChunkInfo(NamedTuple):
 
 
 def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
-    """Return a bag's header, and the offset and bytes of its index; 0 and b"" without an index.
+    """Return a bag's header, and the offset (0 if none) and bytes of its index.
 
     Raises:
-        InputError: If the header is missing, or the index is not in the file.
+        InputError: If the header is missing, or the index would begin after the file's end.
         KeyError: If the header lacks a field.
         struct.error: If a field is cut.
     """
@@ -82,7 +82,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
 
 
 def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
-    """Return the entry of a chunk in the index, from its chunk info record.
+    """Parse a chunk info record.
 
     Raises:
         KeyError: If the header lacks a field.
@@ -105,6 +105,8 @@ def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Sta
     Raises:
         InputError: If the index points to something other than these messages.
     """
+    # All messages of a connection have headers with the same layout: find the fields in the first
+    # header, and compare the bytes of all others at the same offsets.
     first = int(entries[0, 2])
     if first > len(data) - 4:
         raise InputError("its index points outside of it")
@@ -113,6 +115,7 @@ def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Sta
     code, owner = header.find(b"op=") + 3, header.find(b"conn=") + 5
     if code < 3 or owner < 5 or not code < len(header) >= owner + 4 or len(header) != head:
         raise InputError("its index points at something else")
+    # The C code checks the same; at the first difference the code below raises the error.
     if SCAN is not None:
         found = tuple(np.empty(len(entries), dtype=np.int64) for _ in range(3))
         if SCAN.pointed(data, np.ascontiguousarray(entries), *found, connection, code, owner):
@@ -150,7 +153,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
 
     Args:
         data: Bytes of the records.
-        partial: Whether the last record may be cut off.
+        partial: Whether the last record may be cut off; it is then ignored.
 
     Raises:
         InputError: If a record extends beyond the data.
@@ -158,6 +161,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
     position, size = 0, len(data)
     while position + 8 <= size:
         (length,) = U32.unpack_from(data, position)
+        # Every length is checked before it is used: the bytes are untrusted.
         first = position + 8 + length
         if not 0 < length <= _LARGEST_HEADER or first > size:
             if partial:

@@ -37,7 +37,7 @@ from tftool.recordings.rosbag1.format import (
     time_of,
 )
 
-_BEFORE_TIME = int.from_bytes(b"ime=", "little")
+_BEFORE_TIME = int.from_bytes(b"ime=", "little")  # four bytes before the time in a header
 _KEPT = (b"callerid", b"latching", b"md5sum")
 
 
@@ -53,8 +53,8 @@ class Rosbag1(ChunkedReader):
 
         Args:
             path: Path of the file.
-            by_index: Whether messages are read by the index, which is built if the file has none;
-                otherwise they are read with `blocks`.
+            by_index: Whether messages will be read with `batches`, by the index, which is built if
+                the file has none; otherwise with `blocks`.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -72,7 +72,7 @@ class Rosbag1(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """Find the connections and chunks, by the index or without it."""
+        """Find the connections and chunks by the index; without an index, read the whole file."""
         complete = False
         try:
             complete = self._read_index()
@@ -83,12 +83,13 @@ class Rosbag1(ChunkedReader):
             self._scan(self._pieces())
             if self._ended_at < self.size:
                 self._note_end(self._ended_at)
+            # Without an index, only the messages tell the time span.
             spans = [one.walked.span for one in self._chunks if one.walked and len(one.walked)]
             self.start = min((low for low, _ in spans), default=0)
             self.end = max((high for _, high in spans), default=0)
 
     def origin(self, number: int) -> tuple[bytes, bytes]:
-        """Return the topic of a connection, and the header from its publisher, as recorded."""
+        """Return the topic and the publisher's header of a connection, as recorded bytes."""
         return self._headers[number]
 
     # Index
@@ -97,9 +98,10 @@ class Rosbag1(ChunkedReader):
         """Read the index at the end of the file; return whether there is an index.
 
         Raises:
-            InputError: If the index is damaged; the other `FAULTS` are possible too.
+            InputError: If the index is damaged. All exceptions in `FAULTS` are possible.
         """
         bag, place, data = index_of(self)
+        # rosbag writes the offset of the index when it closes the bag.
         if place == 0:
             self.damage.append("The recording was not closed.")
             return False
@@ -116,11 +118,13 @@ class Rosbag1(ChunkedReader):
                 # Detect compression and size from the first chunk.
                 self._chunk_at(infos[0].position, *record_head(self, infos[0].position))
             return True
+        # An index that is cut off may lack its last chunks.
         (count,) = U32.unpack(bag[b"chunk_count"])
         if len(infos) != count:
             raise InputError(f"it names {len(infos)} chunks of {count}")
         if any(info.position >= place for info in infos):
             raise InputError("a chunk is beyond the end of the file")
+        # The header of a chunk is read by `_locate`, when its messages are needed.
         for info in infos:
             self._chunks.append(Chunk(self, info.position, counts=info.counts))
             self._count(info.counts)
@@ -130,13 +134,13 @@ class Rosbag1(ChunkedReader):
         return True
 
     def _forget(self) -> None:
-        """Drop everything found so far, to start again."""
+        """Drop connections and chunks found so far, before the file is read sequentially."""
         super()._forget()
         self._headers.clear()
         self._infos.clear()
 
     def _describe(self, header: Mapping[bytes, bytes], data: bytes) -> None:
-        """Register the connection that a record describes."""
+        """Register the connection in a record; ignore a connection number in use."""
         check_told(len(data))
         (number,) = U32.unpack(header[b"conn"])
         if number in self.channels:
@@ -146,6 +150,7 @@ class Rosbag1(ChunkedReader):
         def text(name: bytes) -> str:
             return fields.get(name, b"").decode("utf-8", "surrogateescape")
 
+        # The publisher's own header may have the name before remapping.
         topic = header.get(b"topic") or fields.get(b"topic", b"")
         self._headers[number] = topic, data
         metadata = tuple((key.decode(), text(key)) for key in _KEPT if key in fields)
@@ -162,7 +167,7 @@ class Rosbag1(ChunkedReader):
             self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> Iterator[Chunk]:
-        """Yield the chunks while reading record by record; note how the file ends."""
+        """Yield the chunks, reading record by record."""
         position, size = len(ROS1_MAGIC), self.size
         while position < size:
             try:
@@ -170,6 +175,7 @@ class Rosbag1(ChunkedReader):
             except FAULTS:
                 break
             code, end = header.get(b"op"), data + length
+            # Bytes that are no record: the next record cannot be found either.
             if code not in (BAG, INDEX, CHUNK, CHUNK_INFO, CONNECTION):
                 break
             try:
@@ -183,6 +189,7 @@ class Rosbag1(ChunkedReader):
                     self._describe(header, self.at(data, length))
             except FAULTS as error:
                 self.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
+                # The end of a chunk depends on the index records after it.
                 if code == CHUNK:
                     break
             if end > size:
@@ -193,7 +200,7 @@ class Rosbag1(ChunkedReader):
     def _chunk_at(
         self, position: int, header: Mapping[bytes, bytes], data: int, length: int
     ) -> Chunk:
-        """Return the chunk of a record, and update `style`."""
+        """Return the chunk in a record, and update `style` with its compression and size."""
         chunk = Chunk(self, position)
         self._look_at(chunk, header, data, length)
         style = self.style
@@ -202,7 +209,7 @@ class Rosbag1(ChunkedReader):
         return chunk
 
     def _look_at(self, chunk: Chunk, header: Mapping[bytes, bytes], data: int, length: int) -> None:
-        """Parse a chunk's header, and set the chunk's fields."""
+        """Parse the header of a chunk record, and set the fields of `chunk`."""
         if header.get(b"op") != CHUNK:
             raise InputError(f"no chunk is at byte {chunk.position}")
         (chunk.size,) = U32.unpack(header[b"size"])
@@ -217,7 +224,7 @@ class Rosbag1(ChunkedReader):
         chunk.length = chunk.behind - chunk.position
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Read the index after a chunk, and use it if the bag's own index agrees."""
+        """Read the index records after a chunk; use them if the bag's index agrees."""
         counts: dict[int, int] = {}
         while chunk.behind < self.size:
             try:
@@ -227,6 +234,7 @@ class Rosbag1(ChunkedReader):
                 (number,) = U32.unpack(header[b"conn"])
             except FAULTS:
                 break
+            # An entry has 12 bytes: seconds, nanoseconds, offset.
             counts[number] = counts.get(number, 0) + length // 12
             chunk.behind = data + length
         info = self._infos.get(chunk.position)
@@ -246,7 +254,7 @@ class Rosbag1(ChunkedReader):
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Yield the places of messages from a chunk's index; see `ChunkedReader`."""
+        """Yield the offsets of the messages in a chunk; see `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)
@@ -258,13 +266,13 @@ class Rosbag1(ChunkedReader):
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, the same as publish times, and zeros; see `ChunkedReader`."""
+        """Return log times, the same times as publish times, and zeros as sequence numbers."""
         sec, nanosec = (words_at(data, starts - n, "<u4").astype(np.int64) for n in (12, 8))
         log_times = sec * NANOSECONDS + nanosec
         return log_times, log_times, np.zeros(len(starts), dtype=np.int64)
 
     def walked_table(self, chunk: Chunk) -> MessageTable:
-        """Return a chunk's messages, and set the chunk's start and end from their log times."""
+        """Return a chunk's messages from its records, and set the chunk's start and end."""
         found = super().walked_table(chunk)
         chunk.start = int(found.log_times.min()) if len(found) else 0
         chunk.end = int(found.log_times.max()) if len(found) else 0
@@ -307,8 +315,9 @@ class Rosbag1(ChunkedReader):
             self._look_at(chunk, *record_head(self, chunk.position))
 
     def _entries(self, chunk: Chunk, chosen: Container[int]) -> list[tuple[int, Entries]]:
-        """Return the index entries after a chunk, by number of each chosen connection."""
+        """Return number and index entries of each chosen connection in a chunk."""
         counts = chunk.counts or {}
+        # One read for all index records: 64 bytes for each header, 12 for each message.
         expected = len(counts) * 64 + 12 * sum(counts.values()) + 64
         data = self.up_to(chunk.place + chunk.packed, expected)
         found = []
@@ -322,6 +331,7 @@ class Rosbag1(ChunkedReader):
             if connection in chosen and count:
                 table = np.frombuffer(data, dtype="<u4", count=3 * count, offset=first)
                 found.append((connection, table.reshape(-1, 3)))
+        # Without this check, messages would be lost silently.
         if any(connection in chosen for connection in missing):
             raise InputError("its index is incomplete")
         return found

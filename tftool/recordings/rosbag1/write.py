@@ -113,7 +113,7 @@ class Rosbag1Writer(ChunkedWriter):
         return number
 
     def _add_connection(self, number: int, topic: bytes, header: bytes) -> None:
-        """Register a connection by the header from its publisher."""
+        """Register a connection by the connection header that its publisher sent."""
         head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
         self._channel_records[number] = record(head, header)
 
@@ -206,17 +206,17 @@ class Rosbag1Writer(ChunkedWriter):
         return True
 
     def adopt(self, channel: Channel, number: int, origin: tuple[bytes, bytes]) -> None:
-        """Register a connection of another bag under its number there.
+        """Register a connection of another bag under the same number.
 
         Args:
             channel: The connection.
             number: Number of the connection in both bags.
-            origin: Topic and publisher's header of the connection; see `Rosbag1.origin`.
+            origin: Topic and connection header of the connection; see `Rosbag1.origin`.
         """
         self._add_connection(number, *origin)
 
     def end_block(self, chunk: Chunk) -> None:
-        """Do nothing: a chunk of a bag ends when it is full."""
+        """Do nothing, because a chunk of a bag ends only when it is full."""
 
     def copy_chunk(self, chunk: Chunk) -> None:
         """Copy a chunk and its index from another bag."""
