@@ -1,6 +1,6 @@
-"""Paths, keys and headers of a recording's cached columns, readable without numpy.
+"""Folder, keys and file headers of the cache of decoded recordings, without numpy.
 
-With this module, the frame names of a cached recording are read in milliseconds.
+The completion of frame names in a shell reads only the header of a cache file, in milliseconds.
 """
 
 import hashlib
@@ -29,9 +29,9 @@ _MOST_HEAD: Final = 64 << 20
 
 
 def default_folder() -> Path | None:
-    """Return the folder of the cache: in `XDG_CACHE_HOME`, else the system's usual place.
+    """Return the folder of the cache, in `XDG_CACHE_HOME` or else in the system's usual folder.
 
-    The result is None if HOME is not set and the system does not know the user's home.
+    Return None if HOME is not set and the system does not know the user's home folder.
     """
     given = os.environ.get("XDG_CACHE_HOME", "")
     if os.path.isabs(given):
@@ -49,11 +49,11 @@ def default_folder() -> Path | None:
 
 
 def key_of(found: Found, *, any_size: bool = False) -> str:
-    """Return a recording's key in the cache; "" if caching is not worthwhile.
+    """Return the key of a recording in the cache; "" if the recording is too small to be cached.
 
     Args:
         found: The recording.
-        any_size: Whether small recordings are cached too, as completion needs.
+        any_size: Whether to return a key for small recordings too.
 
     Raises:
         OSError: If a file of the recording cannot be read.
@@ -89,10 +89,10 @@ def _files(found: Found) -> Iterator[Path]:
 
 
 def head_size(start: bytes) -> int:
-    """Return the number of header bytes of a cache entry, from the entry's first bytes.
+    """Return the size of the header of a cache file in bytes, from the first bytes of the file.
 
     Raises:
-        ValueError: If the bytes are not the beginning of an entry.
+        ValueError: If the bytes are not the beginning of a cache file.
     """
     length = int.from_bytes(start[len(MAGIC) : len(MAGIC) + 8], "little")
     if not start.startswith(MAGIC) or not 0 < length <= _MOST_HEAD:
@@ -101,11 +101,11 @@ def head_size(start: bytes) -> int:
 
 
 def parsed_head(data: bytes, key: str) -> dict[str, Any]:
-    """Return the header of a cache entry.
+    """Parse the header of a cache file, which has the names of the frames.
 
     Args:
-        data: Bytes of the entry before the columns.
-        key: Key of the entry.
+        data: Bytes of the file before the columns.
+        key: Key of the recording.
 
     Raises:
         ValueError: If the header is damaged, or belongs to another recording.

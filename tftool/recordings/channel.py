@@ -1,4 +1,4 @@
-"""One recorded stream of messages, its quality of service, and the interface of file writers."""
+"""Recorded stream of messages, its quality of service, and interfaces of writers of recordings."""
 
 import re
 from dataclasses import dataclass, replace
@@ -49,12 +49,12 @@ _POLICY = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class Offers:
-    """Quality of service that a topic's publishers offered, as far as recorded.
+    """Quality of service (QoS) that the publishers of a topic offered, as far as recorded.
 
     Attributes:
-        durability: "transient_local" if a publisher offers it, else "volatile"; empty if unknown.
-        reliability: "reliable" if a publisher offers it, else "best_effort"; empty if unknown.
-        count: Number of recorded offers.
+        durability: "transient_local" if a publisher offers that, else "volatile"; "" if unknown.
+        reliability: "reliable" if a publisher offers that, else "best_effort"; "" if unknown.
+        count: Number of publishers whose QoS was recorded.
     """
 
     durability: str = ""
@@ -64,7 +64,7 @@ class Offers:
 
 @lru_cache(maxsize=1024)
 def offers_of(text: str) -> Offers:
-    """Parse recorded QoS profiles, whose policies are numbers or words."""
+    """Parse the text of recorded QoS profiles, in which policies are numbers or words."""
     found: dict[str, list[str]] = {"durability": [], "reliability": []}
     for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
         plain = word.strip("\"'")
@@ -87,7 +87,7 @@ def offers_of(text: str) -> Offers:
 class Channel:
     """A recorded stream: a channel in MCAP, a row of `topics` in sqlite, a connection in ROS 1.
 
-    Texts are as recorded: bytes that are not UTF-8 are kept as surrogates (`readable` shows them).
+    Texts are exactly as recorded, with surrogates for bytes that are not UTF-8; see `readable`.
 
     Attributes:
         topic: Name of the topic.
@@ -95,8 +95,8 @@ class Channel:
         encoding: Encoding of the messages: "cdr", "ros1", "json", "protobuf".
         schema_encoding: Language of the definition: "ros2msg", "ros1msg", "protobuf".
         definition: Definition of the type, as bytes.
-        metadata: Further facts about the stream, by MCAP's keys: "offered_qos_profiles",
-            "topic_type_hash", and for ROS 1 "callerid", "latching", "md5sum".
+        metadata: Pairs of key and value: "offered_qos_profiles" and "topic_type_hash" as in MCAP
+            files of rosbag2, and for ROS 1 "callerid", "latching", "md5sum".
     """
 
     topic: str
@@ -112,14 +112,14 @@ class Channel:
 
     @property
     def text(self) -> str:
-        """Return the type's definition if it is text; else ""."""
+        """Return the definition of the type as text; "" for a binary definition."""
         if self.schema_encoding not in _TEXTS:
             return ""
         return self.definition.decode("utf-8", "backslashreplace")
 
     @property
     def message_text(self) -> str:
-        """Return the type's definition if it lists fields as .msg files do; else ""."""
+        """Return the definition of the type if it is written like a .msg file; else ""."""
         return self.text if self.schema_encoding in _MESSAGE_TEXTS else ""
 
     @property
@@ -135,7 +135,7 @@ class Channel:
         return offers_of(self.extra("offered_qos_profiles"))
 
     def readable(self) -> "Channel":
-        """Return the channel with the control characters in its texts escaped."""
+        """Return a copy of the channel with printable texts: control characters are escaped."""
         texts = (
             self.topic,
             self.type,
@@ -179,17 +179,17 @@ class ContainerWriter(Protocol):
         """Append a message to a channel."""
 
     def finish(self) -> None:
-        """Write the end of the file (an index, for example), and close the file."""
+        """Write the rest of the file, such as an index, and close the file."""
 
     def abandon(self) -> None:
-        """Close the file without writing its end."""
+        """Close the file without an index."""
 
 
 class RecordedWriter(ContainerWriter, Protocol):
     """Writer of a file that readers can use before the file is complete.
 
     Attributes:
-        counts: Number of messages by stream.
+        counts: Number of messages in each channel, by the number that `channel` returned.
     """
 
     counts: dict[int, int]
@@ -206,7 +206,7 @@ class RecordedWriter(ContainerWriter, Protocol):
 
 
 def offers_text(static: bool) -> str:
-    """Return the QoS profile of a publisher of transforms, as recorded text.
+    """Return the text that rosbag2 records for the QoS profile of a publisher of transforms.
 
     Args:
         static: Whether the publisher also sends its last message to late subscribers.
@@ -216,7 +216,7 @@ def offers_text(static: bool) -> str:
 
 
 def restyled(text: str, version: int) -> str:
-    """Return QoS profiles with policies in the form of a version of rosbag2's metadata."""
+    """Rewrite policies in a text of QoS profiles as the numbers or words of a metadata version."""
 
     def policy(match: "re.Match[str]") -> str:
         before, name, value = match.groups()

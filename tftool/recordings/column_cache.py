@@ -1,8 +1,7 @@
-"""Cache of recordings' decoded columns, in the user's cache folder.
+"""Cache of the transforms of recordings as decoded columns, in the user's cache folder.
 
-The key of an entry is computed from the recording's files: paths, sizes, times, and their first and
-last bytes. An incomplete or changed entry counts as missing: another process may be writing it, or
-the file may belong to another program.
+The key of a recording is computed from paths, sizes, times, and first and last bytes of its files.
+An incomplete or damaged cache file counts as missing, because another process may be writing it.
 """
 
 import contextlib
@@ -30,20 +29,20 @@ LARGEST: Final = MOST_BYTES // 2
 
 
 class ColumnCache:
-    """Folder of cached columns, shared by all of the user's processes."""
+    """Folder with one cache file per recording, shared by all processes of the user."""
 
     def __init__(self, folder: Path, *, most_bytes: int = MOST_BYTES) -> None:
-        """Use a folder, which is created with the first entry.
+        """Use a folder, which is created when the first cache file is written.
 
         Args:
-            folder: Folder of the entries.
-            most_bytes: Maximum size of all entries, bytes.
+            folder: Folder of the cache files.
+            most_bytes: Maximum size of all cache files together, bytes.
         """
         self.folder = folder
         self._most_bytes = most_bytes
 
     def load(self, key: str) -> Transforms | None:
-        """Return the cached columns of a key; None if the entry is missing or damaged."""
+        """Return the cached transforms of a key; None if the cache file is missing or damaged."""
         if not key:
             return None
         path = self.folder / f"{key}{SUFFIX}"
@@ -63,7 +62,7 @@ class ColumnCache:
         return found
 
     def store(self, key: str, transforms: Transforms) -> bool:
-        """Store columns under a key; return whether this was possible.
+        """Write transforms to the cache file of a key; return whether this was possible.
 
         A full disk or a read-only folder raises no error.
         """
@@ -87,7 +86,7 @@ class ColumnCache:
         return True
 
     def _prune(self) -> None:
-        """Remove the least recently used entries above the limit, and incomplete entries."""
+        """Remove incomplete cache files, and the least recently used files above the size limit."""
         entries = []
         newest = 0.0
         for path in self.folder.iterdir():
@@ -110,7 +109,7 @@ class ColumnCache:
 
 
 def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
-    """Yield the bytes of a cache entry: a JSON header, then all columns, the widest first."""
+    """Yield the bytes of a cache file: a JSON header, then all columns, the widest types first."""
     edges = transforms.edges
     columns: list[np.ndarray[Any, Any]] = [
         transforms.log_times,
@@ -147,7 +146,7 @@ def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
 
 
 def _unpacked(data: bytearray, key: str) -> Transforms:
-    """Return the columns in the bytes of a cache entry.
+    """Return the transforms in the bytes of a cache file.
 
     Raises:
         ValueError: If the bytes are incomplete or damaged.
@@ -176,13 +175,13 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
 
 
 class KeptColumns:
-    """Cached columns of one recording, valid while its files do not change."""
+    """Cached transforms of one recording, valid while the files of the recording do not change."""
 
     def __init__(self, cache: ColumnCache, found: Found) -> None:
-        """Compute the recording's key from the current state of its files.
+        """Compute the key of the recording from the present state of its files.
 
         Args:
-            cache: Cache of the columns.
+            cache: The cache.
             found: The recording.
         """
         self._cache = cache
@@ -190,11 +189,11 @@ class KeptColumns:
         self._key = self._key_now()
 
     def load(self) -> Transforms | None:
-        """Return the recording's columns from the cache; None if they are not cached."""
+        """Return the transforms of the recording from the cache; None if they are not cached."""
         return self._cache.load(self._key)
 
     def store(self, transforms: Transforms) -> None:
-        """Store the recording's columns, unless its files have changed meanwhile."""
+        """Store the transforms of the recording, unless its files have changed meanwhile."""
         if self._key and self._key_now() == self._key:
             self._cache.store(self._key, transforms)
 

@@ -1,4 +1,4 @@
-"""Growing columns of transforms, one set per edge, filled while a recording is read."""
+"""Columns of transforms per edge (pair of frames), which grow while a recording is read."""
 
 from array import array
 from collections import Counter
@@ -29,14 +29,14 @@ _RECORD: Final = 64  # bytes of a transform's record
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Batch:
-    """Messages of a recording that are in one buffer of bytes.
+    """Some messages of a recording, whose bytes are in one buffer.
 
     Attributes:
         buffer: The bytes.
         starts: Offset of each message in the buffer, shape (n,).
         lengths: Length of each message, bytes, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
-        senders: Index of each message's stream in the reader's `streams`, shape (n,).
+        senders: Stream of each message, as an index into `Container.streams`, shape (n,).
     """
 
     buffer: Bytes
@@ -65,7 +65,7 @@ class Batch:
 
 
 def in_order(batches: Sequence[Batch]) -> Batch:
-    """Merge batches of one buffer into a single batch, ordered by the messages' offsets."""
+    """Merge batches that share one buffer into one batch, ordered by the messages' offsets."""
     if len(batches) == 1:
         return batches[0]
     starts, lengths, log_times, senders = (
@@ -77,7 +77,7 @@ def in_order(batches: Sequence[Batch]) -> Batch:
 
 
 class _Column:
-    """An array that grows in place; memory that was never written costs nothing.
+    """An array to which rows can be appended, with free rows at its end.
 
     Attributes:
         count: Number of rows in use.
@@ -90,7 +90,7 @@ class _Column:
         self.count = 0
 
     def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
-        """Append rows, and return them, so that the caller can write them.
+        """Append rows with undefined contents; return these rows, which the caller then fills.
 
         Args:
             count: Number of rows.
@@ -116,7 +116,7 @@ def _wanted(needed: int, share: float, freely: int) -> int:
     Args:
         needed: Minimum number of rows.
         share: Fraction of the recording read so far, 0 to 1.
-        freely: Number of rows that may be allocated in any case.
+        freely: Number of rows that may be allocated regardless of `share`.
     """
     # Extrapolate from the fraction read: copying rows later costs more than memory that is
     # allocated but never used.
@@ -150,13 +150,13 @@ class Growing:
         static: Whether the transforms are static, as in `Edge`.
         records: Samples in the layout of `History`, which uses the array without a copy. The last
             rows are free.
-        messages: Number of each sample's message. The last rows are free.
-        state: Six numbers, shared with the native scan: number of rows; number of the last
-            message; whether the messages came in order; number of rows at the beginning that
-            are known to be valid for `History`; number of transforms whose leading slash was
-            removed; and how often the columns were moved in memory.
-        first: Number of the first message, and a number that increases with the position of
-            the transform in the message.
+        messages: Number of the message of each sample. The last rows are free.
+        state: Six numbers, shared with the native scan: number of rows; number of the last message;
+            whether the messages came in order; number of rows at the beginning that `History` can
+            use without a check; number of transforms whose leading slash was removed; and how often
+            the columns were moved in memory.
+        first: Number of the first message with a transform of this edge, and a number that
+            increases with the position of the transform in that message.
     """
 
     __slots__ = ("child", "first", "messages", "parent", "records", "state", "static")
@@ -176,7 +176,7 @@ class Growing:
         Args:
             count: Number of rows to add.
             share: Fraction of the recording read so far, 0 to 1.
-            freely: Number of rows that may be allocated in any case.
+            freely: Number of rows that may be allocated regardless of `share`.
 
         Returns:
             Number of rows that were added.
@@ -202,10 +202,10 @@ class Growing:
     def room(
         self, first: tuple[int, int], last: int, count: int, share: float = 1.0
     ) -> tuple[Records, Indexes]:
-        """Append rows for transforms; return them with the column of their message numbers.
+        """Append rows for transforms; return the rows of both columns, which the caller then fills.
 
         Args:
-            first: Number of the first message, and the index of the transform in it.
+            first: Number of the first message, and the index of the transform in this message.
             last: Number of the last message.
             count: Number of transforms.
             share: Fraction of the recording read so far, 0 to 1.
@@ -237,7 +237,7 @@ class Growing:
 
 
 class Table:
-    """Growing columns of all edges, and of the messages that contain their transforms."""
+    """Growing columns of all edges, and of the messages that contain the transforms."""
 
     def __init__(self, expected: int = 0) -> None:
         """Create an empty table of edges.
@@ -255,7 +255,7 @@ class Table:
         """Number of refused messages, by reason."""
 
     def note(self, log_times: Stamps, senders: Indexes) -> int:
-        """Append messages' log times and senders; return the number of the first message."""
+        """Append messages' log times and senders; return the first message's number."""
         first = self._log_times.count
         share = self.share(first + len(log_times))
         self._log_times.room(len(log_times), share)[:] = log_times
@@ -263,11 +263,11 @@ class Table:
         return first
 
     def share(self, messages: int) -> float:
-        """Return the fraction of the recording that a number of messages makes up."""
+        """Return the fraction of the recording that is read after `messages` messages, 0 to 1."""
         return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
-        """Return the edge to append `count` transforms to; None beyond `MOST_EDGES` edges."""
+        """Return an edge's columns for `count` transforms; None if there are too many edges."""
         plain = parent.removeprefix("/"), child.removeprefix("/")
         key = (*plain, static)
         edge = self._edges.get(key)
@@ -290,7 +290,7 @@ class Table:
         self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
 
     def leave_out(self, count: int) -> None:
-        """Count transforms that are left out because there are too many edges."""
+        """Add to the number of transforms that are left out because there are too many edges."""
         self._left_out += count
 
     def append(
@@ -302,7 +302,7 @@ class Table:
         stamp: Stamp,
         seven: tuple[float, ...],
     ) -> None:
-        """Append one transform; `message` is its message's number, and its index in the message."""
+        """Append one transform; `message` has its message's number and its index in the message."""
         edge = self.edge(parent, child, static, 1)
         if edge is None:
             return
@@ -334,7 +334,7 @@ class Table:
 
 
 def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
-    """Return the numbers that begin at some byte offsets, which need not be aligned.
+    """Return the numbers at some byte offsets, which need not be aligned.
 
     Args:
         buffer: The bytes.

@@ -1,4 +1,4 @@
-"""Interface of containers (recording files): their streams, and batches of messages."""
+"""Interface of recording files (containers): their streams, and messages in batches."""
 
 import os
 import zlib
@@ -26,7 +26,7 @@ LARGEST_TOLD: Final = 1 << 26
 
 
 def check_told(count: int) -> None:
-    """Raise an error if a record that describes a stream exceeds the size limit.
+    """Raise an error if a record that describes a channel or a type is larger than `LARGEST_TOLD`.
 
     Raises:
         InputError: If the size is too large.
@@ -77,7 +77,7 @@ class MessageHead(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MessageTable:
-    """Messages as columns, in order, usually of one chunk.
+    """Messages as columns with one row per message, usually the messages of one chunk.
 
     Attributes:
         data: Bytes that contain the payloads.
@@ -113,7 +113,7 @@ class MessageTable:
         return self.data[start : start + int(self.lengths[number])].tobytes()
 
     def message(self, number: int) -> Taken:
-        """Return one message, by its index, with everything stored about it."""
+        """Return the message with an index, with all fields that the file stores."""
         return Taken(
             int(self.channels[number]),
             int(self.log_times[number]),
@@ -124,7 +124,7 @@ class MessageTable:
 
     @classmethod
     def of(cls, data: bytes, heads: Sequence[MessageHead]) -> "MessageTable":
-        """Return a table of messages from their headers; `data` contains their payloads."""
+        """Return a table of the messages with these headers; `data` contains the payloads."""
         rows = zip(*heads, strict=True) if heads else [()] * 6
         channels, log_times, firsts, lasts, publish_times, sequences = rows
         starts = np.array(firsts, dtype=np.int64)
@@ -145,13 +145,13 @@ class MessageTable:
         return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
 
     def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
-        """Return the payloads as bytes, each after a new header.
+        """Return the bytes of records: for each message, a new header and then the payload.
 
         Args:
-            heads: The header of each message, shape (n,).
+            heads: The new headers, as items of one size, shape (n,).
 
         Returns:
-            The bytes, and the offset of each header, shape (n,).
+            The bytes of all records, and the offset of each record, shape (n,).
         """
         size = heads.dtype.itemsize
         ends = np.cumsum(self.lengths + size)
@@ -170,12 +170,12 @@ class MessageTable:
 
 
 def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
-    """Return a view with one item for each offset: the `size` bytes from this offset on."""
+    """Return an overlapping view of the data: item i has the `size` bytes from offset i on."""
     return np.ndarray((len(data) - size + 1,), f"V{size}", buffer=data.data, strides=(1,))
 
 
 class Block(Protocol):
-    """Consecutive messages of a file: a chunk, rows of a database, or messages outside chunks."""
+    """Consecutive messages: a chunk, rows of a database, or MCAP messages outside chunks."""
 
     @property
     def start(self) -> Stamp:
@@ -187,7 +187,7 @@ class Block(Protocol):
 
     @property
     def counts(self) -> Mapping[int, int] | None:
-        """Return the number of messages per channel; None if counting requires parsing."""
+        """Return the number of messages of each channel; None if counting requires parsing."""
 
     @property
     def whole(self) -> bool:
@@ -197,7 +197,7 @@ class Block(Protocol):
         """Whether the block's content is undamaged, as far as a checksum can show."""
 
     def table(self) -> MessageTable:
-        """Return the block's messages in order; from a damaged block, those before the damage."""
+        """Return the block's messages in order; of a damaged block, those before the damage."""
 
 
 _STEP: Final = 1 << 19
@@ -208,7 +208,7 @@ _one, _other = bytearray(_STEP), bytearray(_STEP)
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Byte range of an open file, to be copied.
+    """Byte range of an open file that will be copied.
 
     Attributes:
         file: Descriptor of the file.
@@ -301,11 +301,11 @@ class CopiedAttachment(NamedTuple):
 
 @dataclass(slots=True)
 class Extras:
-    """Contents of a file other than messages.
+    """Contents of an MCAP file other than messages.
 
     Attributes:
-        attachments: MCAP's attachments, as byte ranges of their file.
-        metadata: Bodies of MCAP's metadata records.
+        attachments: Attachments, as byte ranges of the file.
+        metadata: Bodies of the metadata records.
     """
 
     attachments: list[CopiedAttachment] = field(default_factory=list)
@@ -313,14 +313,14 @@ class Extras:
 
 
 class Container(Protocol):
-    """One file of a recording, or several read as one.
+    """One recording file, or several recording files that are read as one.
 
     Attributes:
-        kind: Name of the container in sentences.
+        kind: Name of the file format in sentences.
         size: Size of the files, bytes.
         start: Log time of the first message; 0 without messages.
         end: Log time of the last message.
-        streams: All streams; a batch refers to them by index.
+        streams: All streams; a batch refers to a stream by its index in this list.
     """
 
     kind: str
@@ -343,15 +343,15 @@ class Container(Protocol):
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams in batches, in the recording's order.
+        """Yield the messages of some streams in batches, in the order of the recording.
 
         A batch's buffer is valid until the next batch, which reuses its memory.
 
         Args:
-            wanted: Numbers of streams.
+            wanted: Indices in `streams` of the streams to read.
             progress: Function called with the number of bytes read.
-            head: Number of bytes needed from each message; None for all bytes. Batches may have
-                more bytes.
+            head: Number of bytes that the caller needs from each message; None for all bytes. A
+                batch may contain more bytes.
         """
 
     def close(self) -> None:
@@ -359,14 +359,13 @@ class Container(Protocol):
 
 
 class ContainerReader(Container, Protocol):
-    """One file of a recording that can also be read sequentially, for editing.
+    """Recording file that can also be read from beginning to end, for editing.
 
     Attributes:
         container: Name of the format: "mcap", "db3" or "bag".
-        channels: Streams exactly as recorded, by their numbers in the file; reading may find
-            more.
-        extras: Contents other than messages; complete once everything is read.
-        style: Options for a writer that writes the container in the same way.
+        channels: Streams exactly as recorded, by number; further reading may find more.
+        extras: Contents other than messages; complete once the whole file was read.
+        style: Options, such as the compression, for a writer of a similar file.
     """
 
     container: str
@@ -402,7 +401,7 @@ class File:
         """Read `count` bytes from an offset.
 
         Raises:
-            InputError: If the file is shorter, or the bytes are too many for memory.
+            InputError: If the file is shorter, or `count` is above `LARGEST`.
         """
         if count < 0 or place < 0 or place + count > self.size:
             raise InputError(

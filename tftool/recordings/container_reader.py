@@ -1,4 +1,4 @@
-"""Reader of an open recording's transforms, headers, clock and messages as columns."""
+"""Reader of transforms, headers, clock readings and messages of an open recording, as columns."""
 
 import re
 import struct
@@ -64,7 +64,7 @@ _WITH_HEADER = frozenset(f"sensor_msgs/{name}" for name in _SENSORS.split()) | {
 
 
 def short_type(name: str) -> str:
-    """Return a type's name without "msg" in the middle: "std_msgs/String"."""
+    """Return the name of a message type without "/msg/": "std_msgs/String"."""
     package, middle, last = name.partition("/msg/")
     return f"{package}/{last}" if middle else name
 
@@ -97,7 +97,7 @@ class Recorded:
 
     @property
     def kind(self) -> str:
-        """Name of the container, for sentences."""
+        """Name of the file format, for sentences."""
         return self._container.kind
 
     @property
@@ -126,7 +126,7 @@ class Recorded:
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the names of all topics, without counting messages, which may be slow."""
+        """Return the names of all topics; faster than `topics`, which counts messages."""
         return frozenset(stream.topic for stream in self._container.streams)
 
     @property
@@ -206,7 +206,7 @@ class Recorded:
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> dict[str, Headers]:
-        """Return the headers of messages, by topic; None selects all topics with headers."""
+        """Return the headers of messages by topic; None selects all topics that have headers."""
         found: dict[str, _Heads] = {}
         of_stream: dict[int, _Heads] = {}
         for number, stream in enumerate(self._container.streams):
@@ -223,7 +223,7 @@ class Recorded:
         return {topic: heads.finished() for topic, heads in sorted(found.items())}
 
     def clock(self) -> tuple[Stamps, Stamps]:
-        """Return the readings of `/clock` and their log times, nanoseconds, each of shape (n,)."""
+        """Return the times in `/clock` messages, and their log times, nanoseconds, shape (n,)."""
         read, received = array("q"), array("q")
         numbers = {
             number: stream
@@ -281,7 +281,7 @@ class _Heads:
         self._known: dict[bytes, int] = {}
 
     def append(self, head: bytes, log_time: int) -> None:
-        """Append the header in a message's first bytes; ignore a message that is too short."""
+        """Append the header in the first bytes of a message; ignore a message that is too short."""
         begin = 4  # after CDR's header, or after ROS 1's sequence number
         order = ">" if self._is_cdr and head[:2] == b"\x00\x00" else "<"
         if len(head) < begin + 12:
@@ -315,7 +315,7 @@ class _Heads:
 
 
 def _unpacked(batch: Batch) -> Iterator[Batch]:
-    """Yield batches of messages that are decompressed one by one; damaged messages are empty."""
+    """Yield batches of the decompressed messages, in which damaged messages are empty."""
     pieces: list[bytes] = []
     first = held = 0
     for number in range(len(batch)):
@@ -334,7 +334,7 @@ def _unpacked(batch: Batch) -> Iterator[Batch]:
 def _by_cutter(
     batch: Batch, of_stream: dict[int, AnyCutter]
 ) -> "Iterator[tuple[AnyCutter, slice | Stamps]]":
-    """Yield a batch's messages in groups, each with the cutter that decodes its transforms."""
+    """Yield each decoder of transforms, with the indices of its messages in a batch."""
     first = int(batch.senders[0])
     if (batch.senders == first).all():
         yield of_stream[first], slice(None)
@@ -361,7 +361,7 @@ def _has_transforms(stream: Channel) -> bool:
 
 
 def is_static(stream: Channel) -> bool:
-    """Whether a stream's transforms are static: by the topic's name or latching, not by stamps."""
+    """Whether the transforms of a stream are static, according to topic name and latching."""
     last = stream.topic.rpartition("/")[2]
     if last == "tf_static":
         return True
@@ -370,7 +370,7 @@ def is_static(stream: Channel) -> bool:
 
 
 def begins_with_header(stream: Channel) -> bool:
-    """Whether a stream's messages begin with a header that can be read."""
+    """Whether the messages of a stream begin with a std_msgs/Header that can be read."""
     if stream.encoding not in LAYOUTS:
         return False
     kind = short_type(stream.type)
@@ -386,7 +386,7 @@ def begins_with_header(stream: Channel) -> bool:
 
 
 def open_found(found: Found) -> Container:
-    """Open a recording that `find` returned.
+    """Open the files of a recording that `find` returned.
 
     Raises:
         InputError: If the file cannot be read, or is not a recording.

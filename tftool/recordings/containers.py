@@ -1,4 +1,4 @@
-"""Table of the containers of recordings: how each is recognised, read and written."""
+"""Table of the file formats of recordings: magic bytes, reader and writer of each."""
 
 import sys
 from collections.abc import Callable, Mapping
@@ -25,19 +25,19 @@ PACKED_SUFFIX: Final = ".zstd"
 
 @dataclass(frozen=True, slots=True)
 class ContainerFormat:
-    """One container format, with its reader and its writer.
+    """One file format of recordings, with its reader and its writer.
 
     Attributes:
-        name: Name in code: "mcap", "db3", "bag".
+        name: Short name: "mcap", "db3", "bag".
         words: Name in sentences.
         magic: First bytes of a file.
         suffix: Ending of a file's name.
         storage: rosbag2's name of the format; "" if rosbag2 cannot record it.
         reader_at: Module and class of the reader, imported when a file is opened.
         writer_at: Module and class of the writer.
-        options: Names of the writer's options other than the path.
-        encoding: The only supported encoding of messages: "cdr" or "ros1"; "" for any.
-        keeps_sequences: Whether publish time and sequence number of a message are stored.
+        options: Names of the arguments of the writer other than the path.
+        encoding: The only allowed encoding of messages: "cdr" or "ros1"; "" for any.
+        keeps_sequences: Whether files store publish times and sequence numbers.
     """
 
     name: str
@@ -66,7 +66,7 @@ class ContainerFormat:
         return found
 
     def create(self, path: Path, **options: Any) -> "ContainerWriter":
-        """Create a file of this format; options that the writer does not have are ignored.
+        """Create a file of this format, with those of the options that its writer has.
 
         Raises:
             UsageError: If the container has no such compression, or a package is missing.
@@ -77,12 +77,12 @@ class ContainerFormat:
         return found
 
     def create_like(self, path: Path, style: Mapping[str, Any], *, profile: str) -> Any:
-        """Create an output file of an edit, for messages that are already encoded.
+        """Create an output file of `tftool edit`, for messages that are already encoded.
 
         Args:
             path: Path of the file.
-            style: `style` of the input's reader if the input has the same format; else empty.
-            profile: Profile of the messages if the style has none: "ros1" or "ros2".
+            style: `style` of the reader of the input, if the input has the same format; else empty.
+            profile: MCAP profile to write if `style` has none: "ros1" or "ros2".
 
         Raises:
             OSError: If the file cannot be written.
@@ -139,10 +139,10 @@ SUFFIXES: Final = (*(one.suffix for one in CONTAINERS), PACKED_SUFFIX)
 
 
 def container_of(path: Path) -> str:
-    """Return the name of the container for the suffix of a file; "" for a folder.
+    """Return the name of the file format for a suffix; "" for a path without one (a folder).
 
     Raises:
-        UsageError: If no container has this suffix.
+        UsageError: If no file format has this suffix.
     """
     if not path.suffix:
         return ""
@@ -157,12 +157,12 @@ def container_of(path: Path) -> str:
 
 
 def container_named(name: str) -> ContainerFormat:
-    """Return the container format with a name: "mcap", "db3" or "bag"."""
+    """Return the file format with the name "mcap", "db3" or "bag"."""
     return next(one for one in CONTAINERS if one.name == name)
 
 
 def container_stored(storage: str) -> ContainerFormat:
-    """Return the container format that rosbag2 calls by a name: "mcap" or "sqlite3".
+    """Return the file format with the storage name of rosbag2 "mcap" or "sqlite3".
 
     Raises:
         UsageError: If rosbag2 has no such storage.

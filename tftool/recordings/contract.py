@@ -29,10 +29,10 @@ class RecordedTopic:
 
     Attributes:
         name: Name as recorded; some ROS 2 recordings have `tf` without a slash.
-        type: Message type in short form: "tf2_msgs/TFMessage"; types other than ROS's as
-            recorded: "foxglove.FrameTransform".
+        type: Message type in short form: "tf2_msgs/TFMessage". A type that is not ROS's is
+            unchanged: "foxglove.FrameTransform".
         encoding: "cdr", "ros1", "json", "protobuf", or another recorded encoding.
-        count: Number of messages; in a damaged recording up to the damage.
+        count: Number of messages; in a damaged recording, number of messages before the damage.
         definition: Text of the message definition; empty if not recorded.
         transforms: Whether messages of this type contain transforms.
         static: Whether the transforms are static.
@@ -53,11 +53,11 @@ class Publisher:
 
     Attributes:
         topic: Name of the topic.
-        node: Name of the publishing node, "/robot_state_publisher"; empty if not recorded, as
-            always in ROS 2.
-        durability: "transient_local" if late subscribers get the last messages (also ROS 1's
-            latching), else "volatile"; empty if not recorded.
-        reliability: "reliable" or "best_effort"; empty if not recorded.
+        node: Name of the publishing node, such as "/robot_state_publisher"; "" if not recorded. ROS
+            2 never records it.
+        durability: "transient_local" if late subscribers get the last messages, as with ROS 1's
+            latching; else "volatile"; "" if not recorded.
+        reliability: "reliable" or "best_effort"; "" if not recorded.
         offers: Number of publishers whose QoS was recorded for the topic.
     """
 
@@ -69,13 +69,13 @@ class Publisher:
 
     @property
     def authority(self) -> str:
-        """Return the publisher's name in buffers and views: the node, else the topic."""
+        """Return the name of the publisher for buffers: its node if recorded, else its topic."""
         return self.node or self.topic
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edge:
-    """All transforms of one parent and child, static or moving, in the recording's order.
+    """All transforms of one pair of parent and child, either static or moving, in recorded order.
 
     Attributes:
         parent: Parent frame, as recorded but without a leading slash.
@@ -85,8 +85,8 @@ class Edge:
         records: One row per transform, int64, shape (n, 8): the stamp, and the bits of the seven
             doubles x y z (metres) and x y z w (quaternion).
         messages: Message of each transform: an index into `Transforms.log_times`.
-        kept: Number of rows at the beginning that a buffer stores unchanged: with increasing
-            stamps, finite numbers, and unit quaternions of tf2's sign.
+        kept: Number of first rows that a buffer need not check: with increasing stamps, finite
+            numbers, and quaternions of unit length and tf2's sign.
     """
 
     parent: str
@@ -122,7 +122,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transforms:
-    """All transforms of a recording as columns per edge, and the messages that contain them.
+    """All transforms of a recording as columns of each edge, and columns of their messages.
 
     Attributes:
         edges: All edges, in the order of their first transform.
@@ -152,7 +152,7 @@ class Transforms:
 
 
 def median(column: Stamps) -> float:
-    """Return the median of a column of whole numbers; for short ones, faster than numpy."""
+    """Return the median of whole numbers; for short columns this is faster than `numpy.median`."""
     half = len(column) // 2
     if len(column) % 2:
         return float(np.partition(column, half)[half])
@@ -169,7 +169,7 @@ class Headers:
         type: Type of the messages.
         stamps: Nanoseconds, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
-        names: The frame names that occur, as recorded (slashes included).
+        names: The different frame names, as recorded, with leading slashes.
         frames: Frame of each message: an index into `names`, shape (n,).
     """
 

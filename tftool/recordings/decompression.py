@@ -1,4 +1,4 @@
-"""Compression and decompression of parts of recordings; sizes are checked before allocation."""
+"""Compression and decompression of recordings' chunks; sizes are checked before allocation."""
 
 import bz2
 import contextlib
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 
 LARGEST: Final = 3 << 27
-"""Maximum size of a part that is read or decompressed, bytes. lz4 needs twice this memory, and a
-reader of a single message three times, which is still below 2 GB.
+"""Maximum number of bytes that are read or decompressed at once. lz4 needs twice this memory, and a
+reader of a single message needs three times this memory, which is still below 2 GB.
 """
 
 MOST_GAIN: Final = 1100
@@ -25,7 +25,9 @@ MOST_GAIN: Final = 1100
 _SLACK: Final = 1 << 20
 
 LARGEST_DAMAGED: Final = 1 << 26
-"""Maximum size that is decompressed from a damaged part, bytes; memory for it is needed twice."""
+"""Maximum number of bytes that are decompressed from damaged bytes, which needs this memory
+twice.
+"""
 
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
@@ -33,11 +35,11 @@ _WAITING: Final = 3  # minimum number of parts that wait for a thread
 _LARGEST_KEPT: Final = 31 << 20
 
 Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
-"""A compressed part: compression, function that reads its bytes, and stated uncompressed size."""
+"""Compressed chunk: compression, function that reads the bytes, and stated uncompressed size."""
 
 
 def unpack(method: str, packed: bytes, size: int) -> bytes:
-    """Decompress a part of a recording whose uncompressed size is known.
+    """Decompress bytes of a recording, whose uncompressed size the file states.
 
     Args:
         method: "", "none", "zstd", "lz4" or "bz2", as in the container.
@@ -65,14 +67,14 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
 
 
 class _Room:
-    """Memory for a decompressed part; it is reused, because new memory is slower."""
+    """Memory for decompressed bytes, which is reused, because new memory is slower."""
 
     def __init__(self) -> None:
         self._bytes = bytearray()
         self._zstd: Any = None
 
     def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
-        """Decompress a part like the function `unpack`; the result is valid until the next call."""
+        """Read and decompress bytes as `unpack` does; the result is valid until the next call."""
         # The thread also reads the file: waiting for the disk does not hold the GIL.
         packed = read()
         if method == "zstd":
@@ -86,7 +88,7 @@ class _Room:
         return unpack(method, packed, size)
 
     def _read(self, packed: bytes, size: int) -> bool:
-        """Decompress a zstd frame to its end; return whether its length is as declared."""
+        """Decompress a zstd frame; return whether the result has exactly `size` bytes."""
         module = zstandard()
         if module.frame_content_size(packed) != size:
             return False
@@ -99,7 +101,7 @@ class _Room:
 
 
 class _Coming:
-    """A part that is being decompressed, or waits to be decompressed.
+    """A chunk that is being decompressed, or waits to be decompressed.
 
     Attributes:
         room: Memory for the result.
@@ -112,7 +114,7 @@ class _Coming:
         self.future: Future[bytes | memoryview] = pool.submit(room.unpack, *piece)
 
     def unpack_here(self) -> None:
-        """Decompress the part in the current thread, if no other thread has started it."""
+        """Decompress the chunk in this thread, unless another thread has already started it."""
         # If the future cannot be cancelled, a thread is decompressing the part.
         if not self.future.cancel():
             return
@@ -124,21 +126,21 @@ class _Coming:
 
 
 class Ahead:
-    """Threads that read and decompress parts of a file ahead of the reader; a context manager.
+    """Threads that read and decompress the next chunks of a file; a context manager.
 
     Reading and decompressing release the GIL, so that on two processors decompression ahead costs
-    no time. If the caller needs a part before it is ready, the caller decompresses a later part
-    meanwhile: every processor is busy, and none runs two threads.
+    no time. If a chunk is not ready when the caller needs it, the caller decompresses a later chunk
+    meanwhile. So every processor is busy, and no processor runs two threads.
     """
 
     def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:
-        """Create the pool for the parts of one file.
+        """Create the pool for the chunks of one file.
 
         Args:
-            keys: Distinct keys of the parts, in the order of reading; the reader may skip parts.
-            packed: Function that returns the part of a key, or None if it must not be
-                decompressed ahead. It is called in the reader's thread, shortly before the part
-                is read.
+            keys: Different keys of the chunks, in the order of reading; the reader may skip chunks.
+            packed: Function that returns the compressed chunk with a key, or None for a chunk that
+                must not be decompressed ahead. The function is called in the thread of the reader,
+                shortly before the chunk is read.
         """
         self._keys = iter(keys)
         self._packed = packed
@@ -157,9 +159,9 @@ class Ahead:
             self._pool.shutdown(wait=True, cancel_futures=True)
 
     def take(self, key: object) -> "Future[bytes | memoryview] | None":
-        """Return the future of a part's bytes; None if it is not decompressed ahead.
+        """Return the future of a chunk's bytes; None for a chunk that is not decompressed ahead.
 
-        The bytes of the part taken before must not be used any more: their memory is reused.
+        The bytes of the previous call must not be used any more: their memory is reused.
         """
         if self._lent is not None:
             self._spare.append(self._lent)
@@ -178,7 +180,7 @@ class Ahead:
         return found.future
 
     def _come_to(self, key: object) -> _Coming | None:
-        """Return the part of a key; drop earlier parts and start later ones in their place."""
+        """Return the chunk with a key; drop earlier chunks, and start later ones instead."""
         self._start()
         while self._coming:
             passed = next(iter(self._coming))
@@ -192,7 +194,7 @@ class Ahead:
         return None
 
     def _start(self) -> None:
-        """Start the decompression of a few more parts than there are threads."""
+        """Start chunks until all threads have work, and a few chunks wait."""
         while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
             key = next(self._keys, None)
             if key is None:
@@ -215,7 +217,7 @@ def _processors() -> int:
 
 
 def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
-    """Decompress as much as possible of a cut or damaged part; the result may be empty."""
+    """Decompress as much as possible of cut or damaged bytes; the result may be empty."""
     size = min(size, LARGEST, most_of(len(packed)))
     if method in ("", "none"):
         return packed[:size]
@@ -242,10 +244,10 @@ def _beginning_of_zstd(packed: bytes, size: int) -> bytes:
 
 
 def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytearray, int]:
-    """Decompress in large steps up to an offset, and byte by byte after it.
+    """Decompress in steps of 4096 bytes up to the offset `coarse`, then byte by byte.
 
     Returns:
-        The decompressed bytes, and the offset of the step that failed, or the end.
+        The decompressed bytes, and the offset of the step that failed, or `len(packed)`.
 
     Raises:
         InputError: If the compression is unknown.
@@ -266,7 +268,7 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
 
 
 def most_of(packed: int) -> int:
-    """Return the maximum plausible uncompressed size of `packed` bytes."""
+    """Return the largest plausible uncompressed size of `packed` compressed bytes."""
     return MOST_GAIN * packed + _SLACK
 
 
@@ -284,7 +286,7 @@ def check_size(packed: int, size: int) -> None:
 
 
 def zstandard() -> "ModuleType":
-    """Return the package for zstd, imported on first use."""
+    """Return the Python package `zstandard`, imported at the first call."""
     try:
         import zstandard
     except ImportError:
@@ -294,7 +296,7 @@ def zstandard() -> "ModuleType":
 
 @cache
 def lz4_frame() -> Any:
-    """Return the module for lz4's frames, imported on first use."""
+    """Return the Python module `lz4.frame`, imported at the first call."""
     try:
         import lz4.frame
     except ImportError:

@@ -1,4 +1,4 @@
-"""Frames of a recorded robot description, added where the recorded transforms lack them."""
+"""Frames of a recorded robot description that the recorded transforms lack, for lookups."""
 
 import re
 import struct
@@ -32,8 +32,8 @@ class RecordedJoints:
     """Joint states of a recording, with counts of messages that were ignored.
 
     Attributes:
-        states: Joint states grouped by the list of joint names in the messages, in the order in
-            which the lists were first seen.
+        states: Joint states, grouped by the list of joint names in their messages; groups in order
+            of first appearance.
         ignored: Number of ignored messages, by the reason as a sentence.
     """
 
@@ -96,7 +96,7 @@ def read_joint_states(source: Recorded, topics: Sequence[str]) -> RecordedJoints
 
 @dataclass(frozen=True, slots=True)
 class _Template:
-    """Byte offsets in a JointState message, and the bytes that all messages of its layout share.
+    """Byte offsets in all JointState messages with the same frame and joint names.
 
     Attributes:
         order: Byte order, "<" or ">".
@@ -115,7 +115,7 @@ class _Template:
     problem: str = ""
 
     def fits(self, payload: bytes) -> bool:
-        """Whether another JointState message has the same layout."""
+        """Whether a JointState message has the same frame and joint names."""
         return len(payload) >= self.end and payload.startswith(self.head, 12)
 
 
@@ -169,7 +169,7 @@ def _template(payload: bytes, *, is_cdr: bool) -> _Template:
 
 
 def _columns(names: tuple[str, ...], order: str, rows: list[tuple[bytes, bytes]]) -> JointStates:
-    """Return joint states from the bytes of stamps and positions, all in one byte order."""
+    """Return the joint states in pairs of bytes: a stamp, and the positions of all joints."""
     stamps, positions = (b"".join(column) for column in zip(*rows, strict=True))
     times = np.frombuffer(stamps, dtype=f"{order}u4").reshape(-1, 2).astype(np.int64)
     found = np.frombuffer(positions, dtype=f"{order}f8").astype(np.float64)
@@ -188,10 +188,10 @@ class DescribedFrames:
     """Names of the frames that were added from a robot description.
 
     Attributes:
-        still: Frames with static links.
-        moving: Frames that joint states move.
-        gaps: Frames whose pose neither tf nor joint states contain.
-        prefix: Prefix of a link's name in the name of its frame.
+        still: Frames that were added with a static transform.
+        moving: Frames that were added with poses from joint states.
+        gaps: Frames without a pose, because there are no joint states for them.
+        prefix: Prefix of the frame names, before the names of the robot's links.
     """
 
     still: tuple[str, ...] = ()
@@ -243,7 +243,7 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
 
 
 def prefix_of(robot: Robot, frames: Collection[str]) -> str:
-    """Return the prefix that robot_state_publisher was set to put before the names of links."""
+    """Guess the `frame_prefix` of robot_state_publisher from names of links and frames."""
     known = frozenset(frames)
     if not known or any(link in known for link in robot.links):
         return ""
@@ -257,7 +257,7 @@ def prefix_of(robot: Robot, frames: Collection[str]) -> str:
 
 
 def missing_motion(robot: Robot, frames: Collection[str], prefix: str) -> list[str]:
-    """Return the names of the movable joints whose frames tf lacks."""
+    """Return the names of the movable joints whose child frames are missing in `frames`."""
     return [
         joint.name
         for joint in robot.joints.values()
@@ -272,17 +272,17 @@ def add_described(
     frames: Collection[str],
     prefix: str = "",
 ) -> DescribedFrames:
-    """Insert the frames of a description that a buffer lacks.
+    """Insert those frames of a robot description into a buffer that the recorded transforms lack.
 
     Args:
         buffer: Buffer with the recorded transforms.
         robot: The description.
         joints: The joint states of the same recording.
-        frames: Child frames in the recorded transforms, which are not changed.
-        prefix: Prefix before a link's name in the name of its frame.
+        frames: Child frames in the recorded transforms. Their transforms stay unchanged.
+        prefix: Prefix of the frame names, before the names of the robot's links.
 
     Returns:
-        The added frames, and the missing ones.
+        Names of the added frames, and of the frames that are still missing.
     """
     still = []
     lacking = {joint.child for joint in robot.joints.values() if prefix + joint.child not in frames}

@@ -1,4 +1,4 @@
-"""Search for the recording, scenario or other source that a word on the command line names.
+"""Search for the files that a word on the command line names, and recognition of their kind.
 
 The kind of a source is decided by content, never by suffix. Only names, sizes and the first bytes
 of files are examined.
@@ -27,13 +27,13 @@ _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*(?:::.*)?://")
 
 
 def is_url(word: str) -> bool:
-    """Whether a word is a URL: `s3://bucket/run.mcap`, `https://…`."""
+    """Whether a word is a URL, such as `s3://bucket/run.mcap` or `https://…`."""
     return _URL.match(word) is not None and not os.path.lexists(word)
 
 
 @contextmanager
 def fetched(place: str) -> Iterator[str]:
-    """Yield a local path to a recording; a URL is copied to a temporary folder.
+    """Yield a local path to a file; the file of a URL is first copied to a temporary folder.
 
     Args:
         place: A local path, which is returned unchanged, or a URL.
@@ -59,10 +59,10 @@ def fetched(place: str) -> Iterator[str]:
 
 
 def listed(place: str) -> list[str]:
-    """Return the files that a URL with `*`, `?` or `[…]` names; other words stay unchanged.
+    """Return the files that match a URL with `*`, `?` or `[…]`; return other words unchanged.
 
     Raises:
-        InputError: If the word names nothing, or a folder cannot be listed.
+        InputError: If no file matches, or a folder cannot be listed.
         UsageError: If fsspec is not installed.
     """
     system, path = _opened(place)
@@ -91,7 +91,7 @@ def _opened(place: str) -> tuple[Any, str]:
 
 @contextmanager
 def _failures_told(place: str) -> Iterator[None]:
-    """Convert a remote service's errors to tftool's, with the URL, in a `with` block."""
+    """Convert a remote service's exceptions in a `with` block to errors that name the URL."""
     try:
         yield
     except FileNotFoundError as error:
@@ -140,7 +140,7 @@ _OTHERS = {
 
 
 class Kind(Enum):
-    """Kind of a source; the value is its name in sentences."""
+    """Kind of a file or folder; the value is the name of the kind in sentences."""
 
     SCENARIO = "scenario"
     DESCRIPTION = "robot description"
@@ -164,7 +164,7 @@ _RECORDINGS: Final = (*_CONTAINERS, Kind.ZSTD)
 
 
 def container_in(path: Path, kind: Kind) -> ContainerFormat:
-    """Return the container of a file of some kind.
+    """Return the file format of a recording, by the kind that was recognised.
 
     Raises:
         InputError: If files of that kind are not recordings.
@@ -177,14 +177,14 @@ def container_in(path: Path, kind: Kind) -> ContainerFormat:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A source found by a word: its kind and its files.
+    """Result of a search: the kind and the files of a source.
 
     Attributes:
         name: The word, as the user gave it.
         kind: Kind of the source. ROSBAG2 is a folder with rosbag2's metadata.
         paths: The file or folder; for SEVERAL, the files and folders of all recordings, sorted
             by name.
-        passed_over: Other files in the folder or of the glob, which are not recordings.
+        passed_over: Files in the folder, or matches of the glob, that are not recordings.
     """
 
     name: str
@@ -193,7 +193,7 @@ class Found:
     passed_over: tuple[Path, ...] = ()
 
     def told(self) -> list[str]:
-        """Return sentences about skipped files, and about the convention of pose files."""
+        """Return sentences about skipped files, and about the format of pose files."""
         if self.kind is Kind.POSES:
             from tftool.recordings.poses.pose_formats import convention_of
 
@@ -222,7 +222,7 @@ def names_a_path(word: str) -> bool:
 
 
 def _meant(path: Path) -> str:
-    """Return a hint if the path exists one folder deeper, as in a workspace's src; else ""."""
+    """Return a hint if the same path exists in a subfolder, such as a workspace's src; else ""."""
     if path.is_absolute() or ".." in path.parts:
         return ""
     with contextlib.suppress(OSError):
@@ -237,7 +237,7 @@ def find(word: str) -> Found:
     """Return the source that a path or glob names.
 
     Raises:
-        InputError: If there is no such source, or it cannot be read; the text says what it is.
+        InputError: If there is no such file, or it is of no known kind, or cannot be read.
     """
     path = Path(word)
     try:
@@ -280,7 +280,7 @@ def find(word: str) -> Found:
 
 
 def _kind_with_options(word: str, path: Path) -> Kind:
-    """Return the kind of one file; refuse options for pose files if it is another kind.
+    """Return the kind of one file; options for pose files are errors for other kinds.
 
     Raises:
         UsageError: If options of pose files are given for another file.
@@ -295,10 +295,10 @@ def _kind_with_options(word: str, path: Path) -> Kind:
 
 
 def _prefixed(word: str, path: Path) -> Found:
-    """Return the pose file in the word NAME=FILE.
+    """Return the pose file that the word NAME=FILE names.
 
     Raises:
-        InputError: If the file is something else.
+        InputError: If the file is not a pose file.
     """
     kind = _kind_with_options(word, path)
     if kind is not Kind.POSES:
@@ -413,7 +413,7 @@ def _is_metadata(path: Path) -> bool:
 
 
 def _folder(word: str, path: Path) -> Found:
-    """Return the recording or recordings in a folder."""
+    """Return the recording or recordings that a folder contains."""
     if (path / METADATA).exists():
         return Found(word, Kind.ROSBAG2, (path,))
     entries = sorted(path.iterdir())
@@ -487,7 +487,7 @@ def refusal(path: Path, error: OSError) -> InputError:
     """Return the error for one of several files that cannot be opened.
 
     Raises:
-        OSError: The given error, if the file is not its cause: too many files are open.
+        OSError: `error` itself, if its cause is not the file but too many open files.
     """
     if error.errno in (errno.EMFILE, errno.ENFILE):
         raise error
@@ -497,7 +497,7 @@ def refusal(path: Path, error: OSError) -> InputError:
 
 
 def _stem(path: Path) -> str:
-    """Return the name shared by the parts of a split recording: `run_0.mcap`, `run_1.mcap`."""
+    """Return the part "run" of the name of a split recording's file, such as `run_0.mcap`."""
     return path.name.partition(".")[0].rstrip("0123456789")
 
 

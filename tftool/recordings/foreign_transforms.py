@@ -1,4 +1,4 @@
-"""Decoders of transforms in types other than TFMessage, for one message at a time.
+"""Decoders of transforms in messages of other types than TFMessage, for one message at a time.
 
 Sources: foxglove.dev's schemas of FrameTransform and FrameTransforms; common_interfaces.
 """
@@ -43,7 +43,7 @@ _DOUBLE = struct.Struct("<d")
 
 
 def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decoder | None":
-    """Return a function that decodes transforms from messages of a type; None for other types.
+    """Return a function that decodes the transforms in a message of a type; None for unknown types.
 
     Args:
         kind: Type of the messages, in short form.

@@ -38,7 +38,7 @@ def ros2_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
 
 def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
-    """Whether messages of a type have the same bytes in two sets of definitions.
+    """Whether two sets of definitions give the messages of a type the same byte layout.
 
     Raises:
         InputError: If a definition lacks the type.
@@ -96,7 +96,7 @@ def ros1_md5(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
 @cache
 def known_hash(name: str) -> str:
-    """Return ROS 2's hash of a type included in tftool; "" for other types."""
+    """Return the type hash (RIHS01) of a type that is included in tftool; "" for other types."""
     try:
         return type_hash(INTERFACES, full_name(name))
     except InputError:
@@ -124,7 +124,7 @@ def _ros2_text(interfaces: Interfaces, full: str) -> str:
 
 
 def _parts(interfaces: Interfaces, full: str) -> list[str]:
-    """Return the names of a type's nested types, each once, in order of appearance."""
+    """Return the names of all nested types of a type, in order of first appearance."""
     found: dict[str, None] = {}
     waiting = [full]
     while waiting:
@@ -168,7 +168,7 @@ _TO_ROS2: Final = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 
 
 class Conversion(NamedTuple):
-    """Conversion of a channel between ROS 1 and ROS 2.
+    """Conversion of a channel and its messages between ROS 1 and ROS 2.
 
     Attributes:
         channel: The channel after the conversion.
@@ -246,7 +246,7 @@ def as_ros1(channel: Channel) -> Conversion:
 
 
 def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
-    """Return a channel's type, and the definitions needed to read its messages."""
+    """Return the type of a channel, and a set of definitions by which its messages can be read."""
     if channel.encoding != encoding:
         raise InputError(
             f"its messages are written as '{channel.encoding}', which is not converted here"
@@ -271,7 +271,7 @@ TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
 
 
 def ros2_channel(topic: str, kind: str, *, static: bool = False) -> Channel:
-    """Return a channel with a known type, as ROS 2 records it.
+    """Return a channel as ROS 2 would record it, for a type that is included in tftool.
 
     Args:
         topic: Name of the topic.

@@ -1,4 +1,4 @@
-"""Decoders of recorded messages into columns of transforms: native if built, else in numpy."""
+"""Decoders of recorded messages into columns of transforms, in C where built, else in numpy."""
 
 from typing import Final, TypeAlias
 
@@ -33,7 +33,7 @@ MOST_WAITING: Final = 1 << 26
 
 
 class Cutter:
-    """Base class of decoders of transforms, from messages of one byte layout into a table.
+    """Base class of decoders that append the transforms of messages of one byte layout to a table.
 
     Messages are collected until there are enough for array operations. Unusual messages are parsed
     one by one.
@@ -87,7 +87,7 @@ class Cutter:
         self._cut_first(joined, np.concatenate([numbers for _, numbers in waiting]))
 
     def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages; if the edges may be too many, keep those that appear first."""
+        """Decode messages; if there may be too many edges, keep the edges that appear first."""
         # Even with transforms of minimum size, there cannot be too many new edges.
         if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
             self._cut(batch, numbers)
@@ -102,7 +102,7 @@ class Cutter:
             begin, done = end, int(most[end - 1])
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages by the subclass's fast method."""
+        """Decode messages by the fast method of the subclass."""
         raise NotImplementedError
 
     def _walk(self, batch: Batch, numbers: Indexes) -> None:
@@ -184,7 +184,7 @@ class TemplateCutter(Cutter):
             tried += 1
 
     def _learn(self, payload: bytes, length: int) -> bool:
-        """Make a template of a message; return whether this is possible."""
+        """Add a template of a message; return False if the message is malformed."""
         try:
             walked = walk(self._layout, payload)
         except MalformedMessage:
@@ -209,7 +209,7 @@ class TemplateCutter(Cutter):
 
 
 class ScanCutter(Cutter):
-    """Decoder in C, for the frequent cases; it leaves unusual messages to Python."""
+    """Decoder in C for frequent cases; unusual messages are decoded in Python."""
 
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)
@@ -233,7 +233,7 @@ class ScanCutter(Cutter):
             self._walk(batch.chosen(which), numbers[which])
 
     def _aim(self, pair: int, message: int, rank: int) -> None:
-        """Tell the native code where to write the transforms of a new pair of names.
+        """Tell the C code where to write a pair of frames that is new or has no free row.
 
         Args:
             pair: Number of the pair.
@@ -265,7 +265,7 @@ class ScanCutter(Cutter):
         self._pairs.aim(number, edge.records, edge.messages, edge.state)
 
     def _named(self, pair: int) -> tuple[str, str]:
-        """Return parent and child of a pair as text, like `walk`."""
+        """Return parent and child of a pair as text, decoded as `walk` does."""
         raw = self._pairs.names(pair)
         if self._layout is CDR:
             # In CDR a string's bytes include the final zero.
@@ -279,7 +279,7 @@ AnyCutter: TypeAlias = "Cutter | Decoding"
 
 
 def cutter(table: Table, layout: Layout, static: bool) -> Cutter:
-    """Return the fastest decoder for TFMessages of one byte layout, static or moving."""
+    """Return the fastest available decoder of TFMessages in one byte layout."""
     kind = TemplateCutter if SCAN is None else ScanCutter
     return kind(table, layout, static)
 
@@ -308,7 +308,7 @@ class Decoding:
 
 
 def _compacted(batch: Batch) -> Batch:
-    """Copy messages to a new buffer, with space before each message for its row."""
+    """Copy messages to a new buffer, with 8 bytes before each message, where its row may begin."""
     pieces = []
     starts = np.empty(len(batch), dtype=np.int64)
     position = 0

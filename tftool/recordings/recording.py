@@ -1,4 +1,4 @@
-"""A recording for lookups: all its frames over its whole length in one buffer."""
+"""A recording for lookups: one buffer with all frames over the whole recorded time."""
 
 import os
 from collections import Counter
@@ -84,7 +84,7 @@ class Samples:
 class Recording:
     """An open recording, returned by `open_recording`; a context manager.
 
-    The topics are known when it is opened; transforms are read at the first use.
+    Opening a recording reads the list of topics. Transforms are read when they are first needed.
     """
 
     def __init__(
@@ -96,14 +96,14 @@ class Recording:
         with_odometry: bool = False,
         tf_topics: Sequence[str] = (),
     ) -> None:
-        """Wrap an opened container.
+        """Create a recording from opened files.
 
         Args:
-            source: The opened container.
+            source: The opened files.
             progress: Function called with the progress of reading.
             robot: Description of the robot; None to use the recorded description.
-            kept: Cache of the recording's columns; None for no cache.
-            with_odometry: Whether odometry and poses are used as transforms.
+            kept: Cache with the transforms of this recording; None for no cache.
+            with_odometry: Whether messages with odometry and poses are used as transforms.
             tf_topics: Topics of transforms to read; empty for all.
         """
         self.source = source
@@ -196,7 +196,7 @@ class Recording:
 
     @cached_property
     def odometry(self) -> tuple[RecordedTopic, ...]:
-        """Topics of odometry and poses that are used as transforms; empty unless requested."""
+        """Topics of odometry and poses used as transforms; empty unless `with_odometry`."""
         return implying(self.topics) if self._with_odometry else ()
 
     @property
@@ -206,7 +206,7 @@ class Recording:
 
     @cached_property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last stamp of moving links, nanoseconds; log times if nothing moves.
+        """First and last stamp of moving transforms, nanoseconds; log times if no transform moves.
 
         If stamps are on two clocks (wall and simulation), the clock with more transforms is used.
         """
@@ -230,24 +230,23 @@ class Recording:
 
     @property
     def start(self) -> Stamp:
-        """First stamp of moving links, nanoseconds; see `span`."""
+        """First stamp of moving transforms, nanoseconds; see `span`."""
         return self.span[0]
 
     @property
     def end(self) -> Stamp:
-        """Last stamp of moving links, nanoseconds; see `span`."""
+        """Last stamp of moving transforms, nanoseconds; see `span`."""
         return self.span[1]
 
     # Lookups
 
     @cached_property
     def buffer(self) -> Buffer:
-        """Buffer with all transforms, without a time limit: lookups work at any recorded stamp.
+        """Buffer with all transforms, in which lookups work at any recorded time.
 
         The last value of a static transform is valid at all times. Transforms that tf2 would
-        refuse, and moving transforms with stamp 0, are left out; see `oddities`. Frames that tf
-        lacks are computed from the robot's description and joint states, if recorded; see
-        `described`.
+        refuse, and moving transforms with stamp 0, are left out; see `oddities`. Frames of a robot
+        description without transforms are computed from recorded joint states; see `described`.
         """
         oddities = self._oddities
         buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)
@@ -287,7 +286,7 @@ class Recording:
 
     @cached_property
     def robot(self) -> Robot | None:
-        """Robot from the given, or else the recorded description; None without a description.
+        """Robot of the given description, or else of the recorded one; None without a description.
 
         Mistakes in a recorded description are added to `oddities`.
 
@@ -318,13 +317,13 @@ class Recording:
 
     @property
     def described(self) -> DescribedFrames | None:
-        """Return the frames added from the robot's description; None without a description."""
+        """Return the frames added from a robot description; None without a description."""
         _ = self.buffer
         return self._described
 
     @property
     def oddities(self) -> dict[str, int]:
-        """Return sentences, with counts, about transforms that the buffer left out or chose."""
+        """Return how many transforms the buffer left out or replaced, by a sentence why."""
         _ = self.buffer
         return dict(self._oddities)
 
@@ -430,7 +429,7 @@ class Recording:
 
 
 def _by_clock(stamps: Stamps) -> list[Stamps]:
-    """Split stamps above 0 into those of wall clock and simulation; usually one clock has none."""
+    """Split stamps above 0 into times since 1970 and simulation times; one is usually empty."""
     if len(stamps) and stamps.min() >= SIMULATED_BELOW:
         return [stamps]
     stamps = stamps[stamps > 0]
@@ -464,7 +463,7 @@ def _set_moving(
 def _set_static(
     buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
 ) -> None:
-    """Insert the last static transform of a child, whatever its parent, into a buffer."""
+    """Insert a child's last static transform into a buffer; count it if earlier ones differ."""
     edge = max(edges, key=_last)
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()
@@ -495,7 +494,7 @@ def _last(edge: Edge) -> int:
 
 
 def _silent(level: str, text: str) -> None:
-    """Ignore log lines about rejected samples, which are counted instead."""
+    """Ignore a log line about a rejected sample; `oddities` counts rejected samples."""
 
 
 def open_recording(
@@ -517,7 +516,7 @@ def open_recording(
         progress: Function called with the bytes read and their total while reading.
         robot: Description of the recorded robot, instead of the recorded description; see
             `load_urdf`.
-        cache: Cache of large recordings' columns; None for no cache.
+        cache: Cache of the transforms of large recordings; None for no cache.
         with_odometry: Whether Odometry, PoseStamped and PoseWithCovarianceStamped messages are
             used as transforms, for frames without other transforms. The topic of a pose is used
             as its frame's name.

@@ -1,4 +1,4 @@
-"""Statistics of a recording: edges with rates and clock offsets, trees, unusual facts."""
+"""Statistics of a recording: rate and delay of each edge, trees of frames, unusual facts."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,8 +32,8 @@ class EdgeFacts:
         first: First stamp, nanoseconds.
         last: Last stamp, nanoseconds.
         offset: Delays from stamp to log time; None if static.
-        simulated: Whether stamps count from a simulation's start.
-        publishers: Senders: nodes if recorded, else topics.
+        simulated: Whether stamps are simulation times, which count from the start of a simulation.
+        publishers: Names of the publishers: nodes if recorded, else topics.
     """
 
     parent: str
@@ -50,7 +50,7 @@ class EdgeFacts:
 
 @dataclass(frozen=True, slots=True)
 class TreeFacts:
-    """Root and number of frames of one tree, by each frame's last parent."""
+    """Root and number of frames of one tree, in which each frame has its last recorded parent."""
 
     root: str
     frames: int
@@ -93,7 +93,7 @@ def _facts(transforms: Transforms, edge: Edge) -> EdgeFacts:
 
 
 def trees(transforms: Transforms) -> list[TreeFacts]:
-    """Return the facts of every tree, the largest tree first."""
+    """Return root and size of every tree, the largest tree first."""
     parents: dict[str, tuple[int, str]] = {}
     names: dict[str, None] = {}
     for edge in transforms.edges:
@@ -129,7 +129,7 @@ def oddities(
     Args:
         recording: The recording.
         edges: Statistics of the edges.
-        forest: Facts of the trees.
+        forest: Root and size of every tree.
     """
     found = [
         f"{text}." if count == 1 else f"{text} ({count} times)."

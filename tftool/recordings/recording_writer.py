@@ -30,11 +30,11 @@ class RecordingWriter:
     """
 
     def __init__(self, target: Target, container: ContainerWriter) -> None:
-        """Wrap the writer of a container.
+        """Create a recording from the writer of its file.
 
         Args:
             target: File or folder to write.
-            container: Writer of the container.
+            container: Writer of the file.
         """
         self._target = target
         self.container = container
@@ -89,7 +89,7 @@ class RecordingWriter:
         self.raw(channel, log_time, encode_transforms(chosen))
 
     def message(self, topic: str, message: Message, log_time: Stamp) -> None:
-        """Append one message object, whose type must be included in tftool.
+        """Append one message, whose type must be included in tftool.
 
         Raises:
             InputError: If the type is unknown, or a value does not fit its field.

@@ -1,4 +1,4 @@
-"""Recording that is written while messages arrive; a killed process loses at most a second.
+"""Writer of a live recording, which loses at most the last second if its process is killed.
 
 An open file has the suffix `.active`, as with ROS 1's recorder; its contents can be read, and
 `tftool edit` repairs it.
@@ -41,7 +41,7 @@ class Kept(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class RecordLimits:
-    """Limits at which a new file begins, or old messages are dropped.
+    """Limits at which a new file begins, or the oldest messages of the ring buffer are dropped.
 
     Attributes:
         size: Size of a file, bytes, at which the next file begins; 0 for no limit.
@@ -68,7 +68,7 @@ class RollingRecording:
         messages: Number of received messages; once a recording with a ring buffer is closed, the
             number of written messages.
         transforms: Number of transforms in these messages.
-        size: Number of bytes written, or held in the ring buffer.
+        size: Number of bytes written, or stored in the ring buffer.
         files: Names of the completed files, in order.
     """
 
@@ -155,7 +155,7 @@ class RollingRecording:
 
     @property
     def size(self) -> int:
-        """Number of bytes written so far, or held in the ring buffer."""
+        """Number of bytes written so far, or stored in the ring buffer."""
         return self._written + self._held_bytes + (self._writer.size if self._writer else 0)
 
     def _place(self, number: int) -> Path:
@@ -360,7 +360,7 @@ class RollingRecording:
         self._named(writer)
 
     def _named(self, writer: RecordedWriter) -> None:
-        """Give the file of a closed writer its final name."""
+        """Rename the file of a closed writer from its temporary to its final name."""
         place = self._place(len(self.files))
         active = place.with_name(place.name + ACTIVE)
         synced(active)

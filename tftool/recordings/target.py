@@ -1,7 +1,7 @@
 """File or folder that is written under a temporary name, and renamed when complete.
 
-A file or folder gets its final name by one rename, when all of it is on the disk. Until then the
-name is unchanged: free, or that of the old recording.
+When all bytes are on the disk, one rename gives the file or folder its final name. Until then a
+recording that already has this name stays unchanged.
 """
 
 import errno
@@ -33,7 +33,7 @@ def refuse_stdout(path: Path) -> None:
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
-    """Raise an error if the path exists (even as a broken link), unless `force` is given.
+    """Raise an error if the path exists (even as a broken symbolic link), unless `force` is given.
 
     Raises:
         UsageError: If the path exists and `force` is not given, or is `-`.
@@ -52,7 +52,7 @@ class Target:
     """
 
     def __init__(self, path: Path, *, folder: bool = False, force: bool = False) -> None:
-        """Create the temporary file or folder, after checking existing ones.
+        """Create the temporary file or folder, after a check of existing files.
 
         Args:
             path: Final path of the file or folder.
@@ -139,7 +139,7 @@ class Target:
 
 
 def commit_together(targets: Sequence[Target]) -> None:
-    """Give related files their final names together, or none of them.
+    """Give files that belong together their final names: either all files or none.
 
     Readers find the other files through the last file. So the last file is renamed last, and its
     old version gets a hidden name before: even if the process is killed, the last file is never

@@ -32,7 +32,7 @@ class RobotNames:
     colliding: frozenset[str]
 
     def named(self, topic: str, frame: str) -> str:
-        """Return the unique name of a frame in a message on a topic."""
+        """Return the unique name of a frame, for a frame name in a message on a topic."""
         robot = next((one for one in self.robots if one and topic.startswith(f"/{one}/")), "")
         return f"{robot}/{frame}" if robot and frame in self.colliding else frame
 
@@ -49,7 +49,7 @@ class RobotNames:
 def transforms_on(
     source: Recorded, topics: Sequence[str], progress: Progress | None = None
 ) -> tuple[Transforms, RobotNames]:
-    """Read the transforms on some topics, and on the static topic of each one's namespace.
+    """Read the transforms on some topics, and on the static topics in the same namespaces.
 
     Topics of one namespace belong to one robot. A frame name that several robots use gets the
     namespace as prefix, unless it is a root that they share (`SHARED_ROOTS`).
@@ -96,7 +96,7 @@ def transforms_on(
 
 
 def _with_statics(source: Recorded, names: Iterable[str]) -> list[str]:
-    """Return the given topics, and the static topic of each one's namespace."""
+    """Return the given topics, and the static topics in the same namespaces."""
     known = {topic.name for topic in source.topics if topic.transforms}
     found = []
     for name in names:
@@ -135,12 +135,12 @@ def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
 
 
 def joined(said: Transforms, implied: Transforms) -> Transforms:
-    """Merge published transforms with transforms from odometry and poses.
+    """Merge transforms from tf topics with transforms from odometry and poses.
 
-    Odometry and poses are used only for frames that have no published transforms.
+    Odometry and poses are used only for frames without transforms on tf topics.
 
     Args:
-        said: Published transforms.
+        said: Transforms from tf topics.
         implied: Transforms from odometry and poses in the same recording.
     """
     known: Collection[str] = {edge.child for edge in said.edges}

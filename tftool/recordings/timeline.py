@@ -1,4 +1,4 @@
-"""Order and times at which a recording's transforms are played."""
+"""Order and times in which `tftool play` publishes the transforms of a recording."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -37,11 +37,11 @@ def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
 
 
 class PlayClock:
-    """Conversion of log times to the clock of the stamps; it is published on `/clock` in playback.
+    """Conversion of log times to the clock of the stamps, which playback publishes on `/clock`.
 
-    If `/clock` was recorded, it gives the conversion. Otherwise, if stamps come from a simulation
-    but log times do not, the median of their differences is subtracted. Otherwise log times are
-    already on the clock of the stamps.
+    If `/clock` was recorded, its messages give the conversion. If not, and only the stamps are
+    simulation times, the median difference of log time and stamp is subtracted. In all other cases
+    log times are used unchanged.
     """
 
     def __init__(self, transforms: Transforms, read: Stamps, received: Stamps) -> None:
@@ -101,9 +101,9 @@ class TimelineRows:
     """Transforms of some messages, in order of reception.
 
     Attributes:
-        edges: Number of each transform's edge, shape (n,).
-        rows: Row of each transform in its edge, shape (n,).
-        places: Number of each transform's message, shape (n,).
+        edges: Number of the edge of each transform, shape (n,).
+        rows: Row of each transform in the columns of its edge, shape (n,).
+        places: Number of the message of each transform, shape (n,).
     """
 
     edges: Indexes
@@ -158,9 +158,9 @@ class Timeline:
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:
-        """Return a mask of the messages whose order among each other is irrelevant, shape (n,).
+        """Return a mask of the messages that a buffer may receive in any order, shape (n,).
 
-        All frames in such a message are moving, and have one publisher and one parent.
+        Every frame in such a message is moving, and has only one publisher and one parent.
         """
         transforms = self._transforms
         edges_of = Counter(edge.child for edge in transforms.edges)
@@ -230,7 +230,7 @@ class Timeline:
         ]
 
     def known_at(self, moment: Stamp) -> list[Due]:
-        """Return the last transform of every child received up to a time.
+        """Return the last transform of every child that was received up to a time.
 
         Static transforms received later are included, because they are valid at all times.
         """

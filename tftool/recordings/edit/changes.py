@@ -1,4 +1,4 @@
-"""Changes that an edit makes to the messages and transforms of a recording."""
+"""Changes that `tftool edit` makes to the messages and transforms of a recording."""
 
 import struct
 from collections import Counter
@@ -38,25 +38,25 @@ _HEADER: Final = "std_msgs/msg/Header"
 
 @dataclass(frozen=True, slots=True)
 class Edits:
-    """Changes to make to a recording; all names are those in the recording.
+    """Changes to make to a recording. Frame names are the names before the edit.
 
     Attributes:
-        drop: Links to remove.
+        drop: Links (pairs of parent and child) whose transforms are removed.
         rename: New frame names, by old name.
         prefix: Prefix to add to every frame name.
         strip_slash: Whether to remove leading slashes from frame names.
-        poses: New poses of links: x y z, and x y z w.
-        reparent: New parent of a link's child; the child does not move.
+        poses: New poses of links: x y z and x y z w.
+        reparent: New parent by link. The poses are recomputed, so that the child does not move.
         statics_first: Whether to write the static transforms at the beginning, in one message
             for each channel.
-        statics_from: Static transforms that replace those of the same children.
+        statics_from: Static transforms that replace recorded ones of the same children.
         start: First time to keep, nanoseconds; None for the beginning of the recording.
         end: Last time to keep, nanoseconds; None for the end of the recording.
-        by_record_time: Whether `start` and `end` are log times; else stamps.
-        shift: Nanoseconds to add to the stamps of moving links.
+        by_record_time: Whether `start` and `end` are log times; if not, they are stamps.
+        shift: Nanoseconds to add to the stamps of moving transforms.
         restamp: Whether to replace stamps by log times.
-        everywhere: Whether to change names and stamps in all messages with a header.
-        split_every: Duration of each output file, nanoseconds; 0 for one file.
+        everywhere: Whether to change names and stamps also in all other messages with a header.
+        split_every: Duration of each output file, nanoseconds; 0 to write one file.
     """
 
     drop: tuple[LinkName, ...] = ()
@@ -105,14 +105,14 @@ class Edits:
         return plain if self.strip_slash else slash + plain
 
     def stamp(self, stamp: Stamp, log_time: Stamp) -> Stamp:
-        """Return the new value of a stamp; 0 means "no stamp", and is not changed."""
+        """Return the new value of a stamp; --shift leaves 0 ("no stamp") unchanged."""
         if self.restamp:
             return log_time + self.shift
         return stamp + self.shift if stamp else stamp
 
 
 def fits(link: LinkName, wanted: LinkName) -> bool:
-    """Whether a link has the names that an option gives, where "*" means any name."""
+    """Whether a link matches the pair of names in an option, in which "*" means any name."""
     return all(word in ("*", name) for name, word in zip(link, wanted, strict=True))
 
 
@@ -127,14 +127,14 @@ def carries_statics(channel: Channel) -> bool:
 
 
 class Window:
-    """Time span that an edit keeps.
+    """Time span of a recording that an edit with --from or --to keeps.
 
     Attributes:
         start: First log time to keep, for messages without a stamp.
         end: Last log time to keep, for messages without a stamp.
         stamps: First and last stamp to keep, for messages with a header; None to use log times.
-        links: First and last stamp to keep of each moving link's transforms; log times if
-            `stamps` is None.
+        links: First and last stamp to keep of each moving link; these are log times if `stamps` is
+            None.
     """
 
     def __init__(
@@ -174,10 +174,10 @@ class Changer:
     """Editor of a recording's messages, with counts of its changes.
 
     Attributes:
-        window: Time span to keep; None for all.
+        window: Time span to keep; None to keep all times.
         counts: Number of changes, by kind of change.
-        topics: Topics with links that change; None if unknown.
-        passed_over: Topics whose frame names cannot be changed, with the reason.
+        topics: Topics with transforms that change; None if any topic may change.
+        passed_over: Reason why the frame names on a topic cannot be changed, by topic.
     """
 
     def __init__(
@@ -187,9 +187,9 @@ class Changer:
 
         Args:
             edits: Changes to make.
-            window: Time span to keep; None for all.
-            reparenting: Function that returns the pose of a link's old parent in its new parent;
-                None if no link gets another parent.
+            window: Time span to keep; None to keep all times.
+            reparenting: Function that returns the pose of the old parent in the new parent of a
+                link; None if no link gets another parent.
         """
         self._edits = edits
         self.window = window
@@ -203,7 +203,7 @@ class Changer:
         self.topics: frozenset[str] | None = None
 
     def touches(self, channel: Channel) -> bool:
-        """Whether messages of a channel may be changed or dropped, other than by a cut in time."""
+        """Whether the edit may change or drop messages of a channel, apart from a cut in time."""
         if carries_transforms(channel):
             if self.topics is not None:
                 return channel.topic in self.topics
@@ -218,7 +218,7 @@ class Changer:
         )
 
     def changed(self, message: Taken, channel: Channel) -> Taken | None:
-        """Return a message after the changes; None if it is dropped."""
+        """Return a message after the edit; None if the edit drops the message."""
         if carries_transforms(channel):
             return self._transforms(message, channel)
         if self.window is not None and not self._kept(message, channel):
@@ -258,7 +258,7 @@ class Changer:
     # Many messages at once
 
     def changed_table(self, table: MessageTable, channels: Mapping[int, Channel]) -> MessageTable:
-        """Return messages after the changes; the same table if none changes."""
+        """Return messages after the edit; return the same table if no message changes."""
         change = TableChange(table)
         for number in table.owners:
             channel = channels[number]
@@ -278,7 +278,7 @@ class Changer:
         return change.finished()
 
     def _by_kind(self, change: TableChange, which: Stamps, channel: Channel) -> Stamps:
-        """Change transforms of messages with the same frames in bulk; return the other messages."""
+        """Change messages with the same frames in bulk; return the indices of the others."""
         edits, static = self._edits, carries_statics(channel)
         if edits.stamps or edits.reparent:
             return which
@@ -335,7 +335,7 @@ class Changer:
         return np.stack(found, axis=1)
 
     def _learned(self, payload: bytes, channel: Channel) -> "tuple[Result, Counter[str]]":
-        """Change one message as an example for messages with the same frames, without the cut."""
+        """Change one message as an example for messages of its kind, without a cut in time."""
         layout, static = LAYOUTS[channel.encoding], carries_statics(channel)
         before, self.counts = self.counts, Counter()
         try:
@@ -352,7 +352,7 @@ class Changer:
             self.counts = before
 
     def row(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after the changes and the cut; None if it is dropped."""
+        """Return a transform after the cut in time and all other changes; None if it is dropped."""
         edits = self._edits
         if self.window is not None:
             window = self.window
@@ -363,7 +363,7 @@ class Changer:
         return self.edited(old, log_time, static=static) if edits.links or self._replaced else old
 
     def edited(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after the changes, without the cut; None if it is dropped."""
+        """Return a transform after all changes except the cut in time; None if it is dropped."""
         edits = self._edits
         link = stripped(old.parent), stripped(old.child)
         if any(fits(link, wanted) for wanted in edits.drop):
@@ -484,7 +484,7 @@ class Renamer:
             self._marks = [name.encode() for name in edits.rename]
 
     def renamed(self, payload: bytes) -> bytes | None:
-        """Return a message's bytes with new frame names; None if none changes.
+        """Return the bytes of a message with new frame names; None if no name changes.
 
         Raises:
             MalformedMessage: If the payload is not a message of the type.
@@ -515,7 +515,7 @@ _NAMES: Final = ("frame_id", "child_frame_id")
 
 
 def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
-    """Return the editor of frame names in a channel's messages; None if they have no header.
+    """Return the editor of frame names in a channel's messages; None for types without header.
 
     Raises:
         InputError: If the type is unknown.

@@ -30,11 +30,11 @@ Change = Callable[[MessageTable, Mapping[int, Channel]], MessageTable]
 
 
 class Unsound(Exception):
-    """Signal that the copied database is damaged, so that its rows must be read one by one."""
+    """Exception for a damaged copy of a database, whose rows must be read one by one instead."""
 
 
 class EditedDatabase:
-    """A copied database that is edited in place; `EditedFile` is written row by row instead.
+    """Copy of a `.db3` file in which only changed rows are updated.
 
     Attributes:
         path: Path of the written file.
@@ -165,7 +165,7 @@ class EditedDatabase:
         self.end = max((high for _, _, _, high in found), default=0)
 
     def compare(self) -> None:
-        """Read the changed rows again, and compare them with the intended rows.
+        """Read the changed rows back from the file, and compare them with the rows to write.
 
         Raises:
             InputError: If the rows differ from the intended ones.
@@ -190,7 +190,7 @@ class EditedDatabase:
 
 
 def _is_damage(error: BaseException | None) -> bool:
-    """Whether an sqlite error means that the file is damaged, and not a problem of the disk."""
+    """Whether an sqlite error means that the file is damaged, rather than a problem of the disk."""
     return isinstance(error, sqlite3.DatabaseError) and error.sqlite_errorcode in (
         sqlite3.SQLITE_CORRUPT,
         sqlite3.SQLITE_NOTADB,

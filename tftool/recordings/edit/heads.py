@@ -1,4 +1,4 @@
-"""Static transforms that an edit writes at the start of its output files."""
+"""Static transforms that `tftool edit` writes at the start of its output files."""
 
 import contextlib
 from collections import Counter
@@ -48,7 +48,7 @@ class StaticHeads:
     """Static transforms for the start of every output file, so that each file is complete.
 
     Attributes:
-        wanted: Whether to write static transforms at the start; false if the edit only changes
+        wanted: Whether to write static transforms at the start. False if the edit only changes
             messages.
     """
 
@@ -66,9 +66,8 @@ class StaticHeads:
 
         Args:
             edits: The changes.
-            tapes: The input files.
-            changer: Editor of messages, which applies the edit's changes to the static transforms
-                too.
+            tapes: Readers of the input files.
+            changer: Editor of messages, which also applies the changes to the static transforms.
             start: Log time of the first message in the output.
             by_tape: Whether each input file becomes a separate output file.
             ros2: Whether the result is a ROS 2 recording.
@@ -86,7 +85,7 @@ class StaticHeads:
 
     @property
     def topics(self) -> frozenset[str]:
-        """Return the topics to latch, because their statics are written at the start."""
+        """Return the topics to latch, whose static transforms are written at the start."""
         if not self.wanted:
             return frozenset()
         found = frozenset(one.channel.topic for one in self._statics)
@@ -169,7 +168,7 @@ class StaticHeads:
         self._changer.counts["statics put first"] += len(chosen) + len(edits.statics_from)
 
     def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
-        """Write the static transforms of another recording that no topic of this one has."""
+        """Write the transforms of --statics-from if no input has a topic of static transforms."""
         channel = ros2_channel("/tf_static", TRANSFORMS, static=True)
         encoding = container_named(output.container).encoding
         ros1 = encoding == "ros1" or all(

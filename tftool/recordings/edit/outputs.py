@@ -1,4 +1,4 @@
-"""Output files of an edit."""
+"""Output files of `tftool edit`."""
 
 import zlib
 from collections import Counter
@@ -37,7 +37,7 @@ _UNREAD: Final = "is left out where it cannot be read"
 
 
 class EditedFile:
-    """One output file of an edit, with the counts and checksums for the final comparison.
+    """One output file of an edit, with counts and checksums to verify the written file.
 
     Attributes:
         path: Path of the written file.
@@ -47,7 +47,7 @@ class EditedFile:
         copied: Size of each copied chunk, bytes, by its offset in the file.
         start: Log time of the first message.
         end: Log time of the last message.
-        refused: Topics that cannot be converted, each with its treatment and the reason.
+        refused: What is done with a topic that cannot be converted, and why, by topic.
     """
 
     def __init__(
@@ -66,11 +66,11 @@ class EditedFile:
         Args:
             path: Path of the written file.
             container: "mcap", "db3" or "bag".
-            tape: The first input file; its style is used if the container is the same.
+            tape: Reader of the first input file, whose `style` is used if its format is the same.
             ros2: Whether ROS 1 messages are converted to ROS 2.
-            packs: Whether each message is compressed separately, as rosbag2 can.
+            packs: Whether each message is compressed separately, as in rosbag2's mode "message".
             latched: Topics that must offer their last message to late subscribers.
-            first_free: The first number that no input uses for a channel or a schema.
+            first_free: First number that no input uses for a channel or a schema.
         """
         self.path = path
         self.container = container
@@ -97,7 +97,7 @@ class EditedFile:
             self._chunks.first_free = first_free
 
     def _opened(self, tape: ContainerReader) -> Any:
-        """Return the writer of a new file in the format of the first input."""
+        """Create the file, in the first input's style if formats are equal; return its writer."""
         is_same = tape.container == self._format.name
         style: dict[str, Any] = dict(tape.style) if is_same else {}
         if not getattr(tape, "is_indexed", True) and not style.get("chunked", True):
@@ -112,7 +112,7 @@ class EditedFile:
     def _conversion(
         self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> Conversion | None:
-        """Return an input's channel as written in this file; None if it cannot be converted."""
+        """Return the conversion of an input's channel for this file; None if impossible."""
         key = source, number
         if key not in self._conversions:
             try:
@@ -147,7 +147,7 @@ class EditedFile:
     def _register(
         self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> int | None:
-        """Return the number of an input's channel in this file; None if it is left out."""
+        """Return the number of an input's channel in this file; None for an omitted channel."""
         key = source, number
         found = self._numbers.get(key)
         if found is not None:
@@ -179,7 +179,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether an input's chunks may be copied, as its channel numbers are valid here."""
+        """Whether an input's chunks may be copied, because channel numbers mean the same here."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -189,7 +189,7 @@ class EditedFile:
         return found and self._chunks is not None
 
     def _agrees(self, tape: ContainerReader) -> bool:
-        """Whether all channel numbers of a further input are unused or mean the same here."""
+        """Whether all channel numbers of an input are unused or mean the same in this file."""
         if self._chunks is None or self._extra or not isinstance(tape, ChunkedReader):
             return False
         channels = tape.channels.items()
@@ -199,7 +199,7 @@ class EditedFile:
     # Messages
 
     def write(self, source: int, table: MessageTable, tape: ContainerReader) -> bool:
-        """Append messages of an input; return whether this file stores any of them."""
+        """Append messages of an input; return whether at least one message was written."""
         numbers = np.full(len(table), -1, dtype=np.int64)
         change = TableChange(table)
         for own in table.owners:
@@ -223,7 +223,7 @@ class EditedFile:
     def _convert(
         self, change: TableChange, which: Stamps, channel: Channel, conversion: Conversion
     ) -> None:
-        """Convert messages of one channel, transforms in bulk."""
+        """Convert the messages of one channel; convert messages with the same frames in bulk."""
         if carries_transforms(channel):
             kinds = self._kinds.get(channel)
             if kinds is None:
@@ -268,7 +268,7 @@ class EditedFile:
             self.writer.write(number, log_time, packed, publish_time, sequence)
 
     def can_copy(self, source: int, block: Block, tape: ContainerReader) -> bool:
-        """Whether an input's block of messages may be copied unchanged."""
+        """Whether a block of messages of an input may be copied unchanged."""
         if not (block.whole and isinstance(block, Chunk) and self._fits(source, tape)):
             return False
         for number in block.counts or ():
@@ -295,7 +295,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """End the current chunk, which replaces an input's chunk, with that chunk's compression."""
+        """End the current chunk, which has the messages of `block`; compress it like `block`."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)
@@ -324,7 +324,7 @@ def digest_table(
     channels: Mapping[int, Channel],
     container: str,
 ) -> None:
-    """Update each topic's checksum with messages, as far as the container stores their parts."""
+    """Update each topic's checksum with messages, including all times that `container` stores."""
     numbers: dict[tuple[str, str], list[int]] = {}
     for number in table.owners:
         channel = channels[number]
@@ -339,7 +339,7 @@ def digest_table(
 
 
 def _defined(channel: Channel) -> Channel:
-    """Return a ROS 2 channel; if its definition is missing, with tftool's definition."""
+    """Return a ROS 2 channel with tftool's definition of its type, if tftool has one."""
     try:
         text = ros2_definition(channel.type)
     except TftoolError:
@@ -356,7 +356,7 @@ def _defined(channel: Channel) -> Channel:
 
 
 def _latching(channel: Channel) -> Channel:
-    """Return the channel with QoS that sends the last message to late subscribers."""
+    """Return a channel with QoS by which late subscribers get the last message."""
     metadata = dict(channel.metadata)
     if channel.encoding == "ros1":
         if metadata.get("latching") == "1":

@@ -1,4 +1,4 @@
-"""Input recordings of an edit, and checks of its options before anything is written."""
+"""Input recordings of `tftool edit`, and checks of its options before anything is written."""
 
 import contextlib
 import tempfile
@@ -41,7 +41,7 @@ class EditedInput:
         paths: Paths of the files.
         is_folder: Whether the input is a rosbag2 folder.
         metadata: Contents of the folder's metadata.yaml.
-        mode: "file" or "message" if rosbag2 compressed whole files or each message; else "".
+        mode: "file" if rosbag2 compressed whole files, "message" for each message; else "".
         damage: Sentences about damage of the folder.
         notes: Other sentences about the folder.
     """
@@ -173,7 +173,7 @@ def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) ->
 
 
 def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
-    """Return the editor of these recordings' messages, after checks of all options.
+    """Check all options of an edit; return the editor of the messages.
 
     Args:
         edits: The edits.
@@ -190,7 +190,7 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
 
 
 def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
-    """Raise an error for names that were not recorded, and new names that equal others."""
+    """Raise an error for a name that was not recorded, or a new name that another frame has."""
     wanted: list[LinkName] = [*edits.drop, *edits.poses, *edits.reparent]
     if not (wanted or edits.rename):
         return
@@ -212,7 +212,7 @@ def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
 
 
 def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] | None:
-    """Return the topics with links that the edit changes; None if all links change."""
+    """Return the topics with transforms that the edit changes; None if any topic may change."""
     wanted = [*edits.drop, *edits.poses, *edits.reparent]
     if not wanted or edits.names or edits.stamps or edits.statics_from:
         return None
@@ -229,7 +229,7 @@ def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] 
 
 
 def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
-    """Return the time span to keep; None to keep all of it."""
+    """Return the time span that --from and --to keep; None without these options."""
     if not edits.cuts:
         return None
     low = edits.start if edits.start is not None else 0
@@ -271,12 +271,12 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
 def _refuse_outside(
     edits: Edits, recordings: Sequence[Recording], moments: Sequence[Stamp]
 ) -> None:
-    """Refuse a cut that keeps nothing: one of its ends is beyond all times.
+    """Raise an error if --from is after the end of the recordings, or --to before their start.
 
     Args:
         edits: The edits with the cut.
         recordings: Recordings to cut.
-        moments: Times of the contents, in no order.
+        moments: Times of messages, in any order.
 
     Raises:
         UsageError: If the cut keeps nothing.
@@ -297,7 +297,7 @@ def _refuse_outside(
 
 
 def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:
-    """Return the function for poses under new parents; None without --reparent."""
+    """Return the function that computes poses in new parents; None without --reparent."""
     if not edits.reparent:
         return None
     if len(recordings) > 1:
@@ -337,7 +337,7 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
 
 
 def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
-    """Return a time span extended by one sample at each end, to interpolate at both ends."""
+    """Return a time span widened by a sample at each end, so that lookups there succeed."""
     before, behind = moments[moments <= low], moments[moments >= high]
     first = int(before.max()) if len(before) else low
     last = int(behind.min()) if len(behind) else high
@@ -345,7 +345,7 @@ def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Sta
 
 
 def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
-    """Return a frame and all its ancestors at any time."""
+    """Return a frame, all parents that it ever has, all parents of these parents, and so on."""
     found, waiting = {frame}, [frame]
     while waiting:
         for parent in parents.get(waiting.pop(), ()):
@@ -356,7 +356,7 @@ def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
 
 
 def _joined_by_statics(one: str, other: str, static: Mapping[str, str]) -> bool:
-    """Whether two frames are joined by static links only, and so never move."""
+    """Whether only static transforms connect two frames, so that their pose is constant."""
 
     def up(frame: str) -> list[str]:
         found = [frame]

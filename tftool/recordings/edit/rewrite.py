@@ -1,7 +1,7 @@
-"""Rewriting of recordings with changes; everything else is copied byte for byte.
+"""`tftool edit`: writing of changed recordings, in which all unchanged bytes are copied.
 
-Every part is read once, and copied if possible, else parsed and changed. Then the result is read
-again and compared completely with the intended content. Only then it gets its final name.
+Every chunk is copied if none of its messages change, else parsed and changed. Then the output is
+read back, and compared completely with the intended content. Only then it gets its final name.
 """
 
 import contextlib
@@ -71,7 +71,7 @@ def edit(
 
     Args:
         names: Files or folders of the recordings; several recordings are joined.
-        output: Path to write. The suffix selects the container; a path without a suffix is a
+        output: Path to write. The suffix selects the file format; a path without a suffix is a
             rosbag2 folder.
         edits: Changes to make.
         force: Whether existing files may be replaced.
@@ -97,7 +97,7 @@ def edit(
 
 
 def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
-    """Raise an error if a recording would be joined to itself, which duplicates its messages.
+    """Raise an error if a file is among the inputs twice, which would duplicate its messages.
 
     Raises:
         UsageError: If a file is named twice, even by different paths.
@@ -134,7 +134,7 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
 
 
 class _Job:
-    """Run of one edit, from inputs to the verified output."""
+    """One edit, from opened inputs to the verified output."""
 
     def __init__(
         self,
@@ -268,7 +268,7 @@ class _Job:
             output.finish(whose if self._by_tape or number == self._order[0] else [])
 
     def _examined_ahead(self, tape: ContainerReader) -> Iterator[Block]:
-        """Yield an input's blocks; verify blocks to copy while earlier blocks are written.
+        """Yield the blocks of an input; a thread verifies the next blocks while one is written.
 
         Decompressing a chunk and checking its CRC takes as long as copying it, and both release
         the GIL.
@@ -289,7 +289,7 @@ class _Job:
                         examined.cancel()
 
     def _stays_unseen(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether the index alone shows that a block, if undamaged, can be copied unchanged."""
+        """Whether the index alone shows that the edit changes nothing in a block."""
         return (
             block.whole
             and bool(block.counts)
@@ -300,7 +300,7 @@ class _Job:
     # Databases
 
     def _changed_in_place(self) -> list[Sqlite]:
-        """Return the databases if only some rows of each change; else an empty list."""
+        """Return the input databases if they can be updated row by row; else an empty list."""
         tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
         alike = len(tapes) == len(self._tapes) and self._container == "db3"
         one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
@@ -331,7 +331,7 @@ class _Job:
         self._changer.counts = Counter()
 
     def _path_in(self, part: Path, number: int) -> Path:
-        """Return the path of an output file, by its number."""
+        """Return the path of the output file with a number, from 0."""
         if not self._is_folder:
             return part
         suffix = container_named(self._container).suffix
@@ -360,7 +360,7 @@ class _Job:
                 output.closed_block(block)
 
     def _by_part(self, source: int, table: MessageTable) -> Iterator[tuple[int, MessageTable]]:
-        """Yield the number of each output file, with the messages of `table` that belong in it."""
+        """Divide messages among the output files; yield each file's number with its messages."""
         if not self._edits.split_every:
             if len(table):
                 yield self._part_of(source, 0), table
@@ -370,7 +370,7 @@ class _Job:
             yield number, table.chosen(np.flatnonzero(parts == number))
 
     def _in_one_part(self, block: Block) -> bool:
-        """Whether a block can be copied as one chunk, because it belongs to one output file."""
+        """Whether a block is a chunk that can be copied, because it goes to one output file."""
         is_one = self._part_of(0, block.start) == self._part_of(0, block.end)
         return is_one and block.whole and bool(block.counts) and isinstance(block, Chunk)
 
@@ -384,7 +384,7 @@ class _Job:
         return max(0, (log_time - self._start) // self._edits.split_every)
 
     def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
-        """Return the output file with a number; a new one begins with its static transforms."""
+        """Return the output file with a number; if it is new, write its static transforms first."""
         found = self._outputs.get(number)
         if found is not None:
             return found
@@ -539,7 +539,7 @@ def _examined(block: Block, examined: "Future[bool] | None") -> Block:
 
 
 def _packed(path: Path) -> Path:
-    """Compress a whole file again, because the input was compressed as a whole."""
+    """Compress a whole output file, as the input was; return the compressed file's path."""
     packed = path.with_name(path.name + PACKED_SUFFIX)
     with path.open("rb") as source, packed.open("wb") as out:
         writer = zstandard().ZstdCompressor(level=1).stream_writer(out, closefd=False)

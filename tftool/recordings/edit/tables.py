@@ -1,8 +1,8 @@
-"""Messages of one chunk as columns, with bulk changes of their transforms.
+"""Bulk changes of the transforms in the messages of one chunk.
 
-A publisher sends the same frames again and again. Messages with the same frames are of one *kind*:
-one message of a kind is changed individually; the others get the same new bytes, with their own
-stamps and numbers.
+A publisher sends the same frames again and again. Messages with the same frames are of one *kind*.
+One message of each kind is changed as an example. All other messages of the kind get the new bytes
+of this example, with their own stamps and numbers.
 """
 
 from collections import Counter
@@ -25,7 +25,7 @@ _MOST_KINDS = 16
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """New bytes of the example message of a kind (messages with the same frames).
+    """New bytes of the example of a kind (messages with the same frames).
 
     Attributes:
         payload: The bytes; None if the message is dropped.
@@ -42,11 +42,11 @@ class Result:
 
 @dataclass(slots=True)
 class MessageKind:
-    """Kind of messages: they have the same frames, and differ only in stamps and numbers.
+    """Kind of messages, which have the same frames and differ only in stamps and numbers.
 
     Attributes:
         places: Byte offsets of the transforms.
-        counts: Number of changes in each message, by name of the change.
+        counts: Number of changes that the edit makes in each message, by name of the change.
     """
 
     places: tuple[Place, ...]
@@ -88,7 +88,7 @@ class MessageKind:
 
 
 class Kinds:
-    """Kinds of one channel's messages (those with the same frames), found while reading."""
+    """Kinds of messages in one channel; messages of one kind have the same frames."""
 
     def __init__(
         self, layout: Layout, learn: "Callable[[bytes], tuple[Result, Counter[str]]]"
@@ -97,7 +97,7 @@ class Kinds:
 
         Args:
             layout: Byte layout of the channel's messages.
-            learn: Function that changes one message; returns the result and counts of changes.
+            learn: Function that changes a message; returns the result, and counts of changes.
         """
         self._layout = layout
         self._learn = learn
@@ -106,15 +106,15 @@ class Kinds:
     def groups(
         self, table: MessageTable, which: Stamps
     ) -> "tuple[list[tuple[MessageKind, Stamps, Bytes]], Stamps]":
-        """Group messages by kind: by their frames.
+        """Group messages by kind, that is, by the frames in them.
 
         Args:
             table: The messages.
             which: Indices of the channel's messages.
 
         Returns:
-            Each kind with the indices and the bytes of its messages, one row each; and the indices
-            of the messages without a kind.
+            A list of kinds, each with the indices of its messages and their bytes, one row per
+            message; and the indices of messages that must be changed one by one.
         """
         found, rest = [], []
         for length in np.unique(table.lengths[which]).tolist():
@@ -141,7 +141,7 @@ class Kinds:
         return found, np.concatenate(rest) if rest else which[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
-        """Add the kind of a message; return whether this is possible."""
+        """Change a message as the example of a new kind; return False for an unusual message."""
         if len(known) >= _MOST_KINDS:
             return False
         try:

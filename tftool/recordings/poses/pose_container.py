@@ -1,4 +1,4 @@
-"""Pose file that is read like a recording: its links become transform messages."""
+"""Pose file that is read like a recording: every pose becomes a message on /tf or /tf_static."""
 
 from collections.abc import Collection, Iterator
 from pathlib import Path
@@ -30,7 +30,7 @@ _NOT_ROTATION: Final = 1e-2
 
 
 class PoseContainer:
-    """Container with the poses of one file as messages on /tf and /tf_static; see `Container`."""
+    """Container with the poses of one file, as messages on /tf and /tf_static; see `Container`."""
 
     def __init__(self, path: Path, form: PoseFormat, options: PoseOptions) -> None:
         """Read a pose file.
@@ -103,7 +103,7 @@ class PoseContainer:
 
 
 def open_poses(found: Found) -> PoseContainer:
-    """Read a pose file, with the options given for it.
+    """Read a pose file, with the options that the user gave for this file.
 
     Raises:
         InputError: If the file cannot be read.
@@ -114,7 +114,7 @@ def open_poses(found: Found) -> PoseContainer:
 def _solved(
     link: PoseLink, form: PoseFormat, options: PoseOptions, file: PoseFile
 ) -> tuple[Stamps, Floats]:
-    """Return a link's stamps, shape (n,), and its poses in ROS's axes, shape (n, 7), by stamp."""
+    """Return a link's sorted stamps, shape (n,), and poses in ROS's axes, shape (n, 7)."""
     stamps = np.array(link.stamps, dtype=np.int64)
     numbers = np.array(link.numbers, dtype=np.float64).reshape(-1, link.width)
     keep = np.asarray(np.isfinite(numbers).all(axis=1))

@@ -1,4 +1,4 @@
-"""Table of the formats of pose files: how each is recognised and read, and its convention.
+"""Table of the formats of pose files, each with a recogniser, a reader and its convention.
 
 A new format needs a function that recognises the first bytes, a reader, and one entry in the table.
 """
@@ -22,10 +22,10 @@ _JSON: Final = re.compile(r'"(frames|transform_matrix|camera_angle_x|fl_x|camera
 
 
 class Head:
-    """First bytes of a file, as text, lines and numbers."""
+    """First bytes of a file, split into lines, words and numbers to recognise the format."""
 
     def __init__(self, data: bytes) -> None:
-        """Decode the first bytes; the last line is omitted if it may be incomplete."""
+        """Decode the first bytes of a file; omit the last line if it may be incomplete."""
         self.data = data
         self.text = data.decode("utf-8-sig", "replace")
         lines = self.text.splitlines()
@@ -38,7 +38,7 @@ class Head:
 
     @cached_property
     def numbers(self) -> list[float]:
-        """Numbers in that first line (`row`); empty if one of its words is not a number."""
+        """Numbers in the line `row`; empty if a word in this line is not a number."""
         try:
             return [float(one) for one in self.row.replace(",", " ").split()]
         except ValueError:
@@ -62,7 +62,7 @@ class Head:
 
 @dataclass(frozen=True, slots=True)
 class PoseFormat:
-    """One format of pose files: how it is recognised and read.
+    """One format of pose files, with its recogniser, its reader and its convention.
 
     Attributes:
         name: Name for --pose-format.
@@ -70,9 +70,9 @@ class PoseFormat:
         read: Function that reads a file.
         parent: Default name of the parent.
         child: Default name of the child.
-        convention: Description of the numbers.
+        convention: Sentence about the meaning of the numbers.
         inverse: Whether the numbers map points from the parent to the child.
-        axes: Axes of the cameras, if other than ROS's optical axes.
+        axes: Axes of cameras in this format, "opencv" or "opengl"; "" without cameras.
     """
 
     name: str

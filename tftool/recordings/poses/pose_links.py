@@ -1,4 +1,4 @@
-"""Links of a pose file as read, with stamps and numbers in the file's convention."""
+"""Links (poses of one frame in another) of a pose file, in the convention of the file."""
 
 from array import array
 from collections import Counter
@@ -33,7 +33,7 @@ class PoseLink:
     Attributes:
         parent: Name of the parent.
         child: Name of the child.
-        static: Whether the link has a single pose, valid at all times.
+        static: Whether the only pose is valid at all times.
         width: Numbers per pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of the matrix).
         stamps: Stamp of each pose, nanoseconds.
         numbers: Numbers of all poses, concatenated.
@@ -51,13 +51,13 @@ class PoseLink:
 
 
 class PoseFile:
-    """A pose file while it is read, with its options and notes about unusual rows.
+    """A pose file that is being read, with options and counts of unusual rows.
 
     Attributes:
         path: Path of the file.
         options: Options for reading.
-        default: Names of parent and child in the format.
-        oddities: Number of unusual rows (omitted or out of order), by a part of a sentence.
+        default: Default names of parent and child.
+        oddities: Number of unusual rows, by a phrase such as "rows out of order".
     """
 
     def __init__(self, path: Path, options: PoseOptions, default: tuple[str, str]) -> None:
@@ -76,11 +76,11 @@ class PoseFile:
 
     @property
     def frames(self) -> tuple[str, str]:
-        """Names of parent and child, from the options or else the format."""
+        """Names of parent and child from --frames, or else the default names of the format."""
         return self.default if self.options.frames is None else self.options.pair()
 
     def link(self, width: int = 7) -> PoseLink:
-        """Return an empty link between the file's two frames, for a trajectory."""
+        """Return an empty link between the two frames of the file, to which poses are appended."""
         return PoseLink(*self.frames, width=width)
 
     def open(self) -> BinaryIO:
@@ -172,7 +172,7 @@ class PoseFile:
         return stamp
 
     def at_rate(self, link: PoseLink) -> None:
-        """Compute stamps for a link's poses from --pose-rate, beginning one period after 0.
+        """Compute stamps for the poses of a link from --pose-rate; the first stamp is one period.
 
         Raises:
             InputError: If --pose-rate was not given.
@@ -204,10 +204,10 @@ class PoseFile:
         return word
 
     def renamed(self, what: str, links: list[PoseLink]) -> list[PoseLink]:
-        """Rename the frames of a file's single link as --frames says, even if the file has names.
+        """Return the links; if --frames is given, rename the frames of the only link.
 
         Args:
-            what: Plural noun for the contents of the file: "pairs", "links".
+            what: Plural noun for the links in error messages: "pairs", "links".
             links: Links of the file.
 
         Raises:

@@ -22,7 +22,7 @@ class PoseOptions:
         frames: Names of the frames, "PARENT:CHILD"; None for the format's names.
         pose_rate: Poses per second, for a file without stamps.
         pose_format: Name of the format; None to recognise it from the content.
-        inverted: Whether the file has the inverse of its format's usual poses.
+        inverted: Whether the poses in the file are the inverse of what its format says.
         axes: Axes of the file's cameras, one of `AXES`; None for the format's axes.
         prefix: Name to put before each frame name, followed by a slash.
     """
@@ -47,7 +47,7 @@ class PoseOptions:
             raise UsageError(f"--axes must be {' or '.join(AXES)}, not '{self.axes}'.")
 
     def pair(self) -> tuple[str, str]:
-        """Return the names of parent and child in `frames`.
+        """Split `frames` ("PARENT:CHILD") into the names of parent and child.
 
         Raises:
             UsageError: If the text is not two different names with a colon between.
@@ -79,11 +79,11 @@ class PoseOptions:
 
 @dataclass(frozen=True, slots=True)
 class ChosenOptions:
-    """Options for all pose files of one command, and for some of them by name.
+    """Options for all pose files of one command, and for single files.
 
     Attributes:
-        every: Options for files without separate options.
-        by_name: Options of single files, by the word that names the file.
+        every: Options for all files that are not in `by_name`.
+        by_name: Options for single files, by the word on the command line that names the file.
     """
 
     every: PoseOptions = PoseOptions()
@@ -98,7 +98,7 @@ _NONE: Final = ChosenOptions()
 def pose_options(chosen: ChosenOptions) -> Iterator[None]:
     """Apply options to all pose files that are read within this `with` block.
 
-    Recordings are opened in many places by name only: this context gives them all the same options.
+    Code that opens recordings passes only their names, so the options are set once here.
     """
     token = _CHOSEN.set(chosen)
     try:
@@ -114,12 +114,12 @@ def options_of(word: str) -> PoseOptions:
 
 
 def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
-    """Return options by file: an option belongs to the file before it.
+    """Return the options of each file, in which an option belongs to the file before it.
 
     An option before the first file belongs to all files.
 
     Args:
-        given: For each option the word of the file before it, the option's name and its value.
+        given: For each option: the file before it, the option's name, and its value.
     """
     every: dict[str, Any] = {}
     named: dict[str, dict[str, Any]] = {}
@@ -138,10 +138,10 @@ def names_file(word: str) -> bool:
 
 
 def path_behind_prefix(word: str) -> tuple[str, Path | None]:
-    """Split NAME=FILE into prefix and file; the prefix is empty if the whole word is a file.
+    """Split NAME=FILE into prefix and file; the prefix is "" if the whole word names a file.
 
     Returns:
-        The prefix, and the file; None if there is no such file.
+        The prefix, and the path of the file, or None if there is no such file.
     """
     try:
         if Path(word).exists():

@@ -59,7 +59,7 @@ def read_nerfstudio(file: PoseFile) -> list[PoseLink]:
 
 
 def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -> list[PoseLink]:
-    """Return one moving camera with a pose per image, by name, or a frame for each image."""
+    """Return a moving camera with a pose per image if --pose-rate is given, else static frames."""
     if file.options.pose_rate is not None:
         link = file.link(width)
         for _, numbers in sorted(images, key=lambda one: one[0]):
@@ -78,7 +78,7 @@ def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -
 
 
 def read_kalibr(file: PoseFile) -> list[PoseLink]:
-    """Return the links in kalibr's camchain.yaml: each camera in the IMU or previous camera."""
+    """Return the links in kalibr's camchain.yaml: cameras in the IMU or the previous camera."""
     document = _yaml(file)
     cameras = sorted((name for name in document if _is_camera(name)), key=lambda one: int(one[3:]))
     links = []

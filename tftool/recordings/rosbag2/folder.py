@@ -1,6 +1,6 @@
 """Opening of rosbag2 folders, of several files, and of files that are compressed as a whole.
 
-rosbag2's metadata is only a hint: files are read even if they differ from it.
+The metadata of rosbag2 may be wrong: files in the folder are read even if they differ from it.
 """
 
 import re
@@ -57,7 +57,7 @@ def _open_folder(folder: Path) -> Container:
 
 
 def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
-    """Return the files of a rosbag2 recording, in order; add faults to `damage`.
+    """Return the files of a rosbag2 recording, in order; append sentences about faults to `damage`.
 
     Raises:
         InputError: If there are no files.
@@ -90,12 +90,12 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
 
 
 def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) -> Container:
-    """Open files as one recording; report unreadable files; fail without a readable one.
+    """Open files as one recording; raise an error only if no file can be read.
 
     Args:
         paths: Paths of the files.
-        damage: List to append faults to.
-        by_time: Whether to order recordings by their start, not by name.
+        damage: List to which sentences about unreadable files are appended.
+        by_time: Whether to order files by the time of their first message instead of by name.
     """
     parts: list[tuple[str, Container]] = []
     refused: list[InputError] = []
@@ -119,7 +119,7 @@ def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) 
 
 
 def _listed(folder: Path, damage: list[str]) -> list[str]:
-    """Return the names of the files in a folder's metadata, without their folder."""
+    """Return the file names in the metadata of a folder, without paths."""
     path = folder / METADATA
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read as they are.")
@@ -137,7 +137,7 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
 
 
 def _is_part(path: Path) -> bool:
-    """Whether a file in a folder is part of a recording."""
+    """Whether a file in a rosbag2 folder is one of the recording's files."""
     if path.name == METADATA or path.name.endswith(BESIDE):
         return False
     try:
@@ -275,7 +275,7 @@ class Joined:
         ]
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return 0, because the number is unknown before every part is read."""
+        """Return 0 (unknown), because the files are opened one after the other."""
         return 0
 
     def batches(
@@ -302,7 +302,7 @@ class Joined:
 
 
 def _moved(progress: Progress | None, before: int, size: int) -> Progress | None:
-    """Return a function that converts a part's progress to progress of the whole recording."""
+    """Return a function that reports one file's progress as that of the whole recording."""
     if progress is None:
         return None
 

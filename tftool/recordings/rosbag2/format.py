@@ -51,8 +51,8 @@ def metadata_text(
         files: Facts about the files, in order.
         topics: Number of messages of each channel.
         compression: Format and mode of rosbag2's compression of files or messages.
-        old: Metadata of the original recording, if any: its version and other facts that do
-            not follow from the files are used again.
+        old: Metadata of the original recording; None for a new recording. Its version, and other
+            facts that do not follow from the files, are kept.
     """
     version = int((old or {}).get("version", VERSION))
     filled = [one for one in files if one.count]
@@ -90,7 +90,7 @@ def metadata_text(
 
 
 def _listed(topics: Mapping[Channel, int], version: int) -> list[dict[str, Any]]:
-    """Return the topics' part of the metadata, with the channels of each topic merged."""
+    """Return the section of the metadata about topics, with the channels of each topic merged."""
     listed: dict[tuple[str, str], dict[str, Any]] = {}
     for channel, count in topics.items():
         key = channel.topic, channel.type
@@ -143,7 +143,7 @@ def write_metadata(folder: Path, text: str) -> None:
 
 
 def _offers(text: str, version: int) -> Any:
-    """Return a topic's QoS in the form of a metadata version: text up to 8, then a list."""
+    """Return a topic's QoS as a metadata version requires: text up to 8, a list from 9 on."""
     text = restyled(text, version)
     if version < VERSION:
         return text

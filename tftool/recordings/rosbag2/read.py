@@ -45,7 +45,7 @@ _MOST_SPILLED: Final = 64 << 20  # bytes in one batch of messages that continue 
 
 
 class _Odd(Exception):
-    """Signal of unusual contents, which sqlite must read."""
+    """Exception for unusual pages or rows, which must be read by sqlite instead."""
 
 
 def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple[Batch, int]]:
@@ -53,8 +53,8 @@ def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple
 
     Args:
         path: Path of the file.
-        root: Root page of the table; 0 reads nothing.
-        streams: Stream number of each topic number of the file.
+        root: Number of the root page of the message table; 0 reads nothing.
+        streams: Index of the stream of each topic, by the id of the topic in the file.
 
     Returns:
         Batches, each with the id of its last row; rows after the last batch must be read by sqlite.
@@ -343,14 +343,14 @@ class Sqlite:
             self.streams.append(shown)
 
     def _columns(self, table: str) -> set[str]:
-        """Return the names of a table's columns; empty for a view, which may be endless."""
+        """Return the column names of a table; none for a view, whose rows may be endless."""
         asked = "select count(*) from sqlite_master where lower(name) = ? and type = 'table'"
         if self._base.execute(asked, (table,)).fetchone() != (1,):
             return set()
         return {row[1] for row in self._base.execute(f"pragma table_info({table})")}
 
     def _definitions(self) -> dict[str, tuple[str, str]]:
-        """Return the encoding and the definition of each type, if recorded."""
+        """Return encoding and definition of each message type that the file describes."""
         found: dict[str, tuple[str, str]] = {}
         names = self._columns("message_definitions")
         if not names >= {"topic_type", _DEFINITION}:
@@ -445,7 +445,7 @@ class Sqlite:
                 last, gap = min(max(last, 0) + gap, 2**63 - 1), gap * 2
 
     def _table(self) -> int:
-        """Return the root page of the message table; 0 if the table has another form."""
+        """Return the root page of the message table; 0 if the table has unusual columns."""
         try:
             told = self._base.execute("pragma table_info(messages)")
             columns = [(name, kind, key) for _, name, kind, _, _, key in told]
@@ -483,7 +483,7 @@ class Rows:
     counts: Mapping[int, int] | None = None
 
     def __init__(self, batch: Batch, unpacks: bool) -> None:
-        """Wrap a batch; `unpacks` tells whether its messages are compressed one by one."""
+        """Create a block; `unpacks` says whether to decompress its messages one by one."""
         self._batch = batch
         self._unpacks = unpacks
         self.start = int(batch.log_times.min())
@@ -522,7 +522,7 @@ def _connected(uri: str) -> sqlite3.Connection:
 
 
 def _some(cursor: sqlite3.Cursor) -> list[Any]:
-    """Return the next rows of a query, limited by memory; the data is the last column."""
+    """Return the next rows of a query, up to a limit of bytes in the last column."""
     rows, held = [], 0
     for row in cursor:
         rows.append(row)
@@ -533,7 +533,7 @@ def _some(cursor: sqlite3.Cursor) -> list[Any]:
 
 
 def rows_query(streams: Mapping[int, int], data: str = "data", most: int = -1) -> str:
-    """Return the SQL query for the messages of some topics after a row; see `batch_of_rows`.
+    """Return the SQL query for messages of some topics after a row id; see `batch_of_rows`.
 
     Args:
         streams: Number of the stream of each topic, by the topic's number in the file.

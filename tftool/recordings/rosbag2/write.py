@@ -159,7 +159,7 @@ class SqliteWriter:
 
 
 class translated:  # noqa: N801 -- used as a function in a `with`
-    """Context that converts sqlite's errors to errors about a written file."""
+    """Context that converts exceptions of sqlite to errors that name the written file."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -177,7 +177,7 @@ class FolderWriter:
     """Writer of a rosbag2 folder with one file and its metadata; see `ContainerWriter`."""
 
     def __init__(self, folder: Path, file: Path, storage: str, inner: ContainerWriter) -> None:
-        """Wrap the writer of the folder's file.
+        """Create the writer of a folder from the writer of its only file.
 
         Args:
             folder: Path of the folder.
