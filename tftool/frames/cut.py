@@ -1,4 +1,4 @@
-"""Copy of a buffer, up to a time."""
+"""Copy of the samples of a buffer up to a time."""
 
 from itertools import pairwise
 

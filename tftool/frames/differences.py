@@ -1,4 +1,4 @@
-"""Differences of two sets of frames, A and B: links added, removed, reattached or displaced."""
+"""Differences of two sets of frames, A and B: frames added, removed, reattached or displaced."""
 
 import os
 from collections.abc import Set as AbstractSet
@@ -29,7 +29,7 @@ MOST_MOMENTS: Final = 2_000_000
 
 
 class Behaviour(StrEnum):
-    """Kind of a link: static, moving, or a joint of a description."""
+    """Kind of a frame: static, moving, or moved by a joint of a robot description."""
 
     static = "static"
     moving = "moving"
@@ -55,7 +55,7 @@ class Change(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Allowance:
-    """Tolerance of a comparison: the largest difference that does not count.
+    """Tolerance of a comparison: the largest differences that are ignored.
 
     Attributes:
         millimetres: Tolerance of positions.
@@ -87,7 +87,7 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class LinkState:
-    """State of one link in one of the two compared sets of frames.
+    """State of one frame in one of the two compared sets of frames.
 
     Attributes:
         parent: Parent in the last sample.
@@ -106,18 +106,17 @@ class LinkState:
 
 @dataclass(frozen=True, slots=True)
 class Displacement:
-    """Difference between a link's poses in the two compared sets of frames, A and B.
+    """Difference between the poses of a frame in the two compared sets of frames, A and B.
 
     Attributes:
-        millimetres: Distance; for a moving link, the root mean square of its distances.
-        degrees: Angle of rotation; for a moving link, the root mean square of its angles.
+        millimetres: Distance; for a moving frame, the root mean square of the distances.
+        degrees: Angle of rotation; for a moving frame, the root mean square of the angles.
         worst_millimetres: Largest distance.
         worst_degrees: Largest angle.
-        worst_at: Stamp in A at which the difference is largest in units of the tolerance; None if
-            the link is static.
+        worst_at: Stamp in A of the largest difference in units of the tolerance; None if static.
         moments: Number of times at which the poses were compared.
-        moved_mm: Displacement x y z in the parent of A's link, if both links are static; else None.
-        turned_deg: Rotation as roll pitch yaw, if both links are static; else None.
+        moved_mm: Displacement x y z in the parent of A, if static in both sets; else None.
+        turned_deg: Rotation as roll pitch yaw, if static in both sets; else None.
     """
 
     millimetres: float
@@ -132,15 +131,15 @@ class Displacement:
 
 @dataclass(frozen=True, slots=True)
 class LinkDifference:
-    """Differences of one link between two sets of frames, A and B.
+    """Differences of one frame between two sets of frames, A and B.
 
     Attributes:
-        child: Child frame of the link.
+        child: Name of the frame.
         changes: The changes; only `Change.same` if both sets agree within the tolerance.
-        before: State of the link in A; None if A has no such link.
-        after: State of the link in B; None if B has no such link.
+        before: State of the frame in A; None if the frame is not in A.
+        after: State of the frame in B; None if the frame is not in B.
         displacement: Difference of the poses; None if unknown.
-        note: Reason why the displacement is unknown, if the reason is not obvious.
+        note: Reason why the displacement is unknown; may be "".
     """
 
     child: str
@@ -152,28 +151,28 @@ class LinkDifference:
 
     @property
     def is_same(self) -> bool:
-        """Whether no difference of the link exceeds the tolerance."""
+        """Whether no difference of the frame exceeds the tolerance."""
         return self.changes == (Change.same,)
 
     @property
     def parent(self) -> str:
-        """Return the link's parent in the first set; if the link is new, in the second set."""
+        """Return the parent in A, or for a new frame the parent in B."""
         state = self.before or self.after
         return "" if state is None else state.parent
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Differences:
-    """Result of a comparison of two sets of frames, A and B: all their links.
+    """Result of a comparison of two sets of frames, A and B.
 
     Attributes:
         first: Name of A.
         second: Name of B.
         tolerance: Tolerance of the comparison.
-        links: All links, in the order of A, then of B.
-        start: First moment of A, from which times are counted, nanoseconds.
-        shift: Nanoseconds added to stamps of A to find those of B.
-        notes: Assumptions, as sentences.
+        links: All frames that have a parent: first those of A in order, then those only in B.
+        start: First stamp of A, from which printed times are counted, nanoseconds.
+        shift: Nanoseconds to add to a stamp of A to get the same moment in B.
+        notes: Sentences about assumptions of the comparison.
     """
 
     first: str
@@ -186,11 +185,11 @@ class Differences:
 
     @property
     def changed(self) -> tuple[LinkDifference, ...]:
-        """Return the links that differ by more than the tolerance."""
+        """Return the frames that differ by more than the tolerance."""
         return tuple(one for one in self.links if not one.is_same)
 
     def __bool__(self) -> bool:
-        """Whether any link differs by more than the tolerance."""
+        """Whether any frame differs by more than the tolerance."""
         return bool(self.changed)
 
 
@@ -203,16 +202,15 @@ def compare(
 ) -> Differences:
     """Compare two sets of frames, link by link.
 
-    Static links are compared directly. Links that move in both sets are compared at common stamps,
-    or if there are none, at the stamps of the first set, with the second set interpolated. Two
-    clocks are never mixed: if one set counts from 1970 and the other from the start of a
-    simulation, each counts from its own start.
+    Static poses are compared directly. Frames that move in both sets are compared at common stamps.
+    Without common stamps, the second set is interpolated at the stamps of the first set. If one set
+    has stamps since 1970 and the other has simulation times, each counts from its own start.
 
     Args:
         first: The first set of frames, called A in the result.
         second: The second set of frames, called B in the result.
         tolerance: Tolerated difference; None for the default.
-        align_starts: Whether times always count from each set's start.
+        align_starts: Whether times in each set count from its own start in any case.
 
     Raises:
         InputError: If a set has no frames.
@@ -310,10 +308,10 @@ def _state(side: Side, held: SampleColumns) -> LinkState:
 def _static_offset(
     second: Buffer, child: str, before: LinkState, after: LinkState
 ) -> Displacement | None:
-    """Return the displacement of a static link's child from the first to the second set of frames.
+    """Return the displacement of a static frame from the first to the second set of frames.
 
-    The displacement is expressed in the parent of the link `before`, which is in the first set. It
-    is None if the second set, `second`, does not connect this parent with the child.
+    The displacement is expressed in the parent that the frame has in the first set. Return None if
+    the second set, `second`, does not connect this parent with the frame.
     """
     old, new = before.pose, after.pose
     assert old is not None
@@ -348,7 +346,7 @@ def _moving_offset(
     parent: str,
     tolerance: Allowance,
 ) -> tuple[Displacement | None, str]:
-    """Return the displacement of a moving link's child from the first to the second set.
+    """Return the displacement of a moving frame from the first to the second set.
 
     Returns:
         The displacement in the frame `parent`, and an empty text; or None, and the reason why the
@@ -426,10 +424,10 @@ def diff(
         mm: Tolerated displacement of a frame, millimetres.
         deg: Tolerated rotation of a frame, degrees.
         rate_percent: Tolerated difference of rates, percent; None to ignore rates.
-        align_starts: Whether times count from the start of each set.
+        align_starts: Whether times in each set count from its own start.
 
     Returns:
-        All links with their changes; false if nothing changed.
+        All frames with their changes. The result is false in a condition if nothing changed.
 
     Raises:
         InputError: If a path cannot be read, or a set has no frames.
@@ -463,7 +461,7 @@ def side_of(frames: Comparable, name: str) -> Side:
 
 
 def joints_of(robot: Robot) -> frozenset[str]:
-    """Return the names of a robot's links whose pose depends on a joint."""
+    """Return the names of the links of a robot whose pose depends on the position of a joint."""
     return frozenset(one.child for one in robot.joints.values() if one.moves)
 
 

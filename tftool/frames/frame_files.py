@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def recording_notes(recording: "Recording") -> list[str]:
-    """Return sentences about a recording's damage, unusual facts, and added links."""
+    """Return sentences about damage, unusual transforms and added frames of a recording."""
     return [
         *recording.damage,
         *odometry_notes(recording),
@@ -46,7 +46,7 @@ def odometry_notes(recording: "Recording") -> Iterator[str]:
 
 
 def _described_notes(described: "DescribedFrames | None") -> Iterator[str]:
-    """Yield sentences about links added from a robot's description."""
+    """Yield sentences about frames that were added from a robot description."""
     if described is None:
         return
     added = len(described.still) + len(described.moving)
@@ -64,7 +64,7 @@ def _described_notes(described: "DescribedFrames | None") -> Iterator[str]:
 
 
 def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
-    """Yield a sentence about given joint positions beyond their limits, which are used anyway.
+    """Yield a sentence about positions beyond the limits of their joints, which are used anyway.
 
     Args:
         robot: Robot of the joints.
@@ -81,7 +81,7 @@ def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
 
 
 def joints_at_rest(robot: "Robot", given: Collection[str], name: str) -> Iterator[str]:
-    """Yield a sentence about the number of movable joints without a position."""
+    """Yield a sentence with the number of movable joints for which no position was given."""
     at_rest = sum(
         joint.moves and joint.name not in given and robot.leader(joint.name, given) not in given
         for joint in robot.joints.values()
@@ -124,7 +124,7 @@ def _read_recording(
 
 
 def _robot_beside(options: DescriptionOptions) -> Robot | None:
-    """Return the robot of the description given for a recording; None without a description."""
+    """Return the robot of the description in `--urdf`; None without that option."""
     if options.joints:
         options.refuse("The joints of a recording cannot be set")
     if options.urdf is None and not options.arguments:

@@ -1,4 +1,4 @@
-"""Frames over their whole time span, as returned by `tftool.open`."""
+"""All frames of a source over its whole time span, as returned by `tftool.open`."""
 
 from typing import TYPE_CHECKING, Literal, Self, TypeAlias
 
@@ -19,7 +19,7 @@ FramesKind: TypeAlias = Literal[
 
 
 class Frames:
-    """Frames of a recording, a robot description, a file of statics, a scenario or a session.
+    """Frames of a recording, a robot description, a launch file, a scenario or a session.
 
     `tftool.open` returns an object of this class. Nothing is pruned: lookups work at every recorded
     time. At the end of a `with` block the files are closed; data already read stays.
@@ -31,7 +31,7 @@ class Frames:
         kind: Kind of the source.
         name: Name of the source: "run.mcap", "turtles".
         found: Files that were read; None for a session.
-        log: Log of all transforms as they arrived, for a scenario or a session; else None.
+        log: Log of all transforms in order of arrival, for a scenario or a session; else None.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class Frames:
         found: "Found | None" = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        """Wrap opened frames; a recording provides its buffer, span, robot and notes.
+        """Create the object; a recording provides buffer, span, robot and notes itself.
 
         Args:
             kind: Kind of the source.
@@ -56,7 +56,7 @@ class Frames:
             span: First and last stamp; None for static transforms.
             recording: Recording that was read, if any.
             robot: Robot of the description, if any.
-            log: Log of all transforms as they arrived, if any.
+            log: Log of all transforms in order of arrival, if any.
             found: Files that were read, if any.
             notes: Sentences about the files.
         """
@@ -136,14 +136,14 @@ class Frames:
 
     @property
     def moving(self) -> frozenset[str] | None:
-        """Links of a robot description with a movable joint; None for other sources."""
+        """Links of a robot description that a joint moves; None for other sources."""
         if self.kind != "robot description" or self._robot is None:
             return None
         return frozenset(one.child for one in self._robot.joints.values() if one.moves)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Return sentences about damage, gaps and joints without a position."""
+        """Return sentences about damage, missing frames and joints without a position."""
         if self._recording is None:
             return self._notes
         from tftool.frames.frame_files import recording_notes
@@ -151,7 +151,7 @@ class Frames:
         return tuple(recording_notes(self._recording))
 
     def at(self, time: float) -> Stamp:
-        """Return the stamp at some seconds after the start; 0 (latest) for static transforms."""
+        """Return the stamp `time` seconds after the start; 0 (latest) for static transforms."""
         start = self.start
         return LATEST if start is None else start + seconds(time)
 

@@ -1,4 +1,4 @@
-"""Poses of one frame in another at many times, with the times and reasons of failed lookups."""
+"""Poses of one frame in another at many times, with reasons at times when the lookup fails."""
 
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
@@ -23,13 +23,13 @@ MOST_REASONS: Final = 200
 
 @dataclass(frozen=True, slots=True)
 class RefusedRun:
-    """Consecutive times at which the lookup fails.
+    """Consecutive times at which a lookup fails.
 
     Attributes:
         first: First time without a pose, nanoseconds.
         last: Last time without a pose, nanoseconds.
-        count: Number of times in the run.
-        reason: tf2's error message for the first time.
+        count: Number of these times.
+        reason: tf2's error message at the first of these times.
     """
 
     first: Stamp
@@ -75,15 +75,15 @@ class Trajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moments:
-    """Choice of the times at which a pair is looked up.
+    """Times at which a pair of frames is looked up.
 
     Attributes:
         start: First time, nanoseconds; None for the first stamp.
         end: Last time, nanoseconds; None for the last stamp.
-        period: Time between lookups, nanoseconds; None for the stamps of the link with the
-            shortest period.
+        period: Time between lookups, nanoseconds; None for the stamps of the frame with the highest
+            rate.
         stamps: Times to use instead of `start`, `end` and `period`, nanoseconds, shape (n,).
-        words: Description of `stamps` for messages.
+        words: Description of `stamps` for error messages.
     """
 
     start: Stamp | None = None
@@ -100,11 +100,11 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
         buffer: Source of the frames.
         target: Frame in which the results are expressed.
         source: Frame to look up.
-        moments: Times of the lookups; None for the stamps of the fastest link between the frames.
+        moments: Times of the lookups; None for the stamps of the fastest frame on the path.
 
     Raises:
-        TransformException: If a name is unknown, no links join the frames, or there is no pose at
-            any of the times.
+        TransformException: If a name is unknown, the frames are not connected, or no lookup
+            succeeds.
         UsageError: If there are no times, or more than `MOST_MOMENTS`.
     """
     moments = moments or Moments()
@@ -120,10 +120,10 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
 
 
 def only_chain(buffer: Buffer) -> tuple[str, str]:
-    """Return the root and the last frame of the only chain of frames in a buffer.
+    """Return the root and the last frame of a buffer whose frames form a single chain.
 
     Raises:
-        InputError: If there are several chains.
+        InputError: If the frames form several chains.
     """
     frames = buffer.frames()
     parents = {frame: buffer.parent(frame) for frame in frames}
@@ -149,10 +149,10 @@ def trajectory_of(path: TransformArray) -> Trajectory:
 
 
 def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
-    """Return the children of all links between two frames, by their last parents.
+    """Return the child frames on the path between two frames, by their newest parents.
 
     Raises:
-        TransformException: If a name is unknown, or no links join the frames.
+        TransformException: If a name is unknown, or the frames are in different trees.
     """
     above = [_ancestors(buffer, frame) for frame in (target, source)]
     shared = next((frame for frame in above[0] if frame in above[1]), None)
@@ -164,7 +164,7 @@ def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
 
 
 def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
-    """Return the link with the shortest sample period, and its stamps; None if no link moves."""
+    """Return the frame with the shortest sample period, and its stamps; None if all are static."""
     found: tuple[float, int, str, Stamps] | None = None
     for frame in links:
         held = buffer.samples(frame)
@@ -178,7 +178,7 @@ def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
 
 
 def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
-    """Return the first and the last stamp of moving links; 0 and 0 if all links are static."""
+    """Return the first and the last stamp of moving frames; 0 and 0 if all are static."""
     ends = []
     for frame in links:
         held = buffer.samples(frame)
@@ -188,7 +188,7 @@ def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
 
 
 def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = None) -> batch.Floats:
-    """Return rotations with the quaternions' signs changed to be continuous; NaN rows are skipped.
+    """Return rotations with the quaternions' signs changed to avoid jumps; NaN rows are skipped.
 
     Args:
         rotations: Unit quaternions x y z w, shape (n, 4).
@@ -210,7 +210,7 @@ def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = No
 
 
 def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
-    """Return evenly spaced times from `start` to `end`; `start` is at least 1, as 0 means "latest".
+    """Return evenly spaced times from `start` to `end`, above 0, because 0 means "latest".
 
     Raises:
         UsageError: If there are more than `MOST_MOMENTS`.
@@ -275,7 +275,7 @@ def _refusals(buffer: Buffer, path: TransformArray) -> tuple[RefusedRun, ...]:
 
 
 def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return the runs of true flags: first index, and index after the last."""
+    """Return the first index, and the index after the last, of each run of true flags."""
     edges = np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))
     firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return list(zip(firsts.tolist(), ends.tolist(), strict=True))

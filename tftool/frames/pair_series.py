@@ -1,6 +1,6 @@
-"""Curves of trajectories over time, grouped in panels, with gaps where data is missing.
+"""Curves of trajectories over time for plots, grouped in panels, with gaps for missing data.
 
-Times are seconds since one start, so that a plot's axis agrees with `--from` and `--at`.
+Times are seconds since the start of the source, as for the options `--from` and `--at`.
 """
 
 import math
@@ -38,8 +38,8 @@ class PlotCurve:
     """One curve over time in a panel of a plot.
 
     Attributes:
-        label: Label of the curve: "x", or with several pairs "laser in map".
-        place: Index of the pair, from 0.
+        label: Label of the curve: "x", or for several pairs of frames "laser in map".
+        place: Index of the pair of frames, from 0.
         times: Times in seconds, shape (n,).
         values: Values in the panel's unit, shape (n,); NaN in gaps.
     """
@@ -65,7 +65,7 @@ class PlotPanel:
     curves: tuple[PlotCurve, ...]
 
     def limits(self) -> tuple[float, float]:
-        """Return the lowest and the highest value of the curves, widened if they are equal."""
+        """Return the lowest and the highest value of all curves, set apart if they are equal."""
         values = np.concatenate([one.values for one in self.curves] or [np.zeros(1)])
         values = values[np.isfinite(values)]
         low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
@@ -77,7 +77,7 @@ class PlotPanel:
 
 @dataclass(frozen=True, slots=True)
 class RefusedSpan:
-    """A time span, in seconds, in which a pair has no pose, and the reason."""
+    """A time span, in seconds, in which the lookup of a pair fails, and the reason."""
 
     first: float
     last: float
@@ -118,7 +118,7 @@ QUANTITIES: Final = tuple(name for _, names, _ in _GROUPS.values() for name in n
 
 
 def chosen(words: Sequence[str]) -> tuple[str, ...]:
-    """Return the quantities that words name; the title of a panel names all its quantities.
+    """Return the quantities that words name; the title of a panel means all quantities in it.
 
     Raises:
         UsageError: If a word is neither a quantity nor a panel.
@@ -139,12 +139,12 @@ def chosen(words: Sequence[str]) -> tuple[str, ...]:
 def panels(
     found: Sequence[Trajectory], start: Stamp, quantities: Sequence[str] = QUANTITIES
 ) -> list[PlotPanel]:
-    """Return panels of curves over time: for several pairs, one panel per quantity.
+    """Return panels with curves over time; several pairs get one panel per quantity.
 
     Args:
         found: Trajectories of the pairs.
-        start: Stamp of 0 on the time axis.
-        quantities: Quantities to draw, of `QUANTITIES`.
+        start: Stamp that is 0 on the time axis.
+        quantities: Quantities to draw, some of `QUANTITIES`.
     """
     several = len(found) > 1
     made: list[PlotPanel] = []
@@ -175,7 +175,7 @@ def shades(found: Sequence[Trajectory], start: Stamp) -> list[RefusedSpan]:
 
 
 def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
-    """Return sentences with the reasons for the first spans, and one about further spans."""
+    """Return a sentence with the reason of each of the first spans, and a count of the rest."""
     told = []
     for one in spans[:MOST_TOLD]:
         when = f"from {axis_number(one.first)} s to {axis_number(one.last)} s"
@@ -229,7 +229,7 @@ def tick_labels(ticks: Sequence[float]) -> list[str]:
 
 
 def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]:
-    """Return each pair's path seen from above: label, x and y, with NaN in gaps."""
+    """Return label, x and y of the path of each pair, for a plot from above; NaN in gaps."""
     curves = []
     for one in found:
         times, columns, broken = _columns(one, 0, _position)
@@ -240,7 +240,7 @@ def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]
 
 
 def thinned(times: Floats, values: Floats, most: int) -> tuple[Floats, Floats]:
-    """Return a curve with fewer points: the minimum and maximum of each part.
+    """Return a curve with fewer points: the minimum and the maximum of each part of the curve.
 
     Args:
         times: Times of the points, shape (n,).
@@ -272,7 +272,7 @@ def _shade(run: RefusedRun, start: Stamp) -> RefusedSpan:
 def _columns(
     one: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
 ) -> "tuple[Floats, Floats, np.ndarray]":
-    """Return times in seconds, values, and a mask of gaps before each row except the first."""
+    """Return times in seconds, values, and a mask of the rows, from the second on, after a gap."""
     times = (one.path.stamps - start) / NANOSECONDS
     apart = np.diff(times)
     usual = float(np.median(apart)) if len(apart) else 0.0

@@ -1,4 +1,4 @@
-"""Options for reading frames from a file, and times as users give them."""
+"""Options for reading frames from a file, and times on the command line."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -21,7 +21,7 @@ class At:
     is_stamp: bool = False
 
     def stamp(self, epoch: Stamp) -> Stamp:
-        """Return the stamp of this time in a source that begins at `epoch`."""
+        """Return the stamp of this time in a source whose first stamp is `epoch`."""
         return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
 
     def __str__(self) -> str:
@@ -33,17 +33,17 @@ class At:
 def checked_moment(
     at: At, title: str, epoch: Stamp, duration: Duration | None, received: Duration = 0
 ) -> Stamp:
-    """Return the stamp of a time, after checking that the time is between start and end.
+    """Return the stamp of a time; raise an error if the time is before the start or after the end.
 
     Args:
         at: The time.
         title: Name of the recording or session, as the beginning of a sentence.
         epoch: Stamp of the start.
         duration: Time from start to end; None for no end.
-        received: Time over which a recording received messages of any topic.
+        received: Time from the first to the last message of a recording on any topic.
 
     Raises:
-        UsageError: If the time is outside the span.
+        UsageError: If the time is before the start or after the end.
     """
     stamp = at.stamp(epoch)
     if duration is not None and stamp > epoch + duration:
@@ -66,12 +66,12 @@ def checked_moment(
 
 @dataclass(frozen=True, slots=True)
 class DescriptionOptions:
-    """Options for reading a robot description: the source itself, or --urdf for a recording.
+    """Options for reading a robot description, as a source or by --urdf for a recording.
 
     Attributes:
         joints: Positions by joint, radians or metres.
         arguments: Values of xacro arguments, by name.
-        urdf: Path of a description for a recording that has no description.
+        urdf: Path of a description to use with a recording.
     """
 
     joints: Mapping[str, float] = field(default_factory=dict)
@@ -79,7 +79,7 @@ class DescriptionOptions:
     urdf: Path | None = None
 
     def refuse(self, what: str) -> None:
-        """Raise an error if any of these options was given, for a source without a description.
+        """Raise an error if one of these options was given; the source has no description.
 
         Args:
             what: Name of the source, as the beginning of a sentence.
@@ -99,7 +99,7 @@ class RecordingOptions:
     """Options for reading a recording.
 
     Attributes:
-        no_cache: Whether to read without the cache of columns.
+        no_cache: Whether to ignore the cache of decoded recordings.
         with_odometry: Whether odometry and poses are used as transforms.
         tf_topics: Topics of transforms to read; empty for all.
     """
@@ -109,7 +109,7 @@ class RecordingOptions:
     tf_topics: tuple[str, ...] = ()
 
     def refuse(self, what: str) -> None:
-        """Raise an error if an option that changes the result was given, for another source.
+        """Raise an error if an option that changes the result was given, but no recording.
 
         Args:
             what: Name of the source, as the beginning of a sentence.

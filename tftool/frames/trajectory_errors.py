@@ -27,7 +27,7 @@ _STEP: Final = re.compile(r"(\d+(?:\.\d+)?)(m|deg)?")
 
 @dataclass(frozen=True, slots=True)
 class PieceLength:
-    """Length of the parts of a trajectory whose motions are compared for the relative error.
+    """Length of the parts into which a trajectory is divided for the relative error.
 
     Attributes:
         size: Length, in `unit`.
@@ -39,7 +39,7 @@ class PieceLength:
 
     @classmethod
     def read(cls, text: str) -> "PieceLength":
-        """Parse a length: "1" (frames), "10m", "5deg".
+        """Parse a length: "1" (one pose), "10m", "5deg".
 
         Raises:
             UsageError: If the text is not such a length.
@@ -59,7 +59,7 @@ class PieceLength:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ErrorColumn:
-    """Errors of one kind over time, as a column.
+    """Errors of one kind and unit over time.
 
     Attributes:
         name: Kind of error: "ape" (absolute) or "rpe" (relative).
@@ -93,11 +93,11 @@ class TrajectoryErrors:
 
     Attributes:
         pairs: Target and source in A, and in B.
-        matched: Number of matched poses.
+        matched: Number of poses of B that were compared with a pose of A.
         counts: Number of poses of A, and of B.
         scale: Factor by which the alignment scaled B; 1 except for "sim3".
         fit: Alignment of B with A before the errors were computed.
-        match: Rule by which poses were matched.
+        match: Rule by which poses of A and B were matched by time.
         step: Length of the parts for the relative error.
         columns: The errors, by kind and unit.
     """
@@ -127,10 +127,10 @@ def trajectory_errors(
     Args:
         reference: Frames of A.
         estimate: Frames of B.
-        pairs: Target and source in A and in B; None for the only chain.
+        pairs: Target and source frame in A and in B; None if the frames form a single chain.
         kinds: Kinds of error: "ape", "rpe", or both.
         fit: Alignment of B with A before the comparison: none, by the first pose, rigid, or rigid
-            with a scale.
+            with scale.
         match: Whether to use the nearest pose of A, or to interpolate A at the stamps of B.
         step: Length of the parts for the relative error; None for one frame.
 
@@ -172,7 +172,7 @@ def trajectory_errors(
 
 
 def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, TransformArray]:
-    """Return matching poses: each pose of the shorter one with the other's nearest in time."""
+    """Return each pose of the shorter trajectory with the nearest in time of the other."""
     if len(a) > len(b):
         second, first = _nearest(b, a)
         return first, second
@@ -186,7 +186,7 @@ def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, Tran
 
 
 def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArray, float]:
-    """Align trajectory `b` with trajectory `a`, whose poses match row by row.
+    """Align trajectory `b` with trajectory `a`; row i of both is one match.
 
     Returns:
         The aligned trajectory `b`, and the factor by which it was scaled.
@@ -234,7 +234,7 @@ def _moved(path: TransformArray, turn: Floats, shift: Floats, scale: float) -> T
 
 
 def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> TransformArray:
-    """Return the poses at the indices `ends` relative to those at `begins`."""
+    """Return the poses at the indices `ends` relative to the poses at the indices `begins`."""
     back = batch.conjugate(path.rotations[begins])
     moved = batch.rotate(back, path.translations[ends] - path.translations[begins])
     turned = batch.multiply(back, path.rotations[ends])
@@ -242,7 +242,7 @@ def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> T
 
 
 def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.ndarray"]:
-    """Return the first and last indices of consecutive parts of a trajectory, one step long each.
+    """Return the first and the last index of each part of a trajectory, of the length `step`.
 
     Raises:
         InputError: If the trajectory is shorter than one step.
@@ -260,7 +260,7 @@ def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.
 
 
 def _marks(moved: list[float], size: float) -> list[int]:
-    """Return the indices of poses at which another step is complete, including index 0."""
+    """Return index 0, and each index at which the path since the last one is `size` long."""
     marks, gone = [0], 0.0
     for place, one in enumerate(moved, 1):
         gone += one

@@ -1,4 +1,4 @@
-"""Log of all transforms that a running world received, with their publishers."""
+"""Log of all transforms received in a session or scenario, with their publishers."""
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
@@ -33,7 +33,7 @@ class TransformLog:
         *,
         is_static: bool,
     ) -> None:
-        """Append the transforms of a message; transforms beyond `MOST` are dropped.
+        """Append the transforms of a message; drop them if the log has `MOST` transforms.
 
         Args:
             now: Time of arrival, nanoseconds.
@@ -68,7 +68,7 @@ class TransformLog:
         return copied
 
     def transforms(self) -> "Transforms":
-        """Return all transforms in columns, one entry per edge, with log times and publishers."""
+        """Return all transforms as columns of each edge, with log times and publishers."""
         # Imported here because most logs are never read, and need no numpy.
         import numpy as np
 

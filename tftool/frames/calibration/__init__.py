@@ -1,1 +1,1 @@
-"""Calibration from recorded motions: the mount of one moving frame on another, and their clocks."""
+"""Calibration of the mount of one moving frame on another, and of clock offsets, from motions."""

@@ -26,22 +26,22 @@ ANGLES: Final = ("roll", "pitch", "yaw")
 
 
 class CalibrationRefused(TftoolError):
-    """Error for a motion that does not determine the result.
+    """Error for motions from which no result can be computed.
 
     Attributes:
-        next_motion: Description of a motion to record instead; empty if none helps.
+        next_motion: Description of a motion to record instead; "" if no other motion would help.
     """
 
     def __init__(self, text: str, next_motion: str = "") -> None:
-        """Create the error from its reason, and the motion to record next."""
+        """Create the error from its reason and the motion to record instead."""
         super().__init__(text)
         self.next_motion = next_motion
 
 
 def difference(mount: Transform, other: Transform) -> Floats:
-    """Return the difference between two mounts, shape (6,).
+    """Return the difference between two mounts (poses of a frame on another), shape (6,).
 
-    The numbers are metres along the parent's axes, then degrees about the mounted frame's axes.
+    The numbers are metres along the parent's axes, then degrees about the child's axes.
     """
     shift = np.subtract(mount.translation, other.translation)
     first, second = np.array([mount.rotation]), np.array([other.rotation])
@@ -69,10 +69,10 @@ class BodyMotion:
 
     @classmethod
     def of(cls, path: TransformArray) -> "BodyMotion":
-        """Return the motion of a path: poses sorted by stamp, without NaN, spikes and equal stamps.
+        """Return the poses of `path` sorted by stamp, without NaN, outliers and repeated stamps.
 
         Raises:
-            CalibrationRefused: If fewer than twenty poses are left.
+            CalibrationRefused: If fewer than twenty poses remain.
         """
         path = path if path.valid.all() else path[path.valid]
         stamps, first = np.unique(path.stamps, return_index=True)
@@ -135,7 +135,7 @@ class BodyMotion:
         return positions, batch.unit(turns), valid
 
     def velocities(self, times: Floats) -> tuple[Floats, Floats]:
-        """Return velocities in the fixed frame, and angular velocities about the moving axes.
+        """Return velocities along the fixed axes, and angular velocities about the moving axes.
 
         Velocities are differences of poses over at least a tenth of a second, to reduce the noise.
 
@@ -166,11 +166,11 @@ _DENSE: Final = 200
 
 
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
-    """Return the indices of poses without spikes (flipped tags), which distort a correlation.
+    """Return the indices of poses that are no outliers, such as flipped tags.
 
-    The first step drops poses whose median distance (or angle) to six neighbours is far above that
-    of the poses around them. The second step drops poses that are far from the middle of their
-    remaining neighbours.
+    First, poses are dropped whose median distance (or angle) to six neighbours is far above that of
+    the poses around them. Then, poses are dropped that are far from the middle of their remaining
+    neighbours.
     """
     kept = np.arange(len(turns))
     if len(turns) < _DENSE:

@@ -1,4 +1,4 @@
-"""Calibration of a mount from two recorded motions of one rigid body."""
+"""Calibration of a mount (pose of one frame on another) from two motions of one rigid body."""
 
 import math
 from collections.abc import Callable
@@ -68,7 +68,7 @@ Trio = tuple[float | None, float | None, float | None]
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """Half-widths of a pose's 95 % interval; None in directions that the motion does not determine.
+    """Half-widths of a pose's 95 % interval; None for directions that the motion does not show.
 
     The mount is the pose of the frame moving_b in moving_a. The fixed mount is the pose of fixed_b
     in fixed_a. See `calibrate` for these frames.
@@ -98,19 +98,19 @@ class Calibration:
         fixed: Names of the frames fixed_a and fixed_b.
         mount: Pose of moving_b in moving_a; None if the calibration was refused.
         fixed_mount: Pose of fixed_b in fixed_a; None if the calibration was refused.
-        interval95: 95 % interval of the mount.
-        fixed_interval95: 95 % interval of the fixed mount.
+        interval95: 95 % interval of `mount`.
+        fixed_interval95: 95 % interval of `fixed_mount`.
         clock_offset: Offset of A's clock from B's, t_a = t_b + offset, seconds, at the middle of
             the common time.
-        offset_interval95: Half-width of the offset's 95 % interval, seconds.
-        drift_ppm: Drift of the clock, microseconds per second; None for a short recording.
+        offset_interval95: Half-width of the 95 % interval of `clock_offset`, seconds.
+        drift_ppm: Change of `clock_offset`, microseconds per second; None for a short recording.
         clock: Correlation from which the offset was measured.
         halves_differ: Difference between the mounts from the first and the second half of the
             recording: metres, degrees.
         unseen: Parts of the mount that the motion does not determine: x y z roll pitch yaw.
         unseen_direction: Undetermined direction, a unit vector in moving_a, if it is oblique to the
             x, y and z axes; else None.
-        inverted: Whether A was inverted, and whether B was inverted.
+        inverted: Whether the poses of A were inverted, and whether those of B were.
         next_motion: The motion to record next; None if no other motion is needed.
         scale: Factor of A's translations, and the half-width of its 95 % interval; None if no scale
             was requested.
@@ -169,13 +169,12 @@ def calibrate(
         planar: Whether to estimate only x, y and yaw of the mount.
         scale: Whether to estimate a scale of A's translations, for wheel odometry.
         published: The published mount, used for parts that the motion does not determine.
-        inverted: Whether to invert A, and whether to invert B; None to choose the direction of B
-            that fits.
-        seed: Seed of the random numbers for the intervals.
+        inverted: Whether to invert the poses of A, and of B; None to try both for B.
+        seed: Seed of the random numbers with which intervals are estimated.
         progress: Function called with the number of finished steps and the total number of steps.
 
     Returns:
-        The calibration; false if the mount cannot be determined.
+        The calibration, which is false in a condition if the mount cannot be determined.
 
     Raises:
         InputError: If the frames of an input are not a single chain.
@@ -205,11 +204,11 @@ def _swapped(second: BodyMotion, names: Names) -> tuple[BodyMotion, Names]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Shown:
-    """Directions of the mount that the motion determines.
+    """Parts of the mount that the motion determines.
 
     Attributes:
         free: Directions, among the nine parameters of a fit, that the motion determines.
-        axis: The axis of rotation in the frame moving_a, if there is only one axis; else None.
+        axis: The axis of rotation in the frame moving_a, if there is only one; else None.
         unseen: Names of the parts that the motion does not determine.
     """
 
@@ -259,7 +258,7 @@ class _Solver:
         )
 
     def _start(self, problem: Problem) -> tuple[Fit, MotionPairs, _Shown, float]:
-        """Return a first fit, the pairs of poses used, the determined directions, and the error."""
+        """Return a first fit, the pairs of poses, the determined directions, and the error."""
         pairs = pairs_of(problem, 0.0)
         if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
             raise CalibrationRefused(
@@ -292,21 +291,21 @@ class _Solver:
         return Fit(turn, shift, 0.0), pairs, _Shown(directions, None, ()), error
 
     def _prior_turn(self, found: Floats, is_planar: bool) -> Floats:
-        """Return the published rotation if the motion is planar, else the found rotation."""
+        """Return the rotation of the published mount for a planar motion, else `found`."""
         if not is_planar or self.published is None:
             return found
         return np.array(self.published.rotation)
 
     def _along(self, shift: Floats, axis: Floats) -> Floats:
-        """Replace a translation's component along the rotation axis by the published mount's."""
+        """Replace the component of a translation along `axis` by that of the published mount."""
         kept = 0.0 if self.published is None else np.array(self.published.translation) @ axis
         return np.asarray(shift - (shift @ axis) * axis + kept * axis)
 
     def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
         """Return the fit with the smallest intervals, among several lengths of time segments.
 
-        If longer segments have larger residuals, a chain drifts, which the bootstrap of intervals
-        cannot detect: such lengths are not used.
+        If longer segments have larger residuals, odometry drifts. The bootstrap of intervals cannot
+        detect a drift, so such lengths are not used.
         """
         whole = float(problem.times[-1] - problem.times[0])
         lengths = [*(one for one in _SEGMENTS if one * 4.0 <= whole), math.inf]
@@ -327,7 +326,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return the directions that the motion determines, without a second axis of mere noise."""
+        """Return the determined directions, if a second axis of rotation may be only noise."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))
@@ -347,7 +346,7 @@ class _Solver:
     def _halves(
         self, problem: Problem, fit: Fit, free: tuple[Floats, ...], length: float
     ) -> tuple[float, float] | None:
-        """Return the difference of the mounts from both halves of the time, metres and degrees."""
+        """Return the difference of the mounts from both halves of the time, metres, degrees."""
         middle = float(np.median(problem.times))
         found = []
         for begin, end in ((-math.inf, middle), (middle, math.inf)):
@@ -415,8 +414,8 @@ WIDTH: Final = 2.1
 def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> tuple[float, float]:
     """Return the factors that widen the intervals of rotation and translation.
 
-    If the halves of the recording differ by more than the interval, there is an error that no
-    bootstrap sees, such as a wrong scale or a drift.
+    If the halves of the recording differ by more than the interval, there is an error that a
+    bootstrap cannot detect, such as a wrong scale or a drift.
     """
     if halves is None:
         return 1.0, 1.0
@@ -454,7 +453,7 @@ def _segments(problem: Problem, length: float) -> "np.ndarray":
 
 
 def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
-    """Return the directions of the mount that a motion about one axis determines.
+    """Return the parts of the mount that a motion about one axis determines.
 
     A translation along the axis is undetermined; if the motion is planar, so are roll and pitch.
     """
@@ -484,7 +483,7 @@ def _reason(shown: _Shown) -> tuple[str, str | None]:
 
 
 def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
-    """Return the undetermined direction if it is oblique to the axes of its frame; else None."""
+    """Return the undetermined direction if it is oblique to x, y and z of its frame; else None."""
     if shown.axis is None or np.abs(shown.axis).max() > math.cos(math.radians(3.0)):
         return None
     x, y, z = shown.axis.tolist()
@@ -492,7 +491,7 @@ def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
 
 
 def _interval(sizes: Floats, shown: _Shown) -> Interval:
-    """Return the mount's interval from the half-widths along the determined directions."""
+    """Return the interval of the mount, from half-widths along the determined directions."""
     free = np.array(shown.free)[:, :6]
     widths = np.sqrt(((free * sizes[:, None]) ** 2).sum(axis=0))
     known = [name not in shown.unseen for name in (*ANGLES, *AXES)]
@@ -519,7 +518,7 @@ def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) ->
 
 
 def _trio(values: Floats, hidden: Floats) -> Trio:
-    """Return half-widths along x, y and z; None for an axis with a large undetermined part."""
+    """Return half-widths along x, y and z; None for an axis that is mostly undetermined."""
     x, y, z = (
         None if part > HIDDEN else float(value) for value, part in zip(values, hidden, strict=True)
     )

@@ -1,9 +1,9 @@
 """Offset between the clocks of two motions of one rigid body, from rotations alone.
 
-The angle by which a body turns in a time window depends neither on the place of measurement on the
-body nor on the fixed frame. Both motions give this angle, each on its own clock; the offset is the
-shift at which the two curves correlate best. On real data, the angular speed between neighbouring
-samples is too noisy for that.
+The angle by which a rigid body turns in a time window is the same for all its points and in all
+fixed frames. Both motions give this angle over time, each on its own clock. The offset is the shift
+at which the two curves correlate best. The angular speed between neighbouring samples would be too
+noisy.
 """
 
 from dataclasses import dataclass
@@ -45,10 +45,10 @@ class ClockOffset:
 
     Attributes:
         seconds: The offset.
-        interval95: Half-width of its 95 % interval, seconds.
+        interval95: Half-width of the 95 % interval of `seconds`.
         correlation: Height of the highest peak of `curve`; 1 if both motions turn equally.
         second: Height of the second highest peak of `curve`.
-        lags: Offsets for which the correlation was computed, seconds, shape (n,).
+        lags: Clock offsets for which the correlation was computed, seconds, shape (n,).
         curve: Correlation at each offset, NaN where the overlap is too small, shape (n,).
     """
 
@@ -89,7 +89,7 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
 
 
 def path_of(frames: TransformArray | Frames) -> TransformArray:
-    """Return poses unchanged; for frames, return the poses of their only chain over time.
+    """Return poses unchanged; for opened frames, return the poses of the last frame in the root.
 
     Raises:
         InputError: If the frames are not a single chain.
@@ -133,7 +133,7 @@ def offset_of(a: BodyMotion, b: BodyMotion) -> ClockOffset:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Correlation:
-    """Correlation of two curves at all time shifts (lags), in steps of a grid."""
+    """Correlation of two curves at all time shifts (lags), which are multiples of a step."""
 
     lags: Floats
     curve: Floats
@@ -149,7 +149,7 @@ class _Correlation:
         return float(self.curve[self.peak]) if np.isfinite(self.curve).any() else -1.0
 
     def second_peak(self) -> float:
-        """Return the height of the second peak, outside of the highest peak."""
+        """Return the height of the second highest peak, apart from the flanks of the highest."""
         curve, peak = np.nan_to_num(self.curve, nan=-1.0), self.peak
         low, high = peak, peak
         while low > 0 and curve[low - 1] <= curve[low]:
@@ -182,7 +182,7 @@ class _Correlation:
 
 
 def _tops(sums: Floats) -> Floats:
-    """Return the position of the peak among nine shifts, from a parabola, shape (n,)."""
+    """Return the position of each peak among nine shifts, from a parabola, shape (n,)."""
     count, x, y, xx, yy, xy = np.moveaxis(sums, -1, 0)
     count = np.maximum(count, 1.0)
     spread = (xx - x * x / count) * (yy - y * y / count)
@@ -197,14 +197,14 @@ def _tops(sums: Floats) -> Floats:
 def _overlap(
     f: Floats, has_f: Floats, g: Floats, has_g: Floats, lag: int
 ) -> tuple[Floats, Floats, Floats]:
-    """Return two curves' overlapping parts at a lag, 0 in gaps, and a mask that is 0 in gaps."""
+    """Return the overlapping parts of two curves at a lag, and a mask; both are 0 in gaps."""
     low, high = max(0, lag), min(len(f), len(g) + lag)
     both = has_f[low:high] * has_g[low - lag : high - lag]
     return f[low:high] * both, g[low - lag : high - lag] * both, both
 
 
 def _course(motion: BodyMotion, step: float, window: float) -> tuple[Floats, Floats]:
-    """Return the turned angle per window on a grid of times, and a 0-1 mask of known values."""
+    """Return the angle turned per window on a grid of times, and a mask that is 0 without data."""
     grid = np.arange(0.0, motion.duration - window, step)
     _, first, knows_first = motion.at(grid)
     _, last, knows_last = motion.at(grid + window)
@@ -213,7 +213,7 @@ def _course(motion: BodyMotion, step: float, window: float) -> tuple[Floats, Flo
 
 
 def _correlated(a: BodyMotion, b: BodyMotion, step: float, window: float) -> _Correlation:
-    """Return the correlation of two motions' turned angles at every lag, ignoring gaps.
+    """Return the correlation of the angles turned in two motions at every lag, ignoring gaps.
 
     Source:
         Padfield, "Masked object registration in the Fourier domain", 2012.

@@ -2,9 +2,9 @@
 
 A and B are two motions: poses over time of two frames on one rigid body, each in its own fixed
 frame. X is the mount: the pose of B's moving frame in A's moving frame. Y is the pose of B's fixed
-frame in A's fixed frame, and d is the clock offset. If a chain drifts, as odometry does, time is
-divided into segments with separate Ys, which are eliminated (Schur complement). Each round solves
-one small linear system.
+frame in A's fixed frame, and d is the clock offset. If one motion drifts, as odometry does, time is
+divided into segments, each with its own Y. The Ys are eliminated (Schur complement), so that each
+iteration solves one small linear system.
 """
 
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ MOUNT, SHIFT, DRIFT, SCALE, JOIN = slice(0, 6), 6, 7, 8, slice(9, 15)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
-    """State of the fit of A(t + d) · X = Y · B(t): the estimated parameters, and the residuals.
+    """State of the fit of A(t + d) · X = Y · B(t): estimated parameters, and statistics.
 
     Attributes:
         turn: Rotation of the mount X, quaternion.
@@ -39,7 +39,7 @@ class Fit:
         joins: Rotation of the pose Y between the fixed frames, by time segment, shape (k, 4).
         places: Translation of the pose Y, by time segment, shape (k, 3).
         noise: Standard deviation of one residual along one axis: radians, metres.
-        cost: Mean loss by the weights; 1 if residuals are Gaussian.
+        cost: Mean robust loss of the residuals; 1 if the residuals are Gaussian.
         blocks: Normal equations of each time block: matrices and right sides.
     """
 
@@ -103,7 +103,7 @@ def cross(vectors: Floats) -> Floats:
 
 
 def mean_pose(turns: Floats, places: Floats, weights: Floats) -> tuple[Floats, Floats]:
-    """Return the weighted means of rotations (by the method of Markley, 2007) and of positions."""
+    """Return the weighted means of rotations (method of Markley, 2007) and of positions."""
     _, vectors = np.linalg.eigh((turns * weights[:, None]).T @ turns)
     return vectors[:, -1], (places * weights[:, None]).sum(axis=0) / weights.sum()
 
@@ -119,11 +119,11 @@ def refine(
 
     Args:
         problem: The two motions.
-        start: Initial state; the poses Y between the fixed frames are computed anew if their number
-            differs from that of the segments.
-        free: Directions in which the fit may change its 9 parameters other than Y.
+        start: Initial state. The poses Y between the fixed frames are computed anew if there are
+            more or fewer segments.
+        free: Directions in the space of the 9 parameters other than Y along which the fit may move.
         segments: Time segment of each pose of motion B, numbered from 0 without gaps, shape (n,).
-        rounds: Number of rounds.
+        rounds: Number of iterations.
     """
     count = int(segments[-1]) + 1
     fit = start
@@ -177,7 +177,7 @@ class _Residuals:
         self._weigh()
 
     def _separate(self, of_a: Floats, of_x: Floats) -> None:
-        """Subtract the part of the translation residuals that the rotation residuals explain.
+        """Subtract the part of the translation residuals that follows from the rotation residuals.
 
         An error in the rotation of the first motion appears twice: in the rotation residual, and
         through the lever arm between the two frames in the translation residual. Half of a rotation
@@ -236,7 +236,7 @@ class _Residuals:
         return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
 
     def by_segment(self, basis: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Return the equations without each segment's pose Y, and the data to compute Y later."""
+        """Return the normal equations without the poses Y, and the data to compute Y later."""
         starts = np.flatnonzero(np.diff(self.segments, prepend=-1))
         square, right = self.sums(starts)
         inner = square[:, JOIN, JOIN] + 1e-9 * np.eye(6)
@@ -254,10 +254,10 @@ class _Residuals:
         return reduced.sum(axis=0), gradient.sum(axis=0)
 
     def blocks(self, basis: Floats) -> tuple[Floats, Floats]:
-        """Return the normal equations of time blocks, for a bootstrap.
+        """Return the normal equations of each time block, for a bootstrap.
 
-        If there is only one segment, the parameters of the pose between the fixed frames are
-        included; otherwise each segment is a block.
+        If there is only one segment, the parameters of Y are included. Otherwise each segment is a
+        block.
         """
         if self.count > 1:
             reduced, gradient, _, _ = self.by_segment(basis)
@@ -294,7 +294,7 @@ def _moved(fit: Fit, rows: _Residuals, basis: Floats, normal: Floats, right: Flo
 def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
     """Return the standard deviations of the free parameters, by block bootstrap.
 
-    Each resampling of blocks moves the fit by one linear step.
+    For each resampling of the blocks, the fit is moved by one linear step.
 
     Returns:
         Standard deviations along the free directions, then of the pose between the fixed frames if
@@ -325,7 +325,7 @@ _SMALLEST, _LARGEST = np.radians(12.0), np.radians(150.0)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MotionPairs:
-    """Motions of the two moving frames, A and B, between pairs of times.
+    """Relative motions of the two moving frames, A and B, between the times of each pair.
 
     Attributes:
         turns_a: Rotation vectors of A, radians about the axes of A, shape (n, 3).
@@ -389,12 +389,12 @@ def _aligned(target: Floats, source: Floats) -> Floats:
 
 
 def _weights(off: Floats) -> Floats:
-    """Return weights: near 1 for small errors, 0.5 for twice the median error."""
+    """Return a weight for each error: near 1 for a small error, 0.5 for twice the median error."""
     return np.asarray(1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2))
 
 
 def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tuple[Floats, Floats]:
-    """Solve linear equations, three rows per pair, robustly; return solution and errors."""
+    """Solve linear equations, three rows per pair, robustly; return the solution and errors."""
     for _ in range(10):
         square = np.einsum("n,nij,nik->jk", weights, design, design)
         square += ridge * max(np.trace(square), 1e-9) * np.eye(len(square))
@@ -421,10 +421,10 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
 
 
 def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Floats, Floats, float]:
-    """Solve for the mount's rotation about the only axis, and its translation across the axis.
+    """Compute the mount from motions about one axis, except for its translation along the axis.
 
-    The rotation vectors do not determine the turn about the axis. The translations determine the
-    turn, linearly in its cosine and sine.
+    The rotation vectors do not determine the mount's rotation about the axis. The translations do:
+    they depend linearly on its cosine and sine.
 
     Args:
         pairs: Motions that turn about one axis.

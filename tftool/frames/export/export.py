@@ -1,4 +1,4 @@
-"""Export of frames to files for other tools: poses of pairs over time, or links."""
+"""Export of frames to files: poses of pairs over time, or links (poses of frames in parents)."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -36,8 +36,8 @@ class Exported:
     Attributes:
         paths: Paths of the files.
         format: Format of the files.
-        count: Number of written poses, links or transforms.
-        trajectories: Poses of each pair, with the times without a pose; empty for links.
+        count: Number of poses, links or transforms in the files.
+        trajectories: Poses of each pair, and the times at which lookups failed; empty for links.
     """
 
     paths: tuple[Path, ...]
@@ -52,7 +52,7 @@ class Exported:
 
 
 def buffer_of(frames: Framed) -> Buffer:
-    """Return the buffer of a recording, a robot or opened frames; return a buffer itself."""
+    """Return the buffer of a recording, a robot or opened frames; return a buffer unchanged."""
     if isinstance(frames, Buffer):
         return frames
     if not hasattr(frames, "buffer"):
@@ -65,7 +65,7 @@ P = ParamSpec("P")
 
 
 def _named_path(function: "Callable[P, Exported]") -> "Callable[P, Exported]":
-    """Decorate `export`: arguments in the old order raise a TypeError with the right call."""
+    """Decorate `export` so that arguments in the order of an earlier version raise a TypeError."""
 
     @wraps(function)
     def checked(*given: P.args, **named: P.kwargs) -> Exported:
@@ -106,8 +106,8 @@ def export(
         tftool.export(recording, "map", "base_link", path="run.tum")
         tftool.export(recording, path="robot.urdf")
 
-    The file is complete, or does not exist. Times at which a lookup fails are left out, and counted
-    in the result.
+    The file appears only when it is complete. Times at which a lookup fails are left out, and are
+    counted in the result.
 
     Args:
         frames: Opened frames, a recording, a buffer, or a robot description.
@@ -116,10 +116,10 @@ def export(
         path: File to write. Its suffix selects the format: .tum .kitti .csv .npz .parquet for
             pairs, .urdf .launch.py .launch.xml .launch.yaml .sh .mcap for links.
         pairs: Several pairs (target, source), for CSV, npz and Parquet.
-        format: Format instead of the suffix's: "euroc", or another member of `Format`.
+        format: Name of a `Format` to write instead of that of the suffix, for example "euroc".
         start: Time before which nothing is written, nanoseconds.
         end: Time after which nothing is written, nanoseconds.
-        period: Time between lookups, nanoseconds; None for the stamps of the fastest link.
+        period: Time between lookups, nanoseconds; None for the stamps of the fastest frame.
         stamps: Times of the lookups instead of `start`, `end` and `period`, nanoseconds, shape
             (n,).
         decimals: Number of decimals; see `Style`.
@@ -160,7 +160,7 @@ def _written(
     force: bool,
     progress: Progress | None,
 ) -> Exported:
-    """Write pairs or links, depending on the format."""
+    """Write pairs of frames over time, or links, depending on the format."""
     buffer = buffer_of(frames)
     if not form.is_trajectory:
         if asked:
@@ -183,7 +183,7 @@ def write_trajectories(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write poses of pairs that were already looked up.
+    """Write trajectories, which are poses that were already looked up.
 
     Raises:
         InputError: If the file cannot be written.
@@ -210,11 +210,11 @@ def write_links(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write the links between frames: all links for MCAP, else static links.
+    """Write the pose of every frame in its parent: all frames to MCAP, else only static frames.
 
     Raises:
         InputError: If the file cannot be written.
-        UsageError: If there is nothing to write, or the format cannot contain the links.
+        UsageError: If there is nothing to write, or the format cannot contain these links.
     """
     if not buffer.frames():
         raise UsageError("The source has no frames to write.")

@@ -18,14 +18,14 @@ DECIMALS: Final = 9
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """Options of an export; each format uses those that apply.
+    """Options of an export; each format uses those that apply to it.
 
     Attributes:
-        decimals: Decimals of numbers in texts; 17 writes the shortest text that reads back equal.
+        decimals: Number of decimals in texts; 17 for the shortest text that is exact.
         rpy: Whether roll, pitch and yaw are added to CSV and Parquet.
         foxglove: Whether MCAP contains foxglove.FrameTransforms instead of tf2_msgs/TFMessage.
         with_moving: Whether moving links are written to a URDF, as floating joints.
-        root: Frame below which links are written; None for all.
+        root: Frame below which links are written; None for all links.
         time: Time of the lookup of moving links, nanoseconds; 0 for the latest.
     """
 
@@ -38,7 +38,7 @@ class Style:
 
 
 class Format(StrEnum):
-    """Format of an export; the value is its name.
+    """File format of an export; the value is the name of the format.
 
     Attributes:
         holds: Contents: "pair" or "pairs" of frames over time, or "links".
@@ -82,7 +82,7 @@ SUFFIXES: Final = {suffix: form for form in Format for suffix in form.suffixes}
 
 
 def suffixes_of(*, trajectories: bool) -> str:
-    """Return the first suffix of each format for pairs over time, or for links, as text."""
+    """Return a text with the first suffix of each format for trajectories, or for links."""
     forms = [form for form in Format if form.suffixes and form.is_trajectory == trajectories]
     return " ".join(form.suffixes[0] for form in forms)
 

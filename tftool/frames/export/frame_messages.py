@@ -1,4 +1,4 @@
-"""Export of all transforms to an MCAP file, as tf2_msgs or for Foxglove and Rerun."""
+"""Export of all transforms to an MCAP file, as tf2_msgs/TFMessage or foxglove.FrameTransforms."""
 
 import os
 import struct
@@ -46,7 +46,7 @@ def _frame_transform(sample: TransformStamped) -> bytes:
 
 @cache
 def frame_transforms_definition() -> bytes:
-    """Return the bytes of the FileDescriptorSet of foxglove.FrameTransforms, parts first."""
+    """Return the bytes of foxglove.FrameTransforms' FileDescriptorSet, dependencies first."""
     time = ".google.protobuf."
     own = ".foxglove."
     doubles = [(name, _DOUBLE, "", _ONE) for name in "xyzw"]
@@ -137,7 +137,7 @@ def write_frames(
     force: bool = False,
     progress: Progress | None = None,
 ) -> int:
-    """Write all transforms of a buffer: static transforms first, then moving links by stamps.
+    """Write all transforms of a buffer: first static transforms, then moving ones by stamp.
 
     Args:
         buffer: Source of the transforms.
@@ -198,7 +198,7 @@ def _held(buffer: Buffer) -> "tuple[list[TransformStamped], Moving, int]":
 def _messages(
     statics: list[TransformStamped], moving: "Moving"
 ) -> Iterator[tuple[Stamp, list[TransformStamped]]]:
-    """Yield the transforms of each message: all static transforms, then those of each stamp."""
+    """Yield time and transforms of each message: first all static ones, then by stamp."""
     stamps = np.concatenate([one[1] for one in moving]) if moving else np.array([], np.int64)
     order = np.argsort(stamps, kind="stable")
     start = int(stamps[order[0]]) if len(order) else NANOSECONDS

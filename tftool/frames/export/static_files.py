@@ -1,4 +1,4 @@
-"""Static transforms written as files that publish them: URDF, launch files, a shell script."""
+"""Files that publish static transforms: URDF, launch files, a shell script."""
 
 import json
 import re
@@ -23,7 +23,7 @@ _PLAIN_WORD = re.compile(r"[^\s\"'$\\]+")
 
 @dataclass(frozen=True, slots=True)
 class FixedLink:
-    """One link to write: the static pose of `child` in `parent`."""
+    """One static transform to write: the pose of `child` in `parent`."""
 
     parent: str
     child: str
@@ -34,16 +34,16 @@ class FixedLink:
 def fixed_links(
     buffer: Buffer, *, with_moving: bool = False, time: Stamp = LATEST, root: str | None = None
 ) -> list[FixedLink]:
-    """Return the static links of a buffer, in the order in which their frames were first seen.
+    """Return the static transforms of a buffer, in the order in which their frames arrived.
 
     Args:
         buffer: Source of the frames.
-        with_moving: Whether to add moving links, with their poses at one time.
-        time: Time of the moving links' poses, nanoseconds; 0 for the latest of each link.
-        root: Frame below which links are returned; None for all links.
+        with_moving: Whether to add moving frames with their poses at `time`.
+        time: Time of the poses of moving frames, nanoseconds; 0 for the latest pose of each.
+        root: Frame below which frames are returned; None for all frames.
 
     Raises:
-        TransformException: If a moving link has no pose at that time, or the root does not exist.
+        TransformException: If a moving frame has no pose at that time, or `root` does not exist.
     """
     links = []
     for frame in buffer.frames():
@@ -69,21 +69,21 @@ def fixed_links(
 
 
 def roots(links: Sequence[FixedLink]) -> list[str]:
-    """Return the root frames (parents that are not a child), in order of appearance."""
+    """Return the root frames: parents that are not a child, in order of appearance."""
     children = {one.child for one in links}
     return list(dict.fromkeys(one.parent for one in links if one.parent not in children))
 
 
 def urdf(links: Sequence[FixedLink], name: str) -> str:
-    """Return a robot description with a joint for every link.
+    """Return a URDF with a joint for every transform.
 
     Args:
-        links: Links to write; moving links become floating joints, which robot_state_publisher
+        links: Transforms to write. Moving frames get floating joints, which robot_state_publisher
             ignores.
         name: Name of the robot.
 
     Raises:
-        UsageError: If the links are not one tree.
+        UsageError: If the frames do not form one tree.
         InputError: If a name contains characters that XML forbids.
     """
     tops = roots(links)
@@ -110,7 +110,7 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
 
 
 def shell(links: Sequence[FixedLink]) -> str:
-    """Return a shell script that runs a static publisher for each link."""
+    """Return a shell script that runs a static_transform_publisher for each transform."""
     lines = ["#!/bin/sh", "# Publishes static transforms; Ctrl-C ends them all.", "set -e"]
     lines += [
         f"ros2 run tf2_ros {PUBLISHER} {shlex.join(_words(_whole_name(one)))} &" for one in links
@@ -119,7 +119,7 @@ def shell(links: Sequence[FixedLink]) -> str:
 
 
 def launch_python(links: Sequence[FixedLink]) -> str:
-    """Return a Python launch file with a static publisher for each link."""
+    """Return a Python launch file with a static_transform_publisher for each transform."""
     lines = [
         "from launch import LaunchDescription",
         "from launch_ros.actions import Node",
@@ -143,10 +143,10 @@ def launch_python(links: Sequence[FixedLink]) -> str:
 
 
 def launch_xml(links: Sequence[FixedLink]) -> str:
-    """Return an XML launch file with a static publisher for each link.
+    """Return an XML launch file with a static_transform_publisher for each transform.
 
     Raises:
-        InputError: If a launch file would change a name.
+        InputError: If ROS would change a frame name that it reads from such a file.
     """
     lines = ['<?xml version="1.0"?>', "<launch>"]
     for one, name in zip(links, _node_names(links), strict=True):
@@ -156,10 +156,10 @@ def launch_xml(links: Sequence[FixedLink]) -> str:
 
 
 def launch_yaml(links: Sequence[FixedLink]) -> str:
-    """Return a YAML launch file with a static publisher for each link.
+    """Return a YAML launch file with a static_transform_publisher for each transform.
 
     Raises:
-        InputError: If a launch file would change a name.
+        InputError: If ROS would change a frame name that it reads from such a file.
     """
     lines = ["launch:" if links else "launch: []"]
     for one, name in zip(links, _node_names(links), strict=True):
@@ -174,7 +174,7 @@ def launch_yaml(links: Sequence[FixedLink]) -> str:
 
 
 def _listed(words: Sequence[str]) -> list[str]:
-    """Return lines with an option and its value each, as Python strings."""
+    """Return lines of Python code, each with an option and its value as strings."""
     texts = [json.dumps(word) for word in words]
     return [f"{name}, {value}" for name, value in zip(texts[::2], texts[1::2], strict=True)]
 
@@ -184,7 +184,7 @@ def _words(one: FixedLink) -> list[str]:
 
 
 def _whole_name(one: FixedLink) -> FixedLink:
-    """Return the link; raise an error if a name cannot be passed on a command line."""
+    """Return the transform; raise an error if a command line cannot contain a frame name."""
     for name in (one.parent, one.child):
         if "\0" in name or _NOT_XML.search(name):
             raise InputError(f"The frame {name!r} has characters that this format cannot contain.")
@@ -192,7 +192,7 @@ def _whole_name(one: FixedLink) -> FixedLink:
 
 
 def _plain(one: FixedLink) -> str:
-    """Return a link's options as one line; raise an error if a launch file would change a name."""
+    """Return the options in one line; raise an error if ROS would change a frame name."""
     for name in (one.parent, one.child):
         if not _PLAIN_WORD.fullmatch(name):
             raise InputError(

@@ -1,7 +1,7 @@
 """Writers of trajectory files (TUM, KITTI, EuRoC, CSV, npz, Parquet), and fast number formatting.
 
-Stamps are always whole nanoseconds, because today's time as float seconds has steps of 238 ns. A
-file is complete, or does not exist.
+Stamps stay whole nanoseconds, because floats of present times have steps of 238 ns. A file appears
+only when it is complete.
 """
 
 import csv
@@ -54,7 +54,7 @@ _POINT: Final = _table([b".%d" % n for n in range(10)])
 def rows_as_text(
     numbers: Floats, *, stamps: Stamps | None = None, seconds: bool = False, separator: str = ","
 ) -> bytes:
-    """Return the text of a block of rows, one line each, with nine decimals per number.
+    """Return the text of a block of rows: one line per row, nine decimals per number.
 
     Args:
         numbers: Finite numbers below 9e9, shape (n, k).
@@ -79,7 +79,7 @@ def rows_as_text(
 
 
 def fits(numbers: Floats) -> bool:
-    """Whether `rows_as_text` can format these numbers; `exact_rows` can format all others."""
+    """Whether `rows_as_text` can format these numbers, which otherwise need `exact_rows`."""
     # Comparisons with NaN are false, so NaN does not fit.
     return bool((np.abs(numbers) < _LARGEST).all())
 
@@ -116,12 +116,12 @@ def _shortest(number: float) -> str:
 
 
 def _whole(values: Stamps) -> Words:
-    """Return the text of whole numbers, shape (n,), as words of four digits, shape (n, w)."""
+    """Return the digits of whole numbers, shape (n,), four per 32-bit word, shape (n, w)."""
     return _digits(values[:, np.newaxis], b"")[:, 0]
 
 
 def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
-    """Return the text of scaled numbers, shape (n, k), as words of four digits, shape (n, k·w)."""
+    """Return the digits of scaled numbers, shape (n, k), four per 32-bit word, shape (n, k·w)."""
     count, width = scaled.shape
     size = np.abs(scaled)
     whole = size // _SCALE
@@ -148,7 +148,7 @@ def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
 def _digits(
     values: npt.NDArray[np.int64], before: bytes, *, negative: npt.NDArray[np.bool_] | None = None
 ) -> Words:
-    """Return the text of whole numbers, shape (n, k), as words: `before`, sign and digits."""
+    """Return the text of whole numbers, shape (n, k), in 32-bit words: `before`, sign, digits."""
     size = np.abs(values)
     signs = _table([before, before + b"-"])
     words = [signs[((values < 0) if negative is None else negative).astype(np.intp)]]
@@ -181,7 +181,7 @@ _BYTES_PER_ROW: Final = 110
 
 @contextmanager
 def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
-    """Open a file for writing; it gets its final name when complete, and is removed otherwise.
+    """Open a file for writing; rename it to `path` when complete, remove it after an error.
 
     Raises:
         UsageError: If the path exists and `force` is not given.
@@ -197,10 +197,10 @@ def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
 
 @contextmanager
 def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
-    """Open files for writing; they get their final names together when all are complete.
+    """Open files for writing, which are renamed together to `paths` when all are complete.
 
     Args:
-        paths: Final paths; readers find the other files through the last one.
+        paths: Final paths; the last file is renamed last, because readers look for it.
         force: Whether existing files may be replaced.
 
     Raises:
@@ -248,9 +248,9 @@ def _write_tum(
 def _write_kitti(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write a KITTI file: the upper three rows of each matrix in a line; stamps in a second file.
+    """Write a KITTI file, with three rows of each matrix in a line, and a second file with stamps.
 
-    Both files get their final names together, the file of poses last.
+    Both files are renamed together when they are complete, the file with poses last.
     """
     times = path.with_name(f"{path.stem}_times.txt")
     rows = found[0].answered()
@@ -301,7 +301,7 @@ def _write_npz(
 ) -> list[Path]:
     """Write a NumPy archive without pickles: stamps, translations, rotations (x y z w).
 
-    Rows of several pairs are concatenated; `pair` has the number of each row's pair.
+    Rows of several pairs are concatenated; the array `pair` has the number of each row's pair.
     """
     rows = [one.answered() for one in found]
     several = len(rows) > 1
@@ -323,7 +323,7 @@ def _write_npz(
 def _write_parquet(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """Write a Parquet file with the columns of the CSV, and `stamp` if stamps are dates.
+    """Write a Parquet file with the columns of the CSV; if stamps count from 1970, also `stamp`.
 
     Raises:
         UsageError: If the extra `parquet` is not installed.
@@ -396,7 +396,7 @@ def _writer(
     progress: Progress | None,
     before: bytes = b"",
 ) -> "Callable[..., None]":
-    """Return a function that writes blocks of rows: the fastest one that supports the numbers."""
+    """Return the fastest function to write blocks of rows that supports these numbers."""
     done = 0
 
     def write(
