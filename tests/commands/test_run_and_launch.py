@@ -497,7 +497,7 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
     assert main(["ros2", "bag", "info", "run.mcap"]) == 2
     assert capsys.readouterr().err == "tftool: 'ros2 bag info' is 'tftool info' here.\n"
     assert main(["run", "joint_state_publisher_gui", "joint_state_publisher_gui"]) == 2
-    assert "is 'tftool robot FILE' here" in capsys.readouterr().err
+    assert "run 'tftool robot FILE' in one" in capsys.readouterr().err
 
 
 def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool, monkeypatch):
@@ -516,7 +516,7 @@ def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool, 
         assert (tmp_path / file).read_bytes().startswith(b"%PDF")
 
     misplaced = tftool("run", "--for", "1", "rviz2", "rviz2")
-    assert (misplaced.status, "is 'tftool view' here" in misplaced.err) == (2, True)
+    assert (misplaced.status, "run 'tftool view' in one" in misplaced.err) == (2, True)
     lacking = tftool("run", "tf2_ros", "tf2_echo", "world")
     assert (lacking.status, "Missing argument 'SOURCE'" in lacking.err) == (2, True)
 

@@ -78,7 +78,7 @@ def test_a_call_that_takes_too_long_raises_timeout_error(node):
     from std_srvs.srv import Empty
 
     client = node.create_client(Empty, "nothing")
-    with pytest.raises(TimeoutError, match=r"'/nothing' has not answered in 1\.5 s"):
+    with pytest.raises(TimeoutError, match=r"'/nothing' has not responded in 1\.5 s"):
         client.call(Empty.Request(), timeout_sec=1.5)
 
 

@@ -154,8 +154,8 @@ def test_what_goes_wrong_later_is_told_with_the_line_that_says_it(tmp_path, endi
             "RegisterEventHandler(OnExecutionComplete(on_completion=lambda event, context: 1 / 0))",
             r"ZeroDivisionError: division by zero\n.*some\.launch\.py:\d+, in <lambda>",
         ),
-        ("'turtlesim'", "a launch description holds actions, not 'turtlesim'"),
-        ("OpaqueFunction(function=lambda context: ['x'])", "holds actions, not 'x'"),
+        ("'turtlesim'", "a launch description must contain actions, not 'turtlesim'"),
+        ("OpaqueFunction(function=lambda context: ['x'])", "must contain actions, not 'x'"),
     ],
 )
 def test_what_a_launch_files_own_code_does_wrong_is_told_with_its_line(tmp_path, action, told):
@@ -179,7 +179,7 @@ def test_a_file_that_includes_itself_is_found_out(tmp_path, ending):
         }[ending]
     )
 
-    with pytest.raises(NodeFailed, match="is included 50 deep: does it include itself"):
+    with pytest.raises(NodeFailed, match="is included 50 deep: check whether it includes itself"):
         launch(file, seconds=1)
 
 
@@ -210,17 +210,20 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
          ":3: 'node' has no 'parm' inside; did you mean 'param'?"),
         ("<node pkg='p' exec='e'>\n<param name='a' vale='1' value='1'/></node>",
          ":3: 'param' has no attribute 'vale'; did you mean 'value'?"),
-        ("<node pkg='p' exec='e'><remap frm='a' to='b'/></node>", ":2: 'remap' needs 'from'"),
+        ("<node pkg='p' exec='e'><remap frm='a' to='b'/></node>",
+         ":2: 'remap' needs the attribute 'from'"),
         ("<node pkg='p' exec='e'><param name='a' value='1' type='itn'/></node>",
          "list_of_bool, not 'itn'; did you mean 'int'?"),
-        ("<node pkg='p' exec='e' on_exit='stop'/>", "on_exit may be 'shutdown', not 'stop'"),
-        ("<node_container pkg='p' exec='e' namespace=''/>", ":2: 'node_container' needs 'name'"),
-        ("<load_composable_node targt='x'/>", ":2: 'load_composable_node' needs 'target'"),
+        ("<node pkg='p' exec='e' on_exit='stop'/>", "on_exit must be 'shutdown', not 'stop'"),
+        ("<node_container pkg='p' exec='e' namespace=''/>",
+         ":2: 'node_container' needs the attribute 'name'"),
+        ("<load_composable_node targt='x'/>",
+         ":2: 'load_composable_node' needs the attribute 'target'"),
         ("<node pkg='p' exec='e'>\n<param name='a' value='1,x' value-sep=',' type='lst_of_int'/>"
          "</node>", "not 'lst_of_int'; did you mean 'list_of_int'?"),
         ("<arg name='a'><choise value='1'/></arg>", "'choise' inside; did you mean 'choice'?"),
         ("<log message='$(find-pkg-shar x)'/>", "mean '$(find-pkg-share …)'?"),
-        ("<group scoped='ture'/>", ":2: 'scoped' of 'group' is true or false, not 'ture'"),
+        ("<group scoped='ture'/>", ":2: 'scoped' of 'group' must be true or false, not 'ture'"),
         ("<executable cmd=\"echo 'a\"/>", ":2: a quote in 'echo 'a' is not closed"),
     ],
 )  # fmt: skip

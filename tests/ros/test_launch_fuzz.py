@@ -88,18 +88,19 @@ def test_a_file_is_launched_or_refused(case):
     ("text", "told"),
     [
         ("<timer period='nan'><log message='y'/></timer>", "seconds from 0 to 1e+09, not 'nan'"),
-        ("<executable cmd=''/>", "ExecuteProcess is given no command"),
+        ("<executable cmd=''/>", "ExecuteProcess needs a command"),
         ("<executable cmd='env' cwd='/nonexistent'/>", "No such file or directory '/nonexistent'"),
-        ("<executable cmd='a' respawn='true' respawn_delay='soon'/>", "a respawn_delay is seconds"),
+        ("<executable cmd='a' respawn='true' respawn_delay='soon'/>",
+         "a respawn_delay must be seconds"),
         ("<node pkg='turtlesim' exec='turtlesim_node' namespace='a b'/>", "cannot be a namespace"),
         ("<push_ros_namespace namespace='1a'/>", "a part must not start with a number"),
         ("<include file='nothing.xml'/>", ":2: cannot read 'nothing.xml'"),
         ("<set_remap from='a b' to='c'/><node pkg='turtlesim' exec='turtlesim_node'/>",
          "'a b:=c' is not a valid remapping, because of the name 'a b': it must not contain"),
         ("<node pkg='turtlesim' exec='turtlesim_node'><param name='background_r' value='red'/>"
-         "</node>", "'background_r' is a whole number from 0 to 255, not 'red'"),
+         "</node>", "'background_r' must be a whole number from 0 to 255, not 'red'"),
         ("<node pkg='turtlesim' exec='turtlesim_node'><param name='holonomic' value='2'/></node>",
-         "parameter 'holonomic' is true or false, not 2"),
+         "parameter 'holonomic' must be true or false, not 2"),
     ],
 )  # fmt: skip
 def test_values_that_make_no_sense_are_told_with_their_line(tmp_path, text, told):

@@ -101,7 +101,7 @@ def test_a_node_with_a_life_cycle_is_configured_and_activated(tmp_path, how):
 
 
 def test_a_transition_that_does_not_exist_is_named(tmp_path):
-    with pytest.raises(NodeFailed, match="no transition 'activated': there are create, configure"):
+    with pytest.raises(NodeFailed, match="no transition 'activated': use one of create, configure"):
         described(
             tmp_path,
             "LifecycleTransition(lifecycle_node_names=['x'], transition_labels=['activated'])",
@@ -183,7 +183,7 @@ def test_a_format_in_the_environment_is_taken_or_refused_with_its_name(
 
     name = f"OVERRIDE_LAUNCH_{kind}_FORMAT"
     monkeypatch.setenv(name, "%(message)s")
-    with pytest.raises(UsageError, match=rf"{name} is '%\(message\)s'"):
+    with pytest.raises(UsageError, match=rf"{name} must be .*, not '%\(message\)s'"):
         launch.logging.reset()
     monkeypatch.setenv(name, "said {message}")
     launch.logging.reset()
@@ -320,7 +320,7 @@ def test_environments_are_pushed_popped_and_reset(tmp_path):
     )
 
     assert done.said("launch") == ["inner", "gone", "gone"]
-    with pytest.raises((NodeFailed, InputError), match="no PushEnvironment before"):
+    with pytest.raises((NodeFailed, InputError), match="needs a PushEnvironment before"):
         described(tmp_path, "PopEnvironment()")
 
 
@@ -404,7 +404,7 @@ def test_people_may_have_elements_and_substitutions_of_their_own(tmp_path):
 @pytest.mark.parametrize(
     ("xml", "told"),
     [
-        ("<greet/>", "'greet' needs 'whom'"),
+        ("<greet/>", "'greet' needs the attribute 'whom'"),
         ('<greet whom="x" times="twice"/>', "'times' of 'greet' is not of type"),
         ('<greet whom="x" wide="1"/>', "'greet' has no attribute 'wide'"),
     ],
@@ -467,7 +467,7 @@ def test_conditions_and_truths_are_those_of_ros():
         assert IfElseSubstitution("on", "a", "b").perform(context) == "a"
         with pytest.raises(RuntimeError, match="if_value or an else_value"):
             IfElseSubstitution("true")
-        with pytest.raises(SubstitutionFailure, match="no launch file"):
+        with pytest.raises(SubstitutionFailure, match="no current launch file"):
             ThisLaunchFile().perform(context)
 
 

@@ -56,7 +56,7 @@ def test_whole_numbers_beside_others_become_floats_and_files_become_paths(tmp_pa
     ("given", "told"),
     [
         ({5: "x"}, "expected a text, a substitution or a list of both, not 5"),
-        ({"a": {1, 2}}, "{1, 2} is no value of a parameter"),
+        ({"a": {1, 2}}, "{1, 2} cannot be a parameter's value"),
         ({"a": [1, [2]]}, r"not \[2\]"),
         ({"a": [True, 2]}, "Expected a non-empty sequence of bool, int, float or str alone"),
         ({"a": []}, "parameter 'a': Expected a non-empty sequence"),
@@ -74,7 +74,7 @@ def test_a_node_refuses_a_mapping_of_parameters_and_a_list_of_remappings():
     with ros_free():
         from launch_ros.actions import Node
 
-        with pytest.raises(TypeError, match="parameters are a list of mappings and files"):
+        with pytest.raises(TypeError, match="parameters must be a list of mappings and files"):
             Node(executable="e", parameters={"a": 1})
         with pytest.raises(TypeError, match="a remapping is a pair"):
             Node(executable="e", remappings=[["a", "b"]])
@@ -162,7 +162,7 @@ def test_an_argument_may_not_have_the_name_of_what_a_scope_keeps(tmp_path, actio
         for name in ("global_params", "ros_remaps")
     ]
 
-    with pytest.raises(NodeFailed, match="is launch_ros's own name among the launch config"):
+    with pytest.raises(NodeFailed, match="cannot be a launch argument, because launch_ros stores"):
         described(tmp_path, *arguments, action)
 
 
@@ -353,7 +353,8 @@ def test_a_container_may_be_a_file_of_no_package(tmp_path):
 
     assert done.texts("c") == ["here"]
     (left_out,) = done.said("launch")
-    assert left_out.startswith("left out: the container /c: a node is a Python file here, not")
+    fault = f"the container /c: '{tmp_path / 'box.sh'}' is not a Python file"
+    assert left_out.startswith(f"left out: {fault}")
 
 
 @pytest.mark.parametrize(

@@ -480,7 +480,7 @@ def test_a_file_of_launch_tests_is_run_by_name(tmp_path, tftool, simulated):
     assert tftool("ros2", "test").status == 2
     assert tftool("ros2", "test", tmp_path / "none.py").status == 3
     file.write_text("x = 1\n")
-    assert "it has no generate_test_description()" in tftool("ros2", "test", file).err
+    assert "it has no function generate_test_description()" in tftool("ros2", "test", file).err
 
 
 @pytest.mark.parametrize(

@@ -133,14 +133,14 @@ def test_a_file_may_be_the_argument(ros_runtime, tmp_path):
             "joint_state_publisher",
             ["--ros-args", "-p", "rate:=fast"],
             UsageError,
-            "parameter 'rate' is a number, not 'fast'",
+            "parameter 'rate' must be a number, not 'fast'",
         ),
         ("joint_state_publisher", ["--ros-args", "-p", "rate:=0"], UsageError, "above 0"),
         (
             "joint_state_publisher",
             ["--ros-args", "-p", "source_list:=hand"],
             UsageError,
-            "is a list of topics",
+            "must be a list of topics",
         ),
     ],
 )
@@ -150,5 +150,5 @@ def test_what_the_nodes_cannot_take_is_said(ros_runtime, package, words, error, 
 
 
 def test_the_gui_is_a_command_of_ours(ros_runtime):
-    with pytest.raises(UsageError, match="is 'tftool robot FILE' here"):
+    with pytest.raises(UsageError, match="run 'tftool robot FILE' in one"):
         begin(ros_runtime, "joint_state_publisher_gui")

@@ -222,7 +222,7 @@ def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None
             if asked.wanted is not None and not asked.wanted(message):
                 return
         except Exception as error:
-            raise UsageError(f"the expression of --filter fails: {error}") from error
+            raise UsageError(f"the expression of --filter fails for a message: {error}") from error
         callback(message)
 
     node.create_subscription(kind, _full(asked.topic), take, profile)
@@ -336,7 +336,9 @@ def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
     def delay(message: Any) -> float:
         if not hasattr(message, "header"):
-            raise UsageError(f"{type(message).__name__} has no header, so its delay is unknown")
+            raise UsageError(
+                f"{type(message).__name__} has no header with a stamp, so its delay is unknown"
+            )
         return float(owner.now() - stamp_of(message.header.stamp)) / 1e9
 
     def tell(delays: list[float]) -> None:

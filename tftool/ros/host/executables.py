@@ -75,7 +75,7 @@ class Asked:
         """
         value: T = self.parameters.pop(name, default)
         if isinstance(value, bool) is not isinstance(default, bool) or not fits(value):
-            raise UsageError(f"parameter '{name}' is {what}, not {value!r}")
+            raise UsageError(f"parameter '{name}' must be {what}, not {value!r}")
         return value
 
     def flag(self, name: str, default: bool) -> bool:
@@ -138,7 +138,8 @@ def _static_publisher(asked: Asked) -> Node:
     said = static_arguments.parse(asked.arguments)
     if said is None:
         raise UsageError(
-            "see 'tftool static --help' for the arguments of static_transform_publisher"
+            "the arguments of static_transform_publisher are missing: 'tftool static --help' "
+            "describes them"
         )
     sample = TransformStamped(0, said.parent, said.child, said.transform)
     return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
@@ -205,7 +206,7 @@ def _joint_state_publisher(asked: Asked) -> Node:
     }
     sources = asked.parameters.pop("source_list", [])
     if not isinstance(sources, list) or not all(isinstance(one, str) for one in sources):
-        raise UsageError(f"parameter 'source_list' is a list of topics, not {sources!r}")
+        raise UsageError(f"parameter 'source_list' must be a list of topics, not {sources!r}")
     return JointStatePublisher(
         asked.world,
         asked.name,
@@ -302,7 +303,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
     elsewhere = _ELSEWHERE.get((package, executable))
     if elsewhere is not None:
         raise HasItsOwnCommand(
-            f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own."
+            f"'{package} {executable}' needs a terminal of its own: run '{elsewhere}' in one."
         )
     known = [name for one, name in _OURS if one == package]
     known += [*found.scripts, *found.programs] if found is not None else []

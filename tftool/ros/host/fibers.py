@@ -345,8 +345,8 @@ class Fiber:
         self._rest.acquire(timeout=1.0)
         self.ended = True
         raise StuckError(
-            f"'{self.name}' has computed for {self._give_up:g} s without waiting, and simulated "
-            "time cannot advance meanwhile: let it wait with a timer or time.sleep. It is at: "
+            f"'{self.name}' has computed for {self._give_up:g} s without waiting, so simulated "
+            "time could not advance: let the code wait with a timer or time.sleep. It was at: "
             f"{place or 'no line of yours is running'}"
         )
 

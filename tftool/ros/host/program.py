@@ -177,7 +177,7 @@ class Program(Node):
         elif self.status and self.failure is not None:
             if isinstance(self.failure, Exception):
                 raise self.failure
-            raise TftoolError(f"it ended with exit status {self.status}") from self.failure
+            raise TftoolError(f"the program ended with exit status {self.status}") from self.failure
 
     def _leave(self) -> None:
         raised = self.failure or self.fiber.error
@@ -241,7 +241,7 @@ class Program(Node):
         if self.strict:
             return self._ask_beside(request)
         if self._loop is None:
-            raise TftoolError(f"program '{self.name}' is not running yet")
+            raise TftoolError(f"program '{self.name}' has not started: call this after its start")
         return asyncio.run_coroutine_threadsafe(_as_coroutine(request), self._loop).result()
 
     def _ask_beside(self, request: Callable[[], Any]) -> Any:
@@ -250,8 +250,8 @@ class Program(Node):
         if inspect.isawaitable(value):
             fibers.discard(value)
             raise TftoolError(
-                "on simulated time a thread of a pool cannot wait: use threading.Thread instead "
-                "of the pool"
+                "on simulated time a thread of a pool cannot wait: start a threading.Thread "
+                "instead of using the pool"
             )
         return value
 

@@ -42,7 +42,7 @@ def definition(name: str) -> str:
         if short in INTERFACES.names(package, one):
             return INTERFACES.text(package, one, short)
     interface(name, kind or "msg")
-    raise UsageError(f"there is no interface '{name}'")
+    raise UsageError(f"there is no interface '{name}': 'ros2 interface list' shows all")
 
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
@@ -92,7 +92,8 @@ def fill(message: Any, values: Any, where: str = "") -> None:
         return
     if not isinstance(values, Mapping):
         what = f"'{where}'" if where else type(message).__name__
-        raise UsageError(f"{what} needs fields, '{{name: value}}', not {values!r}: {known}")
+        names = ", ".join(known)
+        raise UsageError(f"{what} needs fields, not {values!r}: write '{{name: value}}' ({names})")
     fields = {field.name: field for field in message.fields__}
     for name, value in values.items():
         path = f"{where}.{name}" if where else str(name)

@@ -97,7 +97,7 @@ def compile_file(path: Path) -> CodeType:
             raise InputError(f"'{path}' is not valid Python: {error.msg}") from None
         raise InputError(syntax_sentence(error)) from None
     except ValueError as error:
-        raise InputError(f"'{path}' is no Python text: {error}") from None
+        raise InputError(f"'{path}' is not a Python text file: {error}") from None
 
 
 def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:

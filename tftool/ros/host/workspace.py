@@ -298,7 +298,8 @@ def _add_interfaces(package: Package) -> None:
     if package.name in TAKEN:
         if any((package.path / kind).is_dir() for kind in _KINDS):
             raise InputError(
-                f"a package of interfaces cannot be named '{package.name}', as Python's module is"
+                f"the package of interfaces '{package.name}' has the name of a module of Python: "
+                "rename the package"
             )
         return
     texts = {

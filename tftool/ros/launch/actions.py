@@ -52,7 +52,8 @@ class DeclareLaunchArgument(Action):
         value = configurations[self.name]
         if self.choices is not None and value not in self.choices:
             raise UsageError(
-                f"launch argument '{self.name}' is one of {', '.join(self.choices)}, not '{value}'"
+                f"launch argument '{self.name}' must be one of {', '.join(self.choices)}, "
+                f"not '{value}'"
             )
         return None
 
@@ -181,7 +182,7 @@ class PopEnvironment(Action):
             UsageError: If no PushEnvironment comes before this action.
         """
         if not context.environments:
-            raise UsageError("there is no PushEnvironment before this PopEnvironment")
+            raise UsageError("this PopEnvironment needs a PushEnvironment before it")
         context.environment = context.environments.pop()
 
 
@@ -280,7 +281,8 @@ class IncludeLaunchDescription(Action):
         self.source: LaunchDescriptionSource = launch_description_source
         if isinstance(launch_arguments, Mapping):
             raise UsageError(
-                "launch_arguments are pairs, not a dictionary: write launch_arguments={…}.items()"
+                "launch_arguments must be pairs, not a dictionary: write "
+                "launch_arguments={…}.items()"
             )
         self.launch_arguments = list(launch_arguments or ())
 

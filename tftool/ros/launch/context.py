@@ -118,7 +118,10 @@ class LaunchContext:
 
     def _launched(self) -> Any:
         if self.launch is None:
-            raise UsageError("this context belongs to no running launch, and has no events")
+            raise UsageError(
+                "this LaunchContext belongs to no running launch, so it has no events: use the "
+                "context that the launch passes to your function"
+            )
         return self.launch
 
     def number_of(self, name: str) -> int:
@@ -136,7 +139,9 @@ class LaunchContext:
             UsageError: If the chain of launch files that include each other is too long.
         """
         if len(self.files) >= DEEPEST:
-            raise UsageError(f"'{path}' is included {DEEPEST} deep: does it include itself?")
+            raise UsageError(
+                f"'{path}' is included {DEEPEST} deep: check whether it includes itself"
+            )
         self.files = (*self.files, path.absolute())
 
     def kept(self) -> tuple[Any, ...]:

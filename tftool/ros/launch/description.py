@@ -94,7 +94,7 @@ class LaunchDescriptionSource:
             return self.description, None
         path = Path(perform(context, self.location))
         if context.load is None:
-            raise UsageError(f"'{path}' is included outside of a launch")
+            raise UsageError(f"'{path}' cannot be included: no launch is running")
         return context.load(path), path
 
 

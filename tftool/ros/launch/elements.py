@@ -53,7 +53,7 @@ class Element:
         for name in names:
             if name in self.values:
                 return self.values[name]
-        raise InputError(f"{self.where}: '{self.tag}' needs '{names[0]}'")
+        raise InputError(f"{self.where}: '{self.tag}' needs the attribute '{names[0]}'")
 
     def inside(self, *tags: str) -> list["Element"]:
         """Return the child elements whose tag is in `tags`."""
@@ -128,7 +128,7 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
         stack.append(element)
 
     def refuse(*_: Any) -> None:
-        raise InputError(f"{path}:{parser.CurrentLineNumber}: entities are not read")
+        raise InputError(f"{path}:{parser.CurrentLineNumber}: XML entities are not supported")
 
     parser.StartElementHandler = start
     parser.EndElementHandler = lambda tag: stack.pop()
@@ -143,7 +143,7 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
         raise InputError(f"{path}:1: {error}; save the file as UTF-8") from None
     root = stack[0].children[0]
     if root.tag != "launch":
-        raise InputError(f"{root.where}: a launch file's root is 'launch', not '{root.tag}'")
+        raise InputError(f"{root.where}: a launch file's root must be 'launch', not '{root.tag}'")
     return root.children
 
 
@@ -156,7 +156,7 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
     try:
         root = yaml_guard.compose(data.decode("utf-8"))
     except UnicodeDecodeError:
-        raise InputError(f"cannot read '{path}': it is no UTF-8 text") from None
+        raise InputError(f"cannot read '{path}': the file is not UTF-8 text") from None
     except yaml.YAMLError as error:
         mark: Any = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)
@@ -165,7 +165,7 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
         raise Element("", str(path)).too_deep() from None
     top = Element("launch", str(path))
     if not isinstance(root, yaml.MappingNode) or [key.value for key, _ in root.value] != ["launch"]:
-        raise InputError(f"{path}: a launch file has one top-level key, 'launch'")
+        raise InputError(f"{path}: a launch file must have one top-level key, 'launch'")
     _Yaml(path).children(root.value[0][1], top, 1)
     return top.children
 
@@ -180,11 +180,12 @@ class _Yaml:
         """Convert a list of mappings with one key each to child elements of `parent`."""
         if not isinstance(node, yaml.SequenceNode):
             where = self.where(node)
-            raise InputError(f"{where}: '{parent.tag}' is a list of actions, each begun with '- '")
+            what = f"'{parent.tag}' must be a list of actions"
+            raise InputError(f"{where}: {what}: begin each with '- '")
         for item in node.value:
             if not isinstance(item, yaml.MappingNode) or len(item.value) != 1:
                 where = self.where(item)
-                raise InputError(f"{where}: an action is one key with its attributes below it")
+                raise InputError(f"{where}: an action must be one key with its attributes below it")
             key, value = item.value[0]
             parent.children.append(self.element(self.word(key), value, depth))
 
@@ -198,7 +199,9 @@ class _Yaml:
             self.children(node, element, depth + 1)
             return element
         if not isinstance(node, yaml.MappingNode):
-            raise InputError(f"{element.where}: '{tag}' needs attributes below it, 'name: value'")
+            raise InputError(
+                f"{element.where}: '{tag}' needs attributes: write 'name: value' below it"
+            )
         for key, value in node.value:
             name = self.word(key)
             nested = isinstance(value, yaml.SequenceNode) and any(
@@ -219,7 +222,7 @@ class _Yaml:
             InputError: If the key is not a single word.
         """
         if not isinstance(node, yaml.ScalarNode):
-            raise InputError(f"{self.where(node)}: a key is one word, not a list or a mapping")
+            raise InputError(f"{self.where(node)}: a key must be one word, not a list or a mapping")
         return str(node.value)
 
     def value(self, node: Any) -> Any:

@@ -165,7 +165,7 @@ class Launch(Node):
 
     def _visit(self, entity: Any) -> Any:
         if not hasattr(entity, "visit"):
-            raise UsageError(f"a launch description holds actions, not {entity!r}")
+            raise UsageError(f"a launch description must contain actions, not {entity!r}")
         where = getattr(entity, "where", "")
         try:
             return entity.visit(self.context)

@@ -313,7 +313,9 @@ class EventQueue:
             while self._waiting:
                 told += 1
                 if told > MOST_EVENTS:
-                    raise UsageError("event handlers trigger each other without end: name targets")
+                    raise UsageError(
+                        "event handlers trigger each other without end: give each a target_action"
+                    )
                 self._tell(self._waiting.popleft())
         finally:
             self._is_held = False

@@ -73,7 +73,9 @@ class Entity:
             ) from None
 
     def _missing(self, name: str) -> AttributeError:
-        return AttributeError(f"{self.element.where}: '{self.type_name}' needs '{name}'")
+        return AttributeError(
+            f"{self.element.where}: '{self.type_name}' needs the attribute '{name}'"
+        )
 
     def assert_entity_completely_parsed(self) -> None:
         """Raise an error if an attribute or child element was not read.

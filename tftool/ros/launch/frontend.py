@@ -142,7 +142,7 @@ def _flag(element: Element, name: str, default: str) -> bool:
     try:
         return is_true(text)
     except UsageError:
-        what = f"'{name}' of '{element.tag}' is true or false, not '{text}'"
+        what = f"'{name}' of '{element.tag}' must be true or false, not '{text}'"
         raise element.refusal(what, "", ()) from None
 
 
@@ -178,7 +178,7 @@ def _startable(element: Element) -> dict[str, Any]:
         element.get(name)
     on_exit = element.get("on_exit")
     if on_exit not in (None, "shutdown"):
-        raise element.refusal(f"on_exit may be 'shutdown', not '{on_exit}'", "", ())
+        raise element.refusal(f"on_exit must be 'shutdown', not '{on_exit}'", "", ())
     return {
         "on_exit": actions.Shutdown(reason=f"{element.tag} ended") if on_exit else None,
         "output": element.get("output", "log"),
@@ -293,7 +293,9 @@ def _param(element: Element, prefix: str = "") -> Any:
         return whole
     value, kind = element.need("value"), element.get("type")
     if kind is not None and kind not in _TYPES:
-        raise element.refusal(f"a type is {', '.join(_TYPES)}, not '{kind}'", str(kind), _TYPES)
+        raise element.refusal(
+            f"a type must be one of {', '.join(_TYPES)}, not '{kind}'", str(kind), _TYPES
+        )
     separator = element.get("value-sep")
     if separator and isinstance(value, str):
         value = [_value(text, element) for text in value.split(str(separator))]
@@ -418,7 +420,7 @@ def _from_python(path: Path) -> LaunchDescription:
             defined = [name for name, one in vars(module).items() if isinstance(one, FunctionType)]
             near = near_names(MAKES, defined)
             hint = f"; it has '{near[0]}': name that so" if near else ""
-            raise InputError(f"'{path}' is no launch file: it has no function {MAKES}(){hint}")
+            raise InputError(f"'{path}' is not a launch file: it has no function {MAKES}(){hint}")
         description = make()
     except InputError:
         raise

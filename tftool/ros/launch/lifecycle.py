@@ -150,7 +150,7 @@ class LifecycleTransition(Action):
         self.transition_ids = list(transition_ids or ())
         self.transition_labels = list(transition_labels or ())
         if not self.lifecycle_node_names or not (self.transition_ids or self.transition_labels):
-            raise ValueError("a LifecycleTransition needs names of nodes, and transitions")
+            raise ValueError("a LifecycleTransition needs lifecycle_node_names and transitions")
 
     def execute(self, context: LaunchContext) -> Any:
         """Return actions that run the transitions of each node, each after the one before it."""
@@ -159,7 +159,7 @@ class LifecycleTransition(Action):
             text = perform(context, label)
             if text not in _TRANSITIONS:
                 known = ", ".join(_TRANSITIONS)
-                raise UsageError(f"there is no transition '{text}': there are {known}")
+                raise UsageError(f"there is no transition '{text}': use one of {known}")
             numbers.append(_TRANSITIONS[text])
         following: list[Any] = []
         for node in self.lifecycle_node_names:

@@ -64,7 +64,7 @@ class LaunchConfig:
     @log_dir.setter
     def log_dir(self, folder: str | None) -> None:
         if folder is not None and not Path(folder).is_dir():
-            raise ValueError(f"{folder} does not exist")
+            raise ValueError(f"the folder of log files '{folder}' does not exist: create it first")
         self._log_dir = folder
 
     @property
@@ -115,14 +115,14 @@ def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
         set_format(given)
     except ValueError as error:
         raise UsageError(
-            f"the environment variable {name} is '{given}', which is no format with braces, as "
-            f"'{{message}}' is: {error}"
+            f"the environment variable {name} must be a format with braces, such as "
+            f"'{{message}}', not '{given}': {error}"
         ) from None
 
 
 def _formatter(text: str, style: str | None) -> logging.Formatter:
     if text in _FORMATS and style is not None:
-        raise ValueError(f"the format '{text}' mixes styles")
+        raise ValueError(f"the format '{text}' mixes styles: omit the style {style!r}")
     return logging.Formatter(_FORMATS.get(text, text), style=style or "{")  # type: ignore[arg-type]
 
 

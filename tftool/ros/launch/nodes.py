@@ -159,7 +159,7 @@ def python_file(executable: str) -> str:
             f"there is no file '{executable}' to run; a package's executable needs package='…'"
         ) from None
     if first.startswith(b"\x7fELF") or (first.startswith(b"#!") and b"python" not in first):
-        raise UsageError(f"a node is a Python file here, not '{found}': run it by ExecuteProcess")
+        raise UsageError(f"'{found}' is not a Python file: run it by ExecuteProcess, not as a Node")
     return found
 
 

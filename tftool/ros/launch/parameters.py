@@ -140,7 +140,7 @@ def normalize_parameters(parameters: Any) -> list[Any]:
         TypeError: If the argument is not a list, or an item is not a mapping or a file.
     """
     if not isinstance(parameters, Sequence) or isinstance(parameters, str | bytes):
-        raise TypeError(f"a node's parameters are a list of mappings and files, not {parameters!r}")
+        raise TypeError(f"parameters must be a list of mappings and files, not {parameters!r}")
     found: list[Any] = []
     for one in parameters:
         if isinstance(one, Mapping):
@@ -161,7 +161,7 @@ def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], 
         TypeError: If a name is not a string, or a value is of a type that parameters cannot have.
     """
     if not isinstance(parameters, Mapping):
-        raise TypeError(f"parameters are a mapping from names to values, not {parameters!r}")
+        raise TypeError(f"parameters must be a mapping from names to values, not {parameters!r}")
     found: dict[tuple[Substitution, ...], Any] = {}
     for key, value in parameters.items():
         name = _parts_of(key)
@@ -180,7 +180,7 @@ def _normalized(value: Any) -> Any:
     if _is_text(value):
         return tuple(_parts_of(value))
     if not isinstance(value, Sequence):
-        raise TypeError(f"{value!r} is no value of a parameter: give a number, a text or a list")
+        raise TypeError(f"{value!r} cannot be a parameter's value: give a number, a text or a list")
     found: list[Any] = [one if isinstance(one, _SINGLE) else tuple(_parts_of(one)) for one in value]
     kinds = {type(one) for one in found}
     if kinds == {int, float}:

@@ -20,7 +20,7 @@ def parsed(text: Any, where: str) -> list[Any]:
         InputError: If a `$(…)` is not closed or not known, or there are too many.
     """
     if str(text).count("$(") > DEEPEST:
-        raise InputError(f"{where}: one text can have at most {DEEPEST} '$(…)'")
+        raise InputError(f"{where}: a text has more than {DEEPEST} '$(…)', the limit")
     parts, rest = _parse(str(text), 0, where, closing=False)
     if rest != len(str(text)):
         raise InputError(f"{where}: '{text}' has one ')' too many")
@@ -99,7 +99,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     if at >= len(text):
         raise InputError(f"{where}: '$(' in '{text}' is not closed by ')'")
     if not words or not words[0] or not isinstance(words[0][0], TextSubstitution):
-        raise InputError(f"{where}: '$()' in '{text}' names nothing")
+        raise InputError(f"{where}: '$()' in '{text}' is empty: write a name in it")
     name = words[0][0].text
     make, imported = EXPOSED.get(name), tagged().get(f"${name}")
     if make is None and imported is not None:
@@ -108,11 +108,11 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
         known = (tag.removeprefix("$") for tag in tagged() if tag.startswith("$"))
         near = near_names(name, [*known, *EXPOSED])
         hint = f"; did you mean '$({near[0]} …)'?" if near else ""
-        raise InputError(f"{where}: '$({name} …)' is not known{hint}")
+        raise InputError(f"{where}: there is no substitution '$({name} …)'{hint}")
     try:
         return make(*words[1:]), at + 1
     except TypeError:
-        raise InputError(f"{where}: '$({name} …)' has the wrong number of words") from None
+        raise InputError(f"{where}: '$({name} …)' has the wrong number of arguments") from None
 
 
 def _made(kind: Any, *words: list[Any]) -> Any:

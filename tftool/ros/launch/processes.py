@@ -158,7 +158,7 @@ def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
     except ValueError:
         found = -1.0
     if not 0.0 <= found <= LONGEST:
-        raise UsageError(f"{what} is seconds from 0 to {LONGEST:g}, not '{text}'")
+        raise UsageError(f"{what} must be seconds from 0 to {LONGEST:g}, not '{text}'")
     return found
 
 
@@ -186,7 +186,7 @@ class ExecuteProcess(Startable):
         """Start the command; a Python program that uses rclpy runs inside tftool."""
         words = [perform(context, word) for word in self.cmd]
         if not words or not words[0].strip():
-            raise UsageError("ExecuteProcess is given no command")
+            raise UsageError("ExecuteProcess needs a command: pass cmd=[…]")
         environment = dict(context.environment)
         if self.env is not None:
             environment = _texts(context, self.env)

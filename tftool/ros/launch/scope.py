@@ -118,8 +118,8 @@ def _kept(context: LaunchContext, name: str) -> Any:
     kept: Any = context.launch_configurations.get(name, [])
     if isinstance(kept, str):
         raise UsageError(
-            f"'{name}' is launch_ros's own name among the launch configurations, for "
-            "settings of a scope; rename the launch argument"
+            f"'{name}' cannot be a launch argument, because launch_ros stores settings of a "
+            "scope under this name: rename the launch argument"
         )
     return kept
 
@@ -222,5 +222,7 @@ class ParameterSubstitution(Substitution):
             if set_name == name and not node:
                 return str(value)
         if self.default is None:
-            raise SubstitutionFailure(f"no SetParameter of this scope sets a parameter '{name}'")
+            raise SubstitutionFailure(
+                f"no SetParameter of this scope sets parameter '{name}': give a default"
+            )
         return perform(context, self.default)

@@ -80,7 +80,7 @@ def is_true(text: str) -> bool:
         return True
     if word in ("false", "0"):
         return False
-    raise UsageError(f"a condition is 'true', 'false', '1' or '0', not '{text}'")
+    raise UsageError(f"a condition must be 'true', 'false', '1' or '0', not '{text}'")
 
 
 class TextSubstitution(Substitution):
@@ -149,7 +149,9 @@ class EnvironmentVariable(Substitution):
             return context.environment[name]
         if self.default_value is not None:
             return perform(context, self.default_value)
-        raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+        raise SubstitutionFailure(
+            f"environment variable '{name}' is not set: set it, or give a default_value"
+        )
 
     def describe(self) -> str:
         """Return the description "EnvVar('NAME')"."""
@@ -169,9 +171,9 @@ class LocalSubstitution(Substitution):
         for name in self.expression.split("."):
             if not hasattr(value, name):
                 known = ", ".join(one for one in vars(value) if not one.startswith("_"))
+                hint = f"it may be {known}" if known else "only an event handler has an event"
                 raise SubstitutionFailure(
-                    f"there is no '{name}' for '{self.expression}' here, "
-                    f"but {known or 'nothing: only what a handler does knows its event'}"
+                    f"'{self.expression}' has no value here, because there is no '{name}': {hint}"
                 )
             value = getattr(value, name)
         return str(value)
@@ -255,7 +257,9 @@ class PythonExpression(Substitution):
 
 def _this_file(context: LaunchContext) -> Path:
     if not context.files:
-        raise SubstitutionFailure("there is no launch file here: this is in none")
+        raise SubstitutionFailure(
+            "there is no current launch file, because this launch description was made without one"
+        )
     return context.files[-1]
 
 
@@ -379,7 +383,7 @@ def _expanded(words: list[str]) -> str:
     files = [word for word in rest if ":=" not in word and not word.startswith("-")]
     options = [word for word in rest if word.startswith("-")]
     if len(files) != 1 or options:
-        raise SubstitutionFailure(f"xacro takes one file and NAME:=VALUE here, not {rest}")
+        raise SubstitutionFailure(f"xacro needs one file and NAME:=VALUE here, not {rest}")
     arguments = dict(word.split(":=", 1) for word in rest if ":=" in word)
     try:
         return expand_xacro(files[0], arguments)
@@ -412,7 +416,7 @@ class Command(Substitution):
         on_stderr = perform(context, self.on_stderr)
         if on_stderr not in ON_STDERR:
             raise SubstitutionFailure(
-                f"on_stderr is {', '.join(map(repr, ON_STDERR))}, not '{on_stderr}'"
+                f"on_stderr must be one of {', '.join(map(repr, ON_STDERR))}, not '{on_stderr}'"
             )
         captured = on_stderr == "capture"
         try:
@@ -428,15 +432,15 @@ class Command(Substitution):
         except subprocess.TimeoutExpired:
             limit = f"{commands.LONGEST_RUN:g} s"
             raise SubstitutionFailure(
-                f"the command {words} had not ended after {limit}: its output is needed before the "
-                "launch goes on; start one that runs on by ExecuteProcess"
+                f"the command {words} had not ended after {limit}: the launch waits for its "
+                "output. Use ExecuteProcess for a command that goes on running"
             ) from None
         except (OSError, subprocess.CalledProcessError) as error:
             raise SubstitutionFailure(f"the command {words} failed: {error}") from None
         if done.stderr and on_stderr != "ignore":
             sentence = f"the command {words} wrote to its standard error: {done.stderr.strip()}"
             if on_stderr == "fail":
-                raise SubstitutionFailure(f"{sentence} (on_stderr says whether it may)")
+                raise SubstitutionFailure(f"{sentence} (on_stderr='ignore' permits this)")
             if context.launch is not None:
                 context.launch.warn(sentence)
         return done.stdout

@@ -147,7 +147,7 @@ def post_shutdown_test() -> Callable[[type], type]:
 
     def decorate(test_class: type) -> type:
         if not isinstance(test_class, type):
-            raise TypeError("post_shutdown_test() decorates classes of tests")
+            raise TypeError("post_shutdown_test() can decorate only classes of tests")
         test_class.__post_shutdown_test__ = True  # type: ignore[attr-defined]
         return test_class
 

@@ -68,7 +68,7 @@ class LaunchedService(LaunchService):
         self.wait()
         # As in ROS 2 a process that fails is for the tests to judge.
         if self.failed_itself:
-            raise AssertionError("the launch has failed: its lines above say why")
+            raise AssertionError("the launch has failed: its log lines above give the reason")
 
     def _is_idle(self) -> bool:
         """Whether the launch has ended; the examples of launch_pytest read this attribute."""

@@ -192,7 +192,9 @@ def resolveProcesses(
             raise NoMatchingProcessException(f"No data recorded for {whose}")
         return found
     if not isinstance(process, str):
-        raise TypeError(f"a process is named by its action or a text, not by {process!r}")
+        raise TypeError(
+            f"a process must be given as an action or a part of its name, not {process!r}"
+        )
     wanted = [cmd_args] if isinstance(cmd_args, str) else cmd_args
 
     def fits(action: Any) -> bool:
@@ -268,7 +270,7 @@ def assertInStream(
         ValueError: If there is no such stream.
     """
     if stream not in ("stdout", "stderr"):
-        raise ValueError(f"a stream is 'stdout' or 'stderr', not {stream!r}")
+        raise ValueError(f"a stream must be 'stdout' or 'stderr', not {stream!r}")
     match = build_text_match(expected_output)
     found = resolveProcesses(
         proc_output, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching

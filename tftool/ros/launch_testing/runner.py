@@ -142,7 +142,7 @@ class TestRun:
         if ready is None:
             raise UsageError(
                 f"{MAKES} functions must return a LaunchDescription containing a ReadyToTest "
-                "action, which says when the tests start"
+                "action, which starts the tests"
             )
         ready.callbacks.append(ready_fn)
         return description, values
@@ -342,7 +342,9 @@ def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> lis
     """
     function = getattr(module, MAKES, None)
     if function is None:
-        raise InputError(f"'{module.__file__}' is no file of launch tests: it has no {MAKES}()")
+        raise InputError(
+            f"'{module.__file__}' is not a file of launch tests: it has no function {MAKES}()"
+        )
     runs = function() if hasattr(function, "__parametrized__") else [(function, {})]
     return [
         TestRun(

@@ -76,7 +76,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
     if isinstance(expected_text, Iterable):
         first, *others = [build_text_match(one) for one in expected_text]
         return _in_order(first, others, strict=strict)
-    raise ValueError(f"output is compared with a text, a pattern or a list, not {expected_text!r}")
+    raise ValueError(f"expected_text must be a text, a pattern or a list, not {expected_text!r}")
 
 
 def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[..., Span]:
@@ -110,7 +110,7 @@ def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[.
     if isinstance(expected_lines, Iterable):
         first, *others = [build_line_match(one) for one in expected_lines]
         return _in_order(first, others, strict=strict)
-    raise ValueError(f"lines are compared with texts and patterns, not {expected_lines!r}")
+    raise ValueError(f"expected_lines must be a text, a pattern or a list, not {expected_lines!r}")
 
 
 def expect_output(
@@ -136,9 +136,9 @@ def expect_output(
         ValueError: If both or neither of two arguments are given that replace each other.
     """
     if (text is None) == (lines is None):
-        raise ValueError("give either text or lines")
+        raise ValueError("give either text or lines, not both or neither")
     if (expected_text is None) == (expected_lines is None):
-        raise ValueError("give either expected_text or expected_lines")
+        raise ValueError("give either expected_text or expected_lines, not both or neither")
     whole = text if text is not None else "\n".join(lines or ())
     if strip_ansi_escape_sequences:
         whole = without_escapes(whole)

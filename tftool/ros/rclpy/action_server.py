@@ -133,7 +133,7 @@ class ActionServer(WorkQueue):
         seat = seat_of(node)
         super().__init__(seat, callback_group or node.default_callback_group)
         if not callable(execute_callback):
-            raise TypeError("an action server needs an execute_callback")
+            raise TypeError("an ActionServer needs a function as its execute_callback")
         self.type_ = action_type
         self._execute = execute_callback
         self._on_goal = goal_callback or (lambda request: GoalResponse.ACCEPT)
@@ -293,5 +293,7 @@ class ActionServer(WorkQueue):
 
         executor = self.seat.executor
         if executor is None:
-            raise TftoolError("an action is executed by the executor that spins its node")
+            raise TftoolError(
+                "the goal cannot be executed, because its node has no executor: spin the node"
+            )
         executor.create_task(work())

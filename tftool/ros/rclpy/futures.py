@@ -166,7 +166,7 @@ class Future:
         if self._executor is not None:
             self._executor.create_task(callback, self)
         elif inspect.iscoroutine(callback(self)):
-            raise TypeError("a coroutine as done-callback needs a future with an executor")
+            raise TypeError("a done-callback of a future without an executor cannot be a coroutine")
 
     def set_executor(self, executor: Any) -> None:
         """Set the executor that runs the callbacks; with None, the completing thread runs them."""

@@ -119,7 +119,7 @@ class StateMachine:
                 return one
         possible = ", ".join(one.label for one in self.available_transitions) or "none"
         raise RuntimeError(
-            f"no transition '{wanted}' from state '{self.state.label}'; possible: {possible}"
+            f"state '{self.state.label}' has no transition '{wanted}' (it has {possible})"
         )
 
 

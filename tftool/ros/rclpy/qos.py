@@ -348,7 +348,7 @@ def declare_qos_parameters(
                 setattr(qos, field, type(before)[str(value).upper()])
         except (KeyError, TypeError, ValueError) as error:
             raise InvalidQosOverridesError(
-                f"'{value}' is not a value of {name}: {error}"
+                f"'{value}' is not a valid value of {name}: {error}"
             ) from error
     if options.callback is not None:
         result = options.callback(qos)

@@ -105,7 +105,9 @@ class NodeSeat:
             InvalidHandle: If the entity is destroyed.
         """
         if entity not in self.entities:
-            raise InvalidHandle(f"a {type(entity).__name__} of '{self.name}' is destroyed")
+            raise InvalidHandle(
+                f"a {type(entity).__name__} of '{self.name}' is destroyed, so it cannot be used"
+            )
 
     def require(self) -> None:
         """Check that the node may get new entities, that is, was not destroyed.

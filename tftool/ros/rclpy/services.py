@@ -83,7 +83,7 @@ class Client(_Introspected, Requester):
         if timeout_sec is not None and not future.done() and not self.seat.program.interrupted:
             self.remove_pending_request(future)
             raise TimeoutError(
-                f"service '{self.service_name}' has not answered in {timeout_sec:g} s"
+                f"service '{self.service_name}' has not responded in {timeout_sec:g} s"
             )
         return future.result()
 

@@ -85,7 +85,9 @@ class Publisher(NodeEntity):
             InvalidHandle: If this publisher is destroyed.
         """
         if self._withdrawn:
-            raise InvalidHandle(f"the publisher of '{self.topic_name}' is destroyed")
+            raise InvalidHandle(
+                f"the publisher of '{self.topic_name}' is destroyed, so it cannot publish"
+            )
         if isinstance(msg, bytes):
             msg = deserialize_message(msg, self.msg_type)
         if not isinstance(msg, self.msg_type):

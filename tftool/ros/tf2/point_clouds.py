@@ -178,7 +178,7 @@ def create_cloud(
             rows = rows.reshape(0, len(form.names or ()))
         if rows.shape[-1] != len(form.names or ()):
             raise AssertionError(
-                f"a point has {rows.shape[-1]} numbers, and the fields take {len(form.names or ())}"
+                f"a point has {rows.shape[-1]} numbers, but the fields need {len(form.names or ())}"
             )
         made = np.zeros(rows.shape[:-1], form)
         for place, name in enumerate(form.names or ()):
