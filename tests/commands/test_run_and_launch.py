@@ -516,7 +516,7 @@ def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool, 
         assert (tmp_path / file).read_bytes().startswith(b"%PDF")
 
     misplaced = tftool("run", "--for", "1", "rviz2", "rviz2")
-    assert (misplaced.status, "run 'tftool view' in one" in misplaced.err) == (2, True)
+    assert (misplaced.status, "is 'tftool view' here" in misplaced.err) == (2, True)
     lacking = tftool("run", "tf2_ros", "tf2_echo", "world")
     assert (lacking.status, "Missing argument 'SOURCE'" in lacking.err) == (2, True)
 
