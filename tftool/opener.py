@@ -184,7 +184,7 @@ def scenario_named(
 
     found = named(word)
     if found.kind is not Kind.SCENARIO:
-        raise UsageError(f"'{visible(word)}' is {kind_in_words(found)}: a scenario is needed here.")
+        raise UsageError(f"'{visible(word)}' is {kind_in_words(found)}: name a scenario instead.")
     return load(found.paths[0], arguments or {}, expects=expects)
 
 

@@ -124,7 +124,7 @@ def test_chains_that_share_the_mount_are_refused_by_name(tftool, tmp_path):
 
     assert result.status == 2
     assert "--moving odom:camera passes through base_link → camera" in result.err
-    assert "the result would be the published mount" in result.err
+    assert "the result would be this published transform" in result.err
 
 
 def test_one_origin_of_a_description_changes_and_no_other_byte(tftool, words, made, tmp_path):
@@ -225,7 +225,7 @@ def test_a_report_is_one_page_with_the_curves(tftool, words, tmp_path):
         (["--moving", "a:b", "--moving", "c:d", "--moving", "e:f"], "at most twice"),
         (["--time-only", "--check"], "leave out the options of the mount"),
         (["-o", "mount.txt"], "end it in .urdf"),
-        (["-o", "new.urdf"], "name it with --urdf FILE"),
+        (["-o", "new.urdf"], "add --urdf FILE"),
         (["--report", "page.pdf"], "end it in .html"),
         (["--joint", "mount"], "--joint is only allowed with -o FILE"),
     ],

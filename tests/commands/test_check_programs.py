@@ -179,7 +179,7 @@ def test_a_program_named_like_a_node_lives_beside_it(tftool, broken):
         (["--run", "follower=gone.py"], 3, "cannot read 'gone.py': No such file"),
         (["--run", "follower=pkg_tf nothing"], 2, "package 'pkg_tf' has no executable 'nothing'"),
         (["--run", 'a "b'], 2, "no closing quotation"),
-        (["--run", " "], 2, "--run needs the words that follow 'tftool run'"),
+        (["--run", " "], 2, "--run is empty: give the words that follow 'tftool run'"),
         (["--launch", "gone.launch.py"], 3, "cannot read 'gone.launch.py'"),
         (["--launch", "pkg_tf carrot.launch.xml sorce_frame:=x"], 2, "mean 'source_frame:=…'"),
     ],

@@ -75,7 +75,7 @@ def test_info_for_programs_holds_the_same(tftool, robot):
     [
         (["doctor"], "without published transforms"),
         (["monitor"], "which sends no messages"),
-        (["demo"], "a scenario is needed here"),
+        (["demo"], "name a scenario instead"),
     ],
 )
 def test_commands_that_need_more_than_frames_refuse_a_description(tftool, robot, words, told):

@@ -292,7 +292,7 @@ def test_a_recording_is_no_scenario(tftool, recording, command):
     result = tftool(command, recording)
 
     assert result.status == 2
-    assert result.err == f"tftool: '{recording}' is an MCAP recording: a scenario is needed here.\n"
+    assert result.err == f"tftool: '{recording}' is an MCAP recording: name a scenario instead.\n"
 
 
 def test_a_scenario_is_played_up_to_the_moment():

@@ -61,7 +61,7 @@ def test_a_scenario_is_no_recording(tftool, simulated):
     result = tftool("play", "turtles")
 
     assert result.status == 2
-    assert "'turtles' is a scenario: a recording is needed here" in result.err
+    assert "'turtles' is a scenario: name a recording instead" in result.err
 
 
 def test_a_recording_without_a_message_is_over_at_once(tftool, simulated, tmp_path):

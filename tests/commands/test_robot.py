@@ -37,7 +37,7 @@ def test_what_it_cannot_do_is_said(tftool, simulated, robot, words, status, told
 @pytest.mark.parametrize(
     ("name", "status", "told"),
     [
-        ("turtles", 2, "'turtles' is a scenario: a robot description is needed here"),
+        ("turtles", 2, "'turtles' is a scenario: name a robot description"),
         ("none.urdf", 3, "no file or folder 'none.urdf'"),
     ],
 )

@@ -550,7 +550,7 @@ LOOKUP = "lookup: {target: a, source: b}"
         ),
         ("{at: [], trees: 1}", "the list of moments is empty"),
         ("{always: false, trees: 1}", "'always: false' tests nothing: leave the expectation out"),
-        ("{during: [1 s, 0 s], trees: 1}", "the first moment of 'during' is after the last one"),
+        ("{during: [1 s, 0 s], trees: 1}", "the first time of 'during' is after the last time"),
         ("{during: [1 s], trees: 1}", "first and last moment takes 2 values, not 1"),
         ("{at: 2 s, trees: 1}", "2 s is after the end of the scenario, which lasts 1 s"),
         ("{at: 1 s, trees: 1.5}", "expected a whole number from 0 to 100000, not 1.5"),

@@ -295,8 +295,9 @@ def shell_here() -> str:
     name = Path(os.environ.get("SHELL", "")).name
     if name not in SCRIPTS:
         raise UsageError(
-            f"the shell '{name or 'unknown'}' (SHELL) has no completion here; there is one for "
-            f"{', '.join(SCRIPTS)}: SHELL=bash tftool --show-completion prints it."
+            f"tftool has no completion script for the shell '{name or 'unknown'}' (variable "
+            f"SHELL), only for {', '.join(SCRIPTS)}: 'SHELL=bash tftool --show-completion' prints "
+            "bash's script."
         )
     return name
 

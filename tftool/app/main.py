@@ -249,7 +249,7 @@ def _require_descriptors() -> None:
         raise OSError(
             error.errno,
             f"tftool needs {DESCRIPTORS} files and sockets, and may open only {len(probes)} more; "
-            "ulimit -n 256 raises that",
+            "'ulimit -n 256' raises this limit",
             "too few file descriptors",
         ) from None
     finally:

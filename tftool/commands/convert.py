@@ -76,7 +76,8 @@ def run(options: ConvertOptions) -> ExitStatus:
     if options.target is not None and options.target not in view.TARGETS:
         known = ", ".join((*NAMED_FORMS, *view.POSE_FORMS))
         raise UsageError(
-            f"--into {visible(options.target)}: there is {known}, and orders of axes such as sxyz."
+            f"--into {visible(options.target)} is not a notation: choose one of {known}, or an "
+            "order of axes such as sxyz."
         )
     if options.target is not None and (options.for_programs or options.all_orders):
         raise UsageError("--into prints only one form: leave out --json and --all.")

@@ -65,7 +65,7 @@ def run(options: McpOptions) -> ExitStatus:
         from mcp.server.mcpserver.exceptions import ToolError
         from mcp.types import ToolAnnotations
     except ImportError as missing:
-        raise UsageError("'mcp' needs an extra: pip install 'tftool-tf2[mcp]'") from missing
+        raise UsageError("'mcp' needs a package: pip install 'tftool-tf2[mcp]'") from missing
 
     def answered(question: Callable[..., str]) -> Callable[..., str]:
         """Wrap a tool so that tftool's errors become the protocol's error responses."""
@@ -255,7 +255,7 @@ class Questions:
             raise InputError(f"'{source}' does not exist below the root.") from error
         if not self._stays_inside(path):
             raise InputError(
-                f"'{source}' is outside of the root, or a link to a file outside: only files "
+                f"'{source}' is outside the root, or a symbolic link to a file outside: only files "
                 "below the root are read."
             )
         word = f"./{path.relative_to(self._root)}"
@@ -263,7 +263,7 @@ class Questions:
             raise InputError(f"'{source}' is xacro, which may run code: expand it first.")
         if named(str(path)).kind is Kind.SCENARIO:
             raise InputError(
-                f"'{source}' is a scenario: recordings and descriptions are read here."
+                f"'{source}' is a scenario: only recordings and descriptions are read here."
             )
         return word
 

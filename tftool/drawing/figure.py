@@ -118,7 +118,7 @@ def plot(
     """
     found = _trajectories(frames, target, source)
     if not any(one.path.valid.any() for one in found):
-        raise UsageError("No pose can be drawn: all lookups were refused.")
+        raise UsageError("No pose can be drawn, because every lookup failed.")
     words = [what] if isinstance(what, str) else list(what)
     begin = min(int(one.path.stamps[0]) for one in found if len(one.path))
     begin = begin if start is None else start
@@ -133,9 +133,7 @@ def plot(
         return ax
     drawn = panels(found, begin, chosen(words or ["position"]))
     if len(drawn) > 1:
-        raise UsageError(
-            f"One axes can show one panel, not {len(drawn)}: choose one with only=[…]."
-        )
+        raise UsageError(f"One axes can show one panel, not {len(drawn)}: choose one with what=….")
     _draw_panel(ax, drawn[0], shades(found, begin), dark)
     ax.set_xlabel("time, s")
     return ax
@@ -203,7 +201,7 @@ def _needed(module: str) -> Any:
     try:
         return import_module(module)
     except ImportError as missing:
-        raise UsageError("A picture needs an extra: pip install 'tftool-tf2[plot]'") from missing
+        raise UsageError("A picture needs matplotlib: pip install 'tftool-tf2[plot]'") from missing
 
 
 def _figure(

@@ -33,7 +33,7 @@ def render(picture: Picture) -> bytes:
         paths = import_module("matplotlib.path")
     except ImportError as missing:
         raise UsageError(
-            "A picture as PNG needs an extra: pip install 'tftool-tf2[plot]', or write .svg."
+            "A PNG file needs matplotlib: pip install 'tftool-tf2[plot]', or write .svg."
         ) from missing
     scale = min(2.0, _MOST_POINTS / max(picture.width, picture.height))
     size = picture.width / 72.0, picture.height / 72.0

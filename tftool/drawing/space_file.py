@@ -114,7 +114,7 @@ def _png(sheet: DrawnSpace, placed: list[PlacedLabel], palette: theme.Palette) -
         collections = import_module("matplotlib.collections")
     except ImportError as missing:
         raise UsageError(
-            "A picture as PNG needs an extra: pip install 'tftool-tf2[plot]', or write .svg."
+            "A PNG file needs matplotlib: pip install 'tftool-tf2[plot]', or write .svg."
         ) from missing
     width, height = 2 * COLUMNS, 4 * ROWS
     ground = theme.hexadecimal(palette.panel)

@@ -230,7 +230,7 @@ def _frame_check(given: Mapping[str, Any], reading: Reading, place: TextPlace) -
     if not facts.exists and facts != FrameFacts(False):
         raise reading.refuse(
             place,
-            "with 'exists: false' no other property of the frame is allowed: leave the others out",
+            "with 'exists: false' no other property of the frame is allowed: leave out other keys",
         )
     return FrameCheck(given["name"], facts)
 

@@ -404,7 +404,7 @@ class _ScenarioReader:
         }[said[0]]
         if first > last:
             raise reading.refuse(
-                place, "the first moment of 'during' is after the last one: exchange the two"
+                place, "the first time of 'during' is after the last time: exchange the two times"
             )
         self.looks += (last - first) // every
         if self.looks > MOST_LOOKS:

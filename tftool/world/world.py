@@ -349,7 +349,7 @@ class World:
             if not limit.expired():
                 raise
             raise LinkError(
-                f"service '{name}': no server answered within {patience:g} s, or it has left"
+                f"service '{name}': no server answered within {patience:g} s, or all have left"
             ) from None
         return kind.Response() if answer is None and kind is not None else answer
 

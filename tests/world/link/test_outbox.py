@@ -155,5 +155,5 @@ def test_who_cannot_be_sent_to_keeps_nothing_from_the_others(out):
 def test_after_the_end_nothing_is_sent(out):
     out.close()
 
-    with pytest.raises(LinkError, match="the link is closed"):
+    with pytest.raises(LinkError, match="connection to the session is closed"):
         out.put(lambda: None)

@@ -251,7 +251,7 @@ def _refuse_outputs(
                 raise UsageError(f"cannot write '{path}': end it in {', '.join(wanted)}.")
             refuse_existing(path, force=force)
     if output is not None and output.suffix == ".urdf" and urdf is None:
-        raise UsageError("-o robot.urdf changes a description: name it with --urdf FILE.")
+        raise UsageError("-o robot.urdf needs the description to change: add --urdf FILE.")
 
 
 def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
@@ -334,9 +334,9 @@ def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
 
 def _refuse_chain(word: str, parent: str, child: str) -> NoReturn:
     raise UsageError(
-        f"--moving {word} passes through {parent} → {child}: the result would be the published "
-        "mount itself. Give two motions that were measured independently, such as a topic of "
-        "Odometry (--moving /vo/odometry)."
+        f"--moving {word} passes through {parent} → {child}: the result would be this "
+        "published transform itself. Give two motions that were measured independently, such as a "
+        "topic of Odometry (--moving /vo/odometry)."
     )
 
 

@@ -58,7 +58,7 @@ class PublishedMount:
         except TransformException:
             if mounted is not None:
                 known = buffer.frame_exists(mounted)
-                reason = f"is not joined with '{parent}'" if known else "is no frame"
+                reason = f"is not connected with '{parent}'" if known else "is not a frame"
                 label = frames.label if robot is None else robot.name
                 raise LookupException(
                     f"--mounted {mounted}: '{mounted}' {reason} in {visible(label)}.",
@@ -75,8 +75,8 @@ class PublishedMount:
         """
         if self.mount is None:
             raise UsageError(
-                f"No mount of '{self.name}' on '{self.parent}' is published: give a "
-                "description with --urdf FILE, or the frame with --mounted NAME."
+                f"No pose of '{self.name}' in '{self.parent}' is published: give a description "
+                "with --urdf FILE, or the sensor's frame with --mounted NAME."
             )
 
 
@@ -119,8 +119,8 @@ def write_mount(
     if is_xacro(text.decode("utf-8", "replace")):
         line = _line_of(text, chosen.name)
         raise UsageError(
-            f"'{urdf}' is made by xacro: change the origin of joint '{chosen.name}' "
-            f"({urdf}{line}) to {origin}"
+            f"'{urdf}' is expanded by xacro, so tftool cannot change it: set the origin of joint "
+            f"'{chosen.name}' ({urdf}{line}) to {origin}"
         )
     write_file(output, with_origin(text, chosen.name, origin))
     return [f"Wrote {output}: joint '{chosen.name}' has {origin}"]
@@ -159,8 +159,8 @@ def _joint(published: PublishedMount, name: str | None) -> RobotJoint | None:
         if found is None or (way and found not in way):
             on_it = ", ".join(one.name for one in way) or "none"
             raise UsageError(
-                f"No joint '{name}' between '{published.parent}' and '{published.name}': there is "
-                f"{on_it}."
+                f"Joint '{name}' is not between '{published.parent}' and '{published.name}': "
+                f"choose one of {on_it}."
             )
         return found
     if link != published.parent:

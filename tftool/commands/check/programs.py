@@ -80,7 +80,7 @@ def _words(option: str, text: str) -> tuple[str, ...]:
     except ValueError as error:
         raise UsageError(f"{option} {text!r}: {str(error).lower()}") from None
     if not words:
-        raise UsageError(f"{option} needs the words that follow 'tftool {option[2:]}'")
+        raise UsageError(f"{option} is empty: give the words that follow 'tftool {option[2:]}'")
     return words
 
 

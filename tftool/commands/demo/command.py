@@ -63,8 +63,8 @@ def _show(
         return _show_hosted(connection, options, chosen, found)
     if options.recording is not None:
         raise UsageError(
-            "'tftool record' records the running session: --record is for a demo that "
-            "hosts (--host)."
+            "--record is only allowed for a demo that hosts its own session (--host): use 'tftool "
+            "record' for the running session."
         )
     world, live = found.session.world, found.session.live
 
@@ -206,9 +206,8 @@ def _play(
     """Play a scenario on simulated time, and print the outcome."""
     if connection.needs_link:
         raise UsageError(
-            "Without a terminal the demo plays on simulated time, which cannot be "
-            "shared. 'tftool monitor' and 'tftool view' share a session without a "
-            "terminal."
+            "Without a terminal, the demo plays on simulated time, which cannot be shared with "
+            "other processes: use 'tftool monitor' or 'tftool view', which need no terminal."
         )
     refuse_long_simulation(options.lasting)
     if not options.for_programs and sys.stdout.isatty():

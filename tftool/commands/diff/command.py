@@ -184,5 +184,5 @@ def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
     """
     pairs, _ = pairs_and_place([], words)
     if len(pairs) > 2:
-        raise UsageError("--pair is given once for both files, or twice: for A, then for B.")
+        raise UsageError("Too many --pair: give one for both sources, or one for A and one for B.")
     return (pairs[0], pairs[-1]) if pairs else (None, None)

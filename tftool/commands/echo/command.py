@@ -97,7 +97,7 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
     if options.stamps_of is not None and not (
         is_file and options.at is None and options.offset is None
     ):
-        raise UsageError("--at-stamps-of needs a recording as FROM, and no --at or --offset.")
+        raise UsageError("--at-stamps-of needs a recording as FROM: leave out --at and --offset.")
     printer = Printer(options.precision, options.distance, options.for_programs)
     pair = FramePair(*frames, offset=options.offset or 0, fixed_frame=options.fixed_frame)
     is_one_moment = options.stamps_of is None and (

@@ -52,7 +52,7 @@ def _moments(
     """Return the values of --from and --to as stamps; None for an option that was not given."""
     if start is None and end is None:
         if by_record_time:
-            raise UsageError("--record-time is only allowed with --from or --to: add one.")
+            raise UsageError("--record-time is only allowed with --from or --to: add one of them.")
         return None, None
     epoch = 0
     if any(one is not None and not one.is_stamp for one in (start, end)):
@@ -64,7 +64,7 @@ def _moments(
     low = start.stamp(epoch) if start is not None else None
     high = end.stamp(epoch) if end is not None else None
     if low is not None and high is not None and high < low:
-        raise UsageError("--to is before --from: exchange the two.")
+        raise UsageError("--to is before --from: exchange the two times.")
     return low, high
 
 
@@ -194,7 +194,7 @@ def run(options: EditOptions) -> ExitStatus:
     if options.everywhere and not (edits.names or edits.stamps):
         raise UsageError(
             "--everywhere is only allowed with --rename, --prefix, --strip-slash or --shift: add "
-            "one."
+            "one of them."
         )
     bar = Bar(f"Editing {visible(options.names[0])}")
     try:

@@ -51,7 +51,10 @@ def run(connection: Connection, options: FollowOptions) -> ExitStatus:
     )
     world = session.world
     if session.is_hosted and simulator_of(world) is None:
-        raise UsageError(f"{session.name} has no turtle simulator to spawn {options.follower!r}.")
+        raise UsageError(
+            f"{session.name} has no turtle simulator, so {options.follower!r} cannot be spawned: "
+            "choose another scenario, such as turtles."
+        )
     if options.delay and options.delay >= world.buffer.cache_time:
         notice(
             f"The buffer remembers {as_seconds(world.buffer.cache_time):g} s, so where "

@@ -21,7 +21,7 @@ from tftool.ros.launch.engine import Launch
 def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
     """Run `tftool launch`: start the nodes of a launch file, or print its arguments."""
     if options.simulated and options.run_for is None and not options.show_args:
-        raise UsageError("on simulated time a launch needs --for SECONDS")
+        raise UsageError("--simulated needs a duration: add --for SECONDS")
     if options.simulated:
         refuse_long_simulation(options.run_for)
     workspace = workspace_here(verbose=options.verbose)

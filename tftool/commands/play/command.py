@@ -196,8 +196,8 @@ def _refuse_to_mix(link: Link) -> None:
     if nodes:
         some = ", ".join(f"'{visible(node)}'" for node in nodes[:3])
         raise UsageError(
-            f"/tf has publishers here, {some}: the playback would mix with it, and a robot "
-            "would act on both. Choose another --domain, or add --force."
+            f"/tf has publishers here ({some}): their transforms would mix with the playback's, "
+            "and a robot would act on both. Choose another --domain, or add --force."
         )
 
 
@@ -306,7 +306,7 @@ def run(connection: Connection, options: PlayOptions) -> ExitStatus:
     found = named(options.file)
     if not found.kind.is_recording:
         word = visible(options.file)
-        raise UsageError(f"'{word}' is a {found.kind.value}: a recording is needed here.")
+        raise UsageError(f"'{word}' is a {found.kind.value}: name a recording instead.")
     # `shares`: the options of sharing apply to the session that plays the recording.
     recording = open_from(connection, options.file, shares=True).recording
     assert isinstance(recording, Recording)

@@ -242,7 +242,7 @@ def _check_finding(name: str) -> None:
             f"did you mean {' or '.join(near)}?" if near else "'tftool doctor --list' names them."
         )
         raise UsageError(
-            f"--on must be a finding of the doctor, which has none named '{name}'; {hint}"
+            f"--on needs the id of a check of the doctor, and '{name}' is not an id; {hint}"
         )
 
 

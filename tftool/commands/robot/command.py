@@ -137,8 +137,7 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
     found = named(options.place)
     if found.kind is not Kind.DESCRIPTION:
         raise UsageError(
-            f"'{visible(options.place)}' is {kind_in_words(found)}: a robot description is needed "
-            "here."
+            f"'{visible(options.place)}' is {kind_in_words(found)}: name a robot description."
         )
     if options.follow and connection.robot.joints:
         raise UsageError(

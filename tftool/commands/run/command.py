@@ -135,7 +135,10 @@ def _run_command(connection: Connection, words: list[str]) -> int:
             command.
     """
     if connection.reach.is_asked:
-        raise UsageError(f"give the options of the session to 'tftool {shlex.join(words)}' itself")
+        raise UsageError(
+            "options of the session are not passed on here: give them to 'tftool "
+            f"{shlex.join(words)}'"
+        )
     if connection.domain:
         words += ["--domain", str(connection.domain)]
     notice(f"Without ROS this is 'tftool {visible(shlex.join(words))}'.")
@@ -151,7 +154,7 @@ def _context(connection: Connection) -> Context:
 def run(connection: Connection, options: RunOptions) -> int:
     """Run `tftool run`: run a user's node, and return its exit status."""
     if options.simulated and options.run_for is None:
-        raise UsageError("on simulated time a run needs --for SECONDS")
+        raise UsageError("--simulated needs a duration: add --for SECONDS")
     if options.simulated:
         refuse_long_simulation(options.run_for)
     words = list(options.rest or [])

@@ -115,7 +115,7 @@ def run(connection: Connection, options: SessionOptions) -> ExitStatus:
         )
     link = connection.open_link()
     if link is None:
-        raise LinkError("no other process can be reached from here")
+        raise LinkError("this command was started without a connection to other processes")
     if link.unanswering:
         notice(link.unanswering)
     elif link.graph.is_empty:

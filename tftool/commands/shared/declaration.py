@@ -284,8 +284,8 @@ def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> s
             continue
         if not command.kind.looks_only:
             raise UsageError(
-                f"'{visible(found[0])}' is a robot's server, which is read-only, and 'tftool "
-                f"{name}' publishes or reads files: {_looking_commands()} work with it."
+                f"'{visible(found[0])}' is a robot's address, which is read-only: 'tftool {name}' "
+                f"cannot use it, only {_looking_commands()} can."
             )
         is_required = getattr(getattr(command, parameter, None), "default", None) is ...
         if len(found) > 1 or is_required or not hasattr(command, parameter):

@@ -64,7 +64,7 @@ def evidence_from(
     if kind is Kind.STATICS:
         shown = visible(word or "")
         raise UsageError(
-            f"'{shown}' has only static frames: "
+            f"'{shown}' has only static frames, which the doctor does not examine: "
             f"'tftool tree {shown}' shows its frames, 'tftool diff' compares them."
         )
     if is_recording:

@@ -134,7 +134,7 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
     if lasting is not None and lasting > LONGEST_SIMULATED:
         raise UsageError(
             f"--for {as_seconds(lasting):g} is too long for simulated time, which is limited "
-            f"to a day: --for {as_seconds(LONGEST_SIMULATED):.0f}"
+            f"to a day: give --for {as_seconds(LONGEST_SIMULATED):.0f} or less"
         )
 
 

@@ -256,7 +256,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
     """Run `tftool view`: serve the page, or write it to a file."""
     if options.output is not None:
         if options.cache_time is not None:
-            raise UsageError("A file contains all transforms: leave out --cache-time.")
+            raise UsageError("With -o, the file contains all transforms: leave out --cache-time.")
         return _write(connection, options, options.output)
     if options.force:
         raise UsageError("--force is only allowed with -o FILE: add it.")

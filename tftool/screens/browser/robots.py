@@ -149,7 +149,7 @@ class ShownRobot:
             address = self.folders.address(geometry.filename)
             if not geometry.filename.lower().endswith(SHAPES):
                 raise MeshRefused(
-                    f"'{geometry.filename}' is no supported mesh ({', '.join(SHAPES)})"
+                    f"'{geometry.filename}' is not a supported mesh ({', '.join(SHAPES)})"
                 )
         except MeshRefused as refusal:
             missing.append(str(refusal))

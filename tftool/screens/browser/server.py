@@ -222,7 +222,7 @@ class PageServer:
             return self
         raise TftoolError(
             f"no port from {self.asked_port} to {self.asked_port + PORTS_TRIED - 1} is free: "
-            "choose another one with --port"
+            "choose another port with --port"
         )
 
     async def __aexit__(

@@ -144,9 +144,9 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
         MalformedMessage: If the type cannot be converted.
     """
     if not is_plain(topic.name.strip("/")):
-        raise InputError("its name is not valid in ROS 2")
+        raise InputError("the topic's name is not valid in ROS 2")
     if topic.encoding not in ("cdr", "ros1"):
-        raise InputError(f"it is written as '{topic.encoding}'")
+        raise InputError(f"its messages are encoded as '{topic.encoding}', which ROS 2 cannot read")
     full = full_name(topic.type)
     if topic.encoding == "ros1":
         if not INTERFACES.has(full):

@@ -50,7 +50,7 @@ class LinkContext:
     def world(self) -> World:
         """World that is attached to the session connection."""
         if self._world is None:
-            raise LinkError("no world is attached to this link yet")
+            raise LinkError("no world is attached to this connection: call 'attach' first")
         return self._world
 
     def now(self) -> Stamp:

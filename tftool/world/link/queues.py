@@ -165,7 +165,7 @@ class Outbox:
             LinkError: If the outbox is closed.
         """
         if self._closed:
-            raise LinkError("a message could not be sent: the link is closed")
+            raise LinkError("a message could not be sent: the connection to the session is closed")
         if self._thread is None:
             self._thread = threading.Thread(target=self._run, name="outbox", daemon=True)
             self._thread.start()

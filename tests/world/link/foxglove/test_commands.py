@@ -87,7 +87,7 @@ def test_python_opens_an_address(moving):
         (["tree", "ws://r:1", "--connect", "tcp/r:1"], "already names the robot"),
         (["tree", "ws://r:1", "--domain", "0"], "already names the robot"),
         (["tree", "ws://r:1", "--host"], "already names the robot"),
-        (["play", "ws://r:1"], "'tftool play' publishes or reads files"),
+        (["play", "ws://r:1"], "'tftool play' cannot use it"),
         (["static", "0", "0", "0", "0", "0", "0", "a", "b", "ws://r:1"], "is read-only"),
         (["demo", "ws://r:1"], "is read-only"),
         (["robot", "wss://r:1"], "is read-only"),

@@ -32,7 +32,7 @@ def draw(message: Any, arrival: Arrival) -> DrawnMessage:
     ends = [start + int(kind[-1]) for start, kind in zip(offsets, formats, strict=True)]
     row = message.row_step if height > 1 else step * width
     if step < max(ends) or row < step * width or row * (height - 1) + step * width > len(data):
-        raise InputError("the cloud has fewer bytes than its size says")
+        raise InputError("the point cloud has fewer bytes than its width and height require")
     kind = np.dtype(
         {"names": ["x", "y", "z"], "formats": formats, "offsets": offsets, "itemsize": step}
     )

@@ -158,7 +158,7 @@ class CycloneClient:
                 await self._send(number, payload)
                 return await answer
         except TimeoutError:
-            raise LinkError(f"no server answered within {timeout:g} s, or it has left") from None
+            raise LinkError(f"no server answered in {timeout:g} s, or all have left") from None
         finally:
             # Also after a timeout or a cancellation, so that a late reply is ignored.
             del self._waiting[number]

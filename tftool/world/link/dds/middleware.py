@@ -199,7 +199,7 @@ class DdsMiddleware(Middleware):
         """Create a publisher of a topic for a node of this process."""
         kind = self._kind(ros_type)
         if self._options.read_only:
-            raise LinkError("a read-only process publishes nothing")
+            raise LinkError(f"'{name}' cannot be published: this process joined with --read-only")
         # ROS 2 compares the hash in the writer's user data, and warns if it differs.
         beside = f"typehash={type_hash(INTERFACES, ros_type)};".encode()
         writer = self._participant.writer(names.TOPIC + name, kind, quality, beside)

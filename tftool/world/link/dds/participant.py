@@ -167,7 +167,8 @@ class Domains:
             made, known, count = self._held.get(number, (None, config, 0))
             if known != config:
                 raise LinkError(
-                    f"this process already uses another network for DDS domain {number}"
+                    f"this process already uses DDS domain {number} on another network: choose "
+                    "another domain, or the same --dds-on"
                 )
             if made is None:
                 # A user's own configuration decides where the library's errors go.
@@ -343,7 +344,7 @@ class Participant:
             try:
                 self._topics[key] = Topic(self.entity, name, kind)
             except DDSException as error:
-                raise LinkError(f"DDS does not take the topic '{name}' ({error})") from error
+                raise LinkError(f"DDS cannot create the topic '{name}' ({error})") from error
         return self._topics[key]
 
     def _take(self, reader: Any, on_sample: Callable[[DdsSample], object]) -> None:

@@ -219,7 +219,7 @@ def parse_attachment(raw: bytes) -> Attachment:
             return Attachment(sequence, stamp, gid)
     elif raw.startswith(_NAMED[0]):
         return _named_attachment(raw)
-    raise MalformedMessage("attachment", f"{len(raw)} bytes are not number, stamp and sender")
+    raise MalformedMessage("attachment", f"{len(raw)} bytes lack a number, stamp or sender")
 
 
 def _named_attachment(raw: bytes) -> Attachment:
@@ -228,7 +228,7 @@ def _named_attachment(raw: bytes) -> Attachment:
     for name in _NAMED[:2]:
         value = position + len(name)
         if raw[position:value] != name or len(raw) < value + 8:
-            raise MalformedMessage("attachment", f"it lacks its {name[1:].decode()}")
+            raise MalformedMessage("attachment", f"its field {name[1:].decode()} is missing")
         numbers.append(_NUMBERS.unpack_from(raw, value)[0])
         position = value + 8
     # The sender's bytes are preceded by their number.
@@ -236,7 +236,7 @@ def _named_attachment(raw: bytes) -> Attachment:
     name = _NAMED[2] + b"\x10"
     gid = rest[len(name) :]
     if not rest.startswith(name) or len(gid) != 16:
-        raise MalformedMessage("attachment", "it lacks its source_gid")
+        raise MalformedMessage("attachment", "its field source_gid is missing")
     return Attachment(numbers[0], numbers[1], gid)
 
 

@@ -145,8 +145,8 @@ class Rendezvous:
         if HAS_UNIX_SOCKETS and not _holds_sockets(self.folder):
             raise LinkError(
                 f"no session can use {self.folder}: the path of a socket there would be longer "
-                f"than {_LONGEST_SOCKET_PATH} bytes or hold one of '?#;='; name another folder in "
-                f"{FOLDER_VARIABLE}"
+                f"than {_LONGEST_SOCKET_PATH} bytes or contain one of '?#;='; name another folder "
+                f"in {FOLDER_VARIABLE}"
             )
         # The parent, too, because a user who may write there could replace the folder.
         _make_private(self.folder.parent)

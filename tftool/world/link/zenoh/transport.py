@@ -238,7 +238,7 @@ class Wire:
             LinkError: If no server responds, or the server refuses.
         """
         answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
-        silent = f"no server answered within {timeout:g} s, or it has left"
+        silent = f"no server answered within {timeout:g} s, or all have left"
 
         def settle(outcome: bytes | str) -> None:
             if answer.done():
