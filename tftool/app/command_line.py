@@ -259,7 +259,7 @@ def _help_session() -> Any:
 
 
 class HelpOptions(Command, shares=False):
-    """Show the list of commands, or the help of one (man).
+    """Show the list of commands, or the help of one command (man).
 
     tftool help
     tftool help echo

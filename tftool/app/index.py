@@ -27,39 +27,39 @@ GROUPS = {
     },
     "Ask": {
         "echo": "Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).",
-        "tree": "Show which frame hangs from which (rqt_tf_tree, view_frames).",
-        "doctor": "Say what is wrong with the frames, and what mends it.",
-        "explain": "Say why a lookup refuses: which link, by how much.",
+        "tree": "Show the tree of frames (rqt_tf_tree, view_frames).",
+        "doctor": "Say what is wrong with the frames, and how to fix it.",
+        "explain": "Say why a lookup fails: which link, by how much.",
         "monitor": "Show how often and how late transforms arrive (tf2_monitor).",
         "convert": "Write one rotation, or pose, in every notation.",
-        "ros2": "Ask a session in the words of ROS 2's command line, without ROS.",
+        "ros2": "Run commands of ROS 2's command line on a session, without ROS.",
     },
     "Look": {
         "view": "Show the frames in 3-D, in a browser (rviz2 with its TF display).",
         "plot": "Plot where SOURCE is in TARGET over time.",
-        "robot": "Bring a robot description alive (robot_state_publisher).",
+        "robot": "Publish a robot, and move its joints (robot_state_publisher).",
     },
     "Work with files": {
-        "info": "Show what a recording or robot description holds.",
+        "info": "Show what a recording or robot description contains.",
         "play": "Play a recording as a live session (ros2 bag play).",
         "record": "Record a session (ros2 bag record).",
         "edit": "Change the frames of a recording; repair, join, cut, convert.",
-        "export": "Write a pair over time, or links, to files of other tools.",
+        "export": "Write trajectories or transforms to files of other tools.",
         "diff": "Say what differs between two sets of frames, link by link.",
-        "calibrate": "Find a sensor's mount and clock offset from motion.",
-        "mcp": "Answer questions of an agent about recordings (MCP).",
+        "calibrate": "Find a sensor's mounting pose and clock offset from motion.",
+        "mcp": "Answer an AI agent's questions about recordings (MCP).",
     },
     "Run your own nodes": {
         "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
-        "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
-        "new": "Make a package of nodes to begin with (ros2 pkg create).",
-        "session": "Show who shares the session that runs here.",
+        "launch": "Run a ROS 2 launch file without ROS (ros2 launch).",
+        "new": "Create a package with example nodes (ros2 pkg create).",
+        "session": "Show the running session's processes, nodes and topics.",
     },
     "Check": {
-        "check": "Play scenarios on simulated time and judge what they expect.",
+        "check": "Play scenarios on simulated time and check their expectations.",
     },
     "Help": {
-        "help": "Show the list of commands, or the help of one (man).",
+        "help": "Show the list of commands, or the help of one command (man).",
     },
 }
 """Commands by purpose, the most used first, each with its line in the help."""
@@ -80,9 +80,9 @@ def load(name: str) -> "type[Command]":
 
 
 OPTIONS = {
-    ("--version", "-V"): "Say which version this is, and stop.",
+    ("--version", "-V"): "Print the version, and stop.",
     ("--install-completion",): "Let Tab complete in the shell (bash, zsh, fish).",
-    ("--show-completion",): "Print the shell's script for that.",
+    ("--show-completion",): "Print the completion script of the shell.",
     ("--help", "-h"): "Show this message and exit.",
 }
 """Options of `tftool` itself, each with its line in the help."""

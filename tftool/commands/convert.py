@@ -22,9 +22,9 @@ class ConvertOptions(
 ):
     """Write one rotation, or pose, in every notation.
 
-    Quaternions, roll pitch yaw, Euler angles in any order, axis and angle, rotation vector,
-    matrix; pasted as ROS's YAML, a matrix of numpy, tf2_echo's block, a URDF origin or a line
-    of static_transform_publisher. Four bare numbers need --as xyzw or --as wxyz.
+    The input is a quaternion, roll pitch yaw, Euler angles in any order, axis and angle, a rotation
+    vector or a matrix. ROS's YAML, a matrix of numpy, tf2_echo's block, a URDF origin or a line of
+    static_transform_publisher can be pasted. Four bare numbers need --as xyzw or --as wxyz.
 
     tftool convert --as xyzw 0 0 0.7 0.7
     tftool convert rpy 0 0 90 --degrees --then 'rpy 0 pi/2 0' --into xyzw

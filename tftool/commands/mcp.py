@@ -20,12 +20,12 @@ from tftool.recordings.find import Kind
 
 
 class McpOptions(Command, shares=False):
-    """Answer questions of an agent about recordings (MCP).
+    """Answer an AI agent's questions about recordings (MCP).
 
-    Communicates over stdin and stdout. Tools: info, tree, echo, explain, doctor, plot, each for a
-    file below ROOT. Nothing is written, no session is joined, no scenario is played, no xacro is
-    expanded, and no link out of ROOT is followed. Answers are the JSON of the command, cut to 4,000
-    characters.
+    The server communicates over stdin and stdout. Tools: info, tree, echo, explain, doctor, plot,
+    each for a file below ROOT. Nothing is written, no session is joined, no scenario is played, no
+    xacro is expanded, and no symbolic link out of ROOT is followed. An answer is the JSON output of
+    the command, cut to 4,000 characters.
 
     tftool mcp ~/bags
     """
@@ -136,7 +136,7 @@ class Questions:
         return self._asked("echo", source, *when, frames=(target_frame, source_frame))
 
     def explain(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
-        """Return why a lookup succeeds or fails, link by link, and what would help.
+        """Return why a lookup succeeds or fails, frame by frame, and what would make it succeed.
 
         Args:
             target_frame: The frame in which the answer would be given.

@@ -32,11 +32,11 @@ EXAMPLES = {
 
 
 class NewOptions(Command, shares=False):
-    """Make a package of nodes to begin with (ros2 pkg create).
+    """Create a package with example nodes (ros2 pkg create).
 
-    It contains a finished step of the tutorial: ROS 2 nodes, a launch file, a test and a scenario
-    that tests them. The same files run here and under ROS 2; without it, 'pytest --ros-free' runs
-    the test.
+    The package contains a finished step of the tutorial: ROS 2 nodes, a launch file, a test and a
+    scenario that tests the nodes. The same files run with tftool and under ROS 2. Without ROS 2,
+    'pytest --ros-free' runs the test.
 
     tftool new my_frames
     tftool new my_frames --example carrot --exercise

@@ -10,13 +10,14 @@ MOUNT = "Mount"
 
 
 class CalibrateOptions(Command, shares=False, poses=True):
-    """Find a sensor's mount and clock offset from motion.
+    """Find a sensor's mounting pose and clock offset from motion.
 
-    Two motions of one rigid body are recorded, in separate frames and on separate clocks: odometry
-    and a camera's SLAM, an arm and a tag on it. Their comparison gives the mount of one moving
-    frame on the other, the pose of one fixed frame in the other, and the clock offset, each with a
-    95 % interval; or a refusal, with the motion to record next. The exit status is 0 if the mount
-    is solved or partly solved, and 1 if it is refused.
+    The input is two recorded motions of one rigid body, in separate frames and on separate clocks,
+    such as odometry and a camera's SLAM, or an arm and a tag on it. The result is the pose of one
+    moving frame in the other (the mount), the pose of one fixed frame in the other, and the clock
+    offset, each with a 95 % interval. If the motions do not determine the mount, a sentence says
+    which motion to record next. The exit status is 0 if the mount is solved or partly solved, else
+    1.
 
     tftool calibrate run.mcap --moving odom:base_link --moving world:camera
     tftool calibrate arm.bag --moving base:tool0 --moving camera:tag

@@ -7,13 +7,13 @@ from tftool.commands.shared.options import Json, Junit, argument, flag, option
 
 
 class CheckOptions(Command, shares=False):
-    """Play scenarios on simulated time and judge what they expect.
+    """Play scenarios on simulated time and check their expectations.
 
-    One line is printed for each, below it the failed expectations, and after "why:" the doctor's
-    findings in the played frames. The exit status is 0 if everything held, 1 if something did not,
-    3 if a file could not be read. With --run and --launch, nodes written for ROS 2 are tested in
-    the scenario, without ROS. With --as-ros, packages are tested instead: entry points, launch
-    files, dependencies.
+    A line is printed for each scenario, and below it the failed expectations. After "why:" follow
+    the doctor's findings in the played frames. The exit status is 0 if all expectations are met, 1
+    if not, 3 if a file cannot be read. With --run and --launch, nodes written for ROS 2 are tested
+    in the scenario, without ROS. With --as-ros, packages are checked instead of scenarios: entry
+    points, launch files, dependencies.
 
     tftool check turtles
     tftool check scenarios/*.yaml --junit report.xml
@@ -27,14 +27,14 @@ class CheckOptions(Command, shares=False):
         metavar="SCENARIO...",
     )
     programs: list[str] | None = option(
-        "Run a program of yours in place of NODE, or beside all nodes of the scenario. WORDS are "
-        "those after 'tftool run'.",
+        "Run your program in place of NODE, or in addition to all nodes of the scenario. WORDS are "
+        "the words that follow 'tftool run'.",
         "--run",
         metavar="[NODE=]WORDS",
     )
     launched: str | None = option(
-        "Run a launch file in place of all nodes of the scenario. WORDS are those after 'tftool "
-        "launch'.",
+        "Run a launch file in place of all nodes of the scenario. WORDS are the words that follow "
+        "'tftool launch'.",
         "--launch",
         metavar="WORDS",
     )
@@ -53,10 +53,10 @@ class CheckOptions(Command, shares=False):
         metavar="FOLDER",
     )
     strict: bool = flag(
-        "Let a scenario fail that has a warning, such as the one about two parents."
+        "Count a scenario with a warning, such as a frame with two parents, as failed."
     )
     verbose: bool = flag(
-        "Also show the expectations that held, all logs of the nodes, and the folders that are "
+        "Also show the expectations that are met, all logs of the nodes, and the folders that are "
         "skipped.",
         "--verbose",
         "-v",

@@ -19,11 +19,12 @@ from tftool.commands.shared.options import (
 class DemoOptions(Command, hosts_turtles=True, recordings=True):
     """Show turtle2 following turtle1 (ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py).
 
-    On a terminal: a picture of the frames, their tree, and a pair of them over time; the arrow keys
-    drive turtle1, [ and ] go back in time, F changes the fixed frame, o shows another scenario, q
-    quits. After 5 s without a key, turtle1 drives by itself until a key is pressed or another
-    terminal joins. Without a terminal: plays the scenario on simulated time with its own script,
-    prints the outcome, and exits with 1 if an expectation failed.
+    On a terminal, the screen shows a picture of the frames, their tree, and a pair of frames over
+    time. The arrow keys drive turtle1, [ and ] move through time, F changes the fixed frame, o
+    shows another scenario, q quits. After 5 s without a key, turtle1 drives by itself until a key
+    is pressed or another terminal joins. Without a terminal, the command plays the scenario on
+    simulated time with its own script, prints the outcome, and exits with 1 if an expectation
+    failed.
 
     tftool demo
     tftool demo carrot --source-frame carrot1
@@ -32,7 +33,7 @@ class DemoOptions(Command, hosts_turtles=True, recordings=True):
 
     scenario: str | None = argument(
         "Scenario to play (built-in name or file), or a recording to show. If not given: the "
-        "session that runs here, else turtles.",
+        "running session, else the scenario turtles.",
         metavar="[FROM]",
     )
     source_frame: str | None = option(

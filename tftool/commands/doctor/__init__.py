@@ -22,7 +22,7 @@ from tftool.frames.source_options import At
 
 
 class FailOn(StrEnum):
-    """Least severity of a finding with which the exit status is 1."""
+    """Lowest severity of a finding at which the exit status is 1."""
 
     error = "error"
     warning = "warning"
@@ -31,11 +31,11 @@ class FailOn(StrEnum):
 
 
 class DoctorOptions(Command, looks_only=True, urdf=True):
-    """Say what is wrong with the frames, and what mends it: cause, evidence, consequence, fix.
+    """Say what is wrong with the frames, and how to fix it: cause, evidence, consequence, fix.
 
-    A recording is read completely, a scenario is played on simulated time, a running session is
-    heard for 5 s, or --for. The exit status is 0 without findings from a warning on (--fail-on),
-    else 1, and 3 if a source cannot be read.
+    A recording is read completely, a scenario is played on simulated time, and a running session is
+    listened to for 5 s, or for the time of --for. The exit status is 1 if a finding is a warning or
+    an error (see --fail-on), 3 if a source cannot be read, else 0.
 
     tftool doctor run.mcap
     tftool doctor bags/*.mcap --junit report.xml
@@ -47,13 +47,15 @@ class DoctorOptions(Command, looks_only=True, urdf=True):
 
     places: list[str] | None = argument(
         "Frames to check: recordings (file, folder, glob) and scenarios; if not given, the "
-        "session that runs, else the turtles.",
+        "running session, else the scenario turtles.",
         metavar="[FROM]...",
     )
-    select: list[str] | None = option("Run only these checks or areas.", metavar="ID,...")
-    ignore: list[str] | None = option("Leave these checks or areas out.", metavar="ID,...")
+    select: list[str] | None = option(
+        "Run only these checks, or areas (groups of checks).", metavar="ID,..."
+    )
+    ignore: list[str] | None = option("Do not run these checks or areas.", metavar="ID,...")
     fail_on: FailOn = option(
-        "Least severity of a finding with which the exit status is 1.", default=FailOn.warning
+        "Lowest severity of a finding at which the exit status is 1.", default=FailOn.warning
     )
     baseline: Path | None = option(
         "Fail only for findings that this earlier report, made with --json, does not contain.",
@@ -66,7 +68,7 @@ class DoctorOptions(Command, looks_only=True, urdf=True):
     )
     cache_time: CacheTime = None
     fixed_frame: str = option(
-        "Frame in which messages of sensors must be placeable; if not given, odom, else map.",
+        "Frame into which sensor messages must be transformable; if not given, odom, else map.",
         default="",
         metavar="FRAME",
     )
@@ -74,27 +76,28 @@ class DoctorOptions(Command, looks_only=True, urdf=True):
         "Check only the transforms of this topic, such as /robot1/tf.", metavar="TOPIC"
     )
     begin: At | None = option(
-        "Leave out what a recording holds before this moment.",
+        "Ignore the messages of a recording before this time.",
         "--from",
         metavar="MOMENT",
         parser=moment,
     )
     end: At | None = option(
-        "Leave out what a recording holds after this moment.",
+        "Ignore the messages of a recording after this time.",
         "--to",
         metavar="MOMENT",
         parser=moment,
     )
     lasting: RunFor = None
     mounts: bool = flag(
-        "Also compare published sensor mounts with the recorded motion, which takes seconds longer."
+        "Also compare the published poses of sensors on the robot with the recorded motion, which "
+        "takes some seconds."
     )
-    statistics: bool = flag("Also print the rate, latency and gaps of every link.")
+    statistics: bool = flag("Also print the rate, latency and gaps of every frame.")
     steps: bool = flag(
         "Print a table of the jumps of a localiser or of odometry: when, how far, and the drift."
     )
     pair: str = option(
-        "With --steps: check the links between these two frames; if not given, map to odom.",
+        "With --steps: check the transforms between these two frames; if not given, map to odom.",
         default="",
         metavar="TARGET:SOURCE",
     )

@@ -25,10 +25,10 @@ from tftool.commands.shared.options import (
 class EchoOptions(Command, looks_only=True, recordings=True, descriptions=True, urdf=True):
     """Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).
 
-    Waits for the transform and prints the reason of the wait. Then, once a second: translation,
-    quaternion (x y z w), roll pitch yaw in radians and degrees, matrix; a terminal shows only the
-    newest, with x red, y green and z blue, and with its age. A recording is printed over its whole
-    span, or at one moment with --at or --once.
+    The command waits for the transform, and prints why it waits. Then it prints, once a second:
+    translation, quaternion (x y z w), roll pitch yaw in radians and degrees, matrix. A terminal
+    shows only the newest transform and its age, with x in red, y in green and z in blue. The
+    transforms of a recording are printed over its whole span, or at one moment with --at or --once.
 
     tftool echo turtle2 turtle1            turtle1 as turtle2 sees it
     tftool echo map laser_link robot --at 12.5
@@ -39,8 +39,8 @@ class EchoOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     source: Source
     place: str | None = argument(
         "Source of the frames: a scenario (name or file), a recording (file, folder, glob) or a "
-        "robot description; if not given, the session that runs, else the turtles. A number is "
-        "taken as --rate.",
+        "robot description; if not given, the running session, else the scenario turtles. A number "
+        "is taken as --rate.",
         metavar="[FROM]",
     )
     rate: float | None = option(

@@ -27,9 +27,9 @@ LINKS = "Links"
 class EditOptions(Command, shares=False, poses=True):
     """Change the frames of a recording; repair, join, cut, convert.
 
-    Everything else stays unchanged, byte for byte. Without changes, a damaged recording gets an
-    index, several recordings are joined, and the suffix of FILE chooses the container. IN is never
-    written to; FILE gets its name only after it was completely written, read again and compared.
+    Everything that no option names stays unchanged, byte for byte. A damaged recording gets a new
+    index, several recordings are joined, and the suffix of FILE selects the container. IN is never
+    changed. FILE appears only when all of it was written, read again and compared.
 
     tftool edit run.mcap -o fixed.mcap --set base_link:laser=0.2,0,0.15,0,0,90deg
     tftool edit cut_off.mcap -o whole.mcap

@@ -19,10 +19,10 @@ from tftool.frames.source_options import At
 
 
 class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=True):
-    """Say why a lookup refuses: which link, by how much, and what would let it through.
+    """Say why a lookup fails: which link, by how much, and how to make it succeed.
 
-    The lookup uses the samples that a listener had received at that moment. The exit status is 0 if
-    the lookup answers, 4 if it does not.
+    A link is the transform from a frame to its parent. The lookup uses the samples that a listener
+    had received at that moment. The exit status is 0 if the lookup succeeds, 4 if it fails.
 
     tftool explain odom base_scan run.mcap --message /scan@4.25
     tftool explain map base_link run.mcap --at 12.5 --cache-time 5
@@ -34,14 +34,14 @@ class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=Tru
     place: From = None
     at: AtOption = None
     message: str = option(
-        "Look up at the stamp of a message of this topic, as of its arrival: the first message, "
-        "or the one nearest to --at or to the moment after @.",
+        "Look up at the stamp of a message of this topic, with the data received until the message "
+        "arrived. It is the first message, or the message nearest to --at or to MOMENT.",
         default="",
         metavar="TOPIC[@MOMENT]",
     )
     asked_at: At | None = moment_option(
-        "Log time at which the listener asks; if not given, the arrival of the message, or "
-        "without --message the moment of --at.",
+        "Log time at which the listener looks up; if not given, the arrival of the message, or "
+        "without --message the time of --at.",
         panel=None,
     )
     cache_time: CacheTime = None

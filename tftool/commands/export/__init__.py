@@ -25,12 +25,12 @@ from tftool.frames.export.export_formats import Format, suffixes_of
 
 
 class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True, urdf=True):
-    """Write a pair over time, or links, to files of other tools.
+    """Write trajectories or transforms to files of other tools.
 
-    The pose of SOURCE in TARGET is written at the stamps of the fastest link between the two;
-    refused lookups are left out and counted. A scenario is played to its end. With FROM alone,
-    static transforms are written in a form that can be published again, and to .mcap all
-    transforms.
+    The pose of SOURCE in TARGET is written at the stamps of the fastest link (a frame and its
+    parent) between the two frames. Failed lookups are left out and counted. A scenario is played to
+    its end. If only FROM is given, its static transforms are written in a form that can be
+    published again; an .mcap file gets all transforms.
 
     tftool export map base_link run.mcap -o run.tum
     tftool export map base_link run.mcap -o run.csv --rate 10 --rpy
@@ -40,8 +40,8 @@ class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True
     """
 
     words: list[str] | None = argument(
-        "A pair of frames, and where they come from. With one word alone, FROM, its links are "
-        "written.",
+        "A pair of frames, and the source of the frames. If only FROM is given, its static "
+        "transforms are written.",
         metavar="[TARGET SOURCE] [FROM]",
     )
     output: Path | None = output_file(
@@ -69,10 +69,10 @@ class ExportOptions(Command, looks_only=True, recordings=True, descriptions=True
         "Number of decimals; 17 writes each number with the fewest digits that restore it exactly.",
         default=9,
     )
-    root: str | None = option("Write only the links below this frame.", metavar="FRAME")
+    root: str | None = option("Write only the frames below this frame.", metavar="FRAME")
     with_moving: bool = flag(
-        "Also write moving links into a URDF, as floating joints, which robot_state_publisher "
-        "skips. Their pose is that of --at, or the latest one."
+        "Also write frames that move into a URDF, as floating joints, which robot_state_publisher "
+        "skips. Their poses are those at --at, or the latest poses."
     )
     foxglove: bool = flag("Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.", panel=OUTPUT)
     force: Force = False

@@ -17,8 +17,8 @@ from tftool.commands.shared.options import (
 class FollowOptions(Command):
     """Let FOLLOWER follow LEADER (the tutorial's turtle_following).
 
-    Spawns FOLLOWER. Once a period it looks up the leader in the follower's frame, and drives there.
-    The defaults are the tutorial's.
+    The command spawns the turtle FOLLOWER. Once a period, the turtle looks up the leader in its own
+    frame, and drives there. The defaults are the tutorial's.
 
     tftool follow
     tftool follow turtle1 turtle3

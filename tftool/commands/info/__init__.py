@@ -5,15 +5,15 @@ from tftool.commands.shared.options import Jobs, Json, Resume, Rows, Scheduler, 
 
 
 class InfoOptions(Command, recordings=True, descriptions=True, urdf=True):
-    """Show what a recording or robot description holds (ros2 bag info).
+    """Show what a recording or robot description contains (ros2 bag info).
 
-    Topics with their types, counts and publishers; frames and trees; every edge with its rate, its
-    publisher (the node in ROS 1 bags, else the topic), and its delay from stamp to reception;
-    damage, oddities, and the doctor's findings. For a robot description: joints with limits and
-    mimics, the root, masses if given. For several descriptions and launch files: the number of
-    transforms of each, and every mistake. For several recordings: a line each; with -o, a row each
-    in a file. On a narrow terminal columns are left out: 'tftool info run.mcap | cat' prints them
-    all.
+    For a recording: topics with types, counts and publishers; frames and trees; every edge (a frame
+    and its parent) with its rate, its publisher (the node in ROS 1 bags, else the topic), and its
+    delay from stamp to reception; damage, unusual facts, and the doctor's findings. For a robot
+    description: joints with limits and mimics, the root, masses if given. For several descriptions
+    and launch files: the number of transforms of each, and every mistake. For several recordings: a
+    line each; with -o, a row each in a file. On a narrow terminal columns are left out: 'tftool
+    info run.mcap | cat' prints them all.
 
     tftool info run.mcap
     tftool info robot.urdf

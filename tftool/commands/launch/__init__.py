@@ -12,10 +12,10 @@ from tftool.commands.shared.options import (
 
 
 class LaunchOptions(Command):
-    """Launch what a ROS 2 launch file says, without ROS (ros2 launch).
+    """Run a ROS 2 launch file without ROS (ros2 launch).
 
-    The file may be Python, XML or YAML. Packages are searched below this folder, or in the src that
-    contains it; nothing is built. turtlesim and turtle_tf2_py are built in.
+    The file may be Python, XML or YAML. Packages are searched below this folder, or in the src
+    folder that contains this folder; nothing is built. turtlesim and turtle_tf2_py are built in.
 
     tftool launch pkg_tf turtle_following.launch.py source_frame:=carrot1
     tftool launch turtle_tf2_py turtle_tf2_demo.launch.py --for 10

@@ -16,8 +16,8 @@ from tftool.commands.shared.options import (
 class MonitorOptions(Command, looks_only=True, recordings=True):
     """Show how often and how late transforms arrive (tf2_monitor).
 
-    Also shows the publishers. Without frames, all links; with two frames, the chain between them
-    and the age of its latest transform.
+    The report has the rate and the delay of every frame and of every publisher. With two frames A
+    and B, it has only the frames between A and B, and the age of the latest transform between them.
 
     tftool monitor
     tftool monitor turtle2 turtle1
@@ -26,8 +26,8 @@ class MonitorOptions(Command, looks_only=True, recordings=True):
 
     words: list[str] | None = argument(
         "Two frames, for the chain between them; then the source of the frames: a scenario (name "
-        "or file) or a recording (file, folder, glob); if not given, the session that runs, else "
-        "the turtles.",
+        "or file) or a recording (file, folder, glob); if not given, the running session, else the "
+        "scenario turtles.",
         metavar="[A B] [FROM]",
     )
     run_for: RunFor = None

@@ -13,13 +13,14 @@ ROBOTS = " or ".join(flag for reach in REACHES if reach.is_robots for flag in re
 class PlayOptions(Command, recordings=True):
     """Play a recording as a live session (ros2 bag play).
 
-    Its transforms are broadcast as they were received, statics first, under the names of their
-    nodes if these are recorded. /clock is published too: other tftools use it, and nodes of ROS 2
-    with use_sim_time. 'tftool view', 'tftool echo' and your own nodes receive everything live.
+    The recorded transforms are broadcast in the order of reception, static transforms first, under
+    the names of their nodes if these are recorded. /clock is published too, for other tftool
+    commands, and for ROS 2 nodes with use_sim_time. 'tftool view', 'tftool echo' and your own nodes
+    receive everything live.
 
     On a terminal, space pauses, the right arrow sends the next message, [ and ] seek by a second, {
-    and } by ten, up and down change the rate, n goes to the doctor's next finding, 0 to the start,
-    q quits. Findings are marked on the line, and printed when they are passed.
+    and } by ten seconds, up and down change the rate, n goes to the doctor's next finding, 0 to the
+    start, q quits. Findings are marked on the timeline, and printed when the playback passes them.
 
     tftool play run.mcap
     tftool play run.mcap --from 12.5 --to 20 --rate 0.5 --loop

@@ -28,10 +28,10 @@ from tftool.commands.shared.options import (
 class PlotOptions(Command, looks_only=True, recordings=True):
     """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.
 
-    Shows position, roll pitch yaw, distance, speed and turn rate; spans of refused lookups are
-    shaded, with the reason. A running session is drawn live, until q: + and - zoom, left and right
-    move through time, a digit hides a curve. A recording or a scenario is drawn as a whole. Times
-    are seconds since the start of FROM.
+    The plot shows position, roll pitch yaw, distance, speed and turn rate. Spans in which lookups
+    fail are shaded, with the reason. A running session is drawn live until q is pressed; + and -
+    zoom, left and right move through time, a digit hides a curve. A recording or a scenario is
+    drawn as a whole. Times are seconds since the start of FROM.
 
     tftool plot turtle2 turtle1
     tftool plot map base_link run.mcap --only x,y,yaw --from 5 --to 20
@@ -40,7 +40,7 @@ class PlotOptions(Command, looks_only=True, recordings=True):
     """
 
     words: list[str] | None = argument(
-        "A pair of frames, and where they come from. With --pair, only FROM is allowed.",
+        "A pair of frames, and the source of the frames. With --pair, only FROM is allowed.",
         metavar="[TARGET SOURCE] [FROM]",
     )
     pairs: Pairs = None

@@ -20,8 +20,8 @@ from tftool.commands.shared.options import (
 class RecordOptions(Command, looks_only=True):
     """Record a session (ros2 bag record).
 
-    Every file begins with all statics. Ctrl-C ends recording. The file of a killed recorder lacks
-    at most the last second; 'tftool edit' repairs it.
+    Every file begins with all static transforms. Ctrl-C ends the recording. If the recorder is
+    killed, the file lacks at most the last second, and 'tftool edit' repairs the file.
 
     tftool record -o run.mcap
     tftool record -o long --max-duration 600 --all
@@ -41,7 +41,7 @@ class RecordOptions(Command, looks_only=True):
     )
     everything: bool = flag("Record every topic.", "--all")
     place: str | None = option(
-        "Host this scenario, and record what it does.", "--in", metavar="SCENARIO"
+        "Host this scenario, and record its topics.", "--in", metavar="SCENARIO"
     )
     run_for: RunFor = None
     ring: Duration | None = seconds_option(

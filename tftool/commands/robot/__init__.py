@@ -18,12 +18,13 @@ from tftool.commands.shared.options import (
 
 
 class RobotOptions(Command, descriptions=True):
-    """Bring a robot description alive (robot_state_publisher).
+    """Publish a robot, and move its joints (robot_state_publisher).
 
-    Fixed joints are published on /tf_static, the others on /tf, the description on
+    Fixed joints are published on /tf_static, other joints on /tf, the description on
     /robot_description. Arrow keys move a joint between its limits; digits type a position; z, c and
-    r move all joints to zero, to the middle, to random positions. Beside the sliders the robot is
-    drawn in 3-D: Shift+arrows turn it. Other terminals can watch it: tftool tree, tftool view.
+    r move all joints to zero, to the middle, to random positions. The robot is drawn in 3-D beside
+    the sliders; Shift+arrows turn the picture. To watch the robot from another terminal, run tftool
+    tree or tftool view.
 
     tftool robot arm.urdf
     tftool robot arm.urdf.xacro size:=large --joint elbow=30deg

@@ -9,13 +9,13 @@ class Ros2Options(
     # Options after COMMAND are ROS 2's.
     settings={"allow_interspersed_args": False},
 ):
-    """Ask a session in the words of ROS 2's command line, without ROS.
+    """Run commands of ROS 2's command line on a session, without ROS.
 
     topic list, echo, find, hz, bw, delay, info, type, pub; service list, type, info, find, call;
     param list, get, set, delete, dump, load, describe; node list, info; action list, type, info,
     send_goal; interface show, list, package, packages, proto; pkg list, executables, prefix, xml;
-    test FILE runs a file of launch tests, in real time. The options of each are those of ROS 2.
-    Options of this command go before COMMAND.
+    test FILE runs a file of launch tests, in real time. Each command has the options that it has in
+    ROS 2. Options of 'tftool ros2' itself go before COMMAND.
 
     tftool ros2 topic list
     tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2}"

@@ -19,8 +19,9 @@ class RunOptions(
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
 
     The file's imports of rclpy, tf2_ros, geometry_msgs and so on are provided by tftool. A package
-    is searched below this folder, or in the src that contains it; nothing is built. Options of this
-    command precede FILE. To test a node with a scenario: tftool check SCENARIO --run FILE.
+    is searched below this folder, or in the src folder that contains this folder; nothing is built.
+    Options of 'tftool run' itself go before FILE. To test a node with a scenario, run tftool check
+    SCENARIO --run FILE.
 
     tftool run turtle_tf_broadcaster.py --ros-args -p turtlename:=turtle1
     tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1
@@ -33,7 +34,7 @@ class RunOptions(
         metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
     )
     place: str | None = option(
-        "World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"
+        "World to host for the node: a scenario's name or file.", "--in", metavar="SCENARIO"
     )
     force: RosFree = False
     run_for: RunFor = None

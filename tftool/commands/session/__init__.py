@@ -6,11 +6,11 @@ from tftool.commands.shared.options import Json, argument, flag, seconds_option
 
 
 class SessionOptions(Command, looks_only=True):
-    """Show who shares the session that runs here (ros2 node list, ros2 topic list and hz).
+    """Show the running session's processes, nodes and topics (ros2 node list, topic list, hz).
 
-    Every process of tftool with its command and start; every node; every topic with its rate; every
-    service. Parameter services of nodes and the services of actions are only counted; --verbose and
-    --json list them.
+    The output lists every tftool process with its command and start time, every node, every topic
+    with its rate, and every service. Parameter services of nodes and the services of actions are
+    only counted; --verbose and --json list these services too.
 
     tftool session
     tftool session --connect tcp/localhost:7447

@@ -282,9 +282,9 @@ def decimals(words: str, *, default: int) -> Any:
 
 
 Target = Annotated[
-    str, typer.Argument(metavar="TARGET", help="Frame to look from: the answer is given in it.")
+    str, typer.Argument(metavar="TARGET", help="Frame in which the pose is expressed.")
 ]
-Source = Annotated[str, typer.Argument(metavar="SOURCE", help="Frame to look at.")]
+Source = Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose pose is looked up.")]
 
 From = Annotated[
     str | None,
@@ -292,7 +292,7 @@ From = Annotated[
         metavar="[FROM]",
         help="Source of the frames: a scenario (name or file), a recording (file, folder, glob), "
         "a robot description, or a robot's Foxglove server (ws://robot:8765); if not given, "
-        "the session that runs, else the turtles.",
+        "the running session, else the scenario turtles.",
         show_default=False,
     ),
 ]
@@ -300,7 +300,7 @@ From = Annotated[
 AtOption = Annotated[
     At | None,
     moment_option(
-        "Ask about one moment: seconds since the start of FROM, or a stamp (1e8 or more, or "
+        "Use the frames at this time: seconds since the start of FROM, or a stamp (1e8 or more, or "
         "an ISO date and time).",
         "--at",
         "-t",
@@ -311,7 +311,7 @@ AtOption = Annotated[
 FromOption = Annotated[
     At | None,
     moment_option(
-        "Leave out everything before: seconds since the start of FROM, or a stamp.",
+        "Leave out everything before this time: seconds since the start of FROM, or a stamp.",
         "--from",
         default=...,
     ),
@@ -320,7 +320,7 @@ FromOption = Annotated[
 ToOption = Annotated[
     At | None,
     moment_option(
-        "Leave out everything after: seconds since the start of FROM, or a stamp.",
+        "Leave out everything after this time: seconds since the start of FROM, or a stamp.",
         "--to",
         default=...,
     ),
@@ -329,7 +329,7 @@ ToOption = Annotated[
 Every = Annotated[
     Duration | None,
     seconds_option(
-        "Time between two moments; if not given, the stamps of the fastest link are used.",
+        "Time between two lookups; if not given, lookups use the stamps of the fastest link.",
         "--every",
         default=...,
     ),
@@ -348,7 +348,7 @@ Pairs = Annotated[
 StampsOf = Annotated[
     str | None,
     option(
-        "Use the stamps of the messages of this recorded topic as moments.",
+        "Look up at the stamps of the messages of this recorded topic.",
         "--at-stamps-of",
         metavar="TOPIC",
         panel=WHEN,
@@ -364,7 +364,7 @@ Rate = Annotated[
         metavar="HZ",
         rich_help_panel=WHEN,
         callback=within(0.001, 1000),
-        help="Moments per second, in place of --every.",
+        help="Lookups per second, in place of --every.",
     ),
 ]
 
@@ -420,7 +420,11 @@ Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT, default=...
 
 Ascii = Annotated[
     bool,
-    option("Draw with ASCII characters only, for fonts without others.", "--ascii", default=...),
+    option(
+        "Draw with ASCII characters only, for fonts that lack other characters.",
+        "--ascii",
+        default=...,
+    ),
 ]
 
 Light = Annotated[

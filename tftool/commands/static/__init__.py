@@ -19,7 +19,8 @@ class StaticOptions(
 ):
     """Publish where CHILD is in PARENT (static_transform_publisher).
 
-    It is valid at all times. Runs until interrupted. Lengths are metres, angles radians.
+    The transform is valid at all times. The command runs until it is interrupted. Lengths are in
+    metres, angles in radians.
 
     tftool static --z 3 --yaw 3.14 --frame-id A --child-frame-id B
     tftool static 0 0 3 0 0 3.14 A B          x y z yaw pitch roll: 3.14 is ROLL
@@ -41,7 +42,7 @@ class StaticOptions(
         "Parent: frame in which the transform is given.", "--frame-id", metavar="PARENT"
     )
     child_frame_id: str | None = option(
-        "Child: frame that the transform places.", "--child-frame-id", metavar="CHILD"
+        "Child: frame whose pose is given.", "--child-frame-id", metavar="CHILD"
     )
     once: bool = flag(
         "Publish the transform, print it, and stop. Programs running now receive it; later ones "

@@ -33,13 +33,13 @@ class TreeFormat(StrEnum):
 
 
 class TreeOptions(Command, looks_only=True, recordings=True, descriptions=True, urdf=True):
-    """Show which frame hangs from which (rqt_tf_tree, view_frames).
+    """Show the tree of frames (rqt_tf_tree, view_frames).
 
-    Shows every tree, and for every link: whether it is static, its broadcaster, its rate, the
-    length of its history in the buffer, and the age of its newest data. A frame that changes
-    between two parents, has stopped, or has another clock than the others is marked with the id of
-    the doctor's check. A scenario is shown 5 s after its start, a recording at its end, unless --at
-    is given.
+    If there are several trees, all are shown. For the transform from each frame to its parent, the
+    output has: whether the transform is static, broadcaster, rate, length of the history in the
+    buffer, age of the newest data. A frame that changes between two parents, has stopped, or has
+    another clock than other frames is marked with the id of the doctor's check. A scenario is shown
+    5 s after its start, a recording at its end, unless --at is given.
 
     tftool tree                   the tree of what runs here
     tftool tree robot -o robot.svg --at 12.5
@@ -58,7 +58,8 @@ class TreeOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     force: Force = False
     as_json: Json = False
     wide: bool = flag(
-        "Print all columns and full names on a terminal too, even if lines are longer than it.",
+        "Print all columns and full names on a terminal too, even if lines are longer than its "
+        "width.",
         panel=OUTPUT,
     )
     at: AtOption = None

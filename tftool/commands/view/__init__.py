@@ -19,12 +19,12 @@ from tftool.commands.shared.options import (
 class ViewOptions(Command, looks_only=True, recordings=True, descriptions=True, urdf=True):
     """Show the frames in 3-D, in a browser (rviz2 with its TF display).
 
-    The page is served on this machine only, and loads nothing from others. It shows axes, names and
-    arrows in any fixed frame, goes back in time through the buffer, and shows the transform of a
-    chosen pair. A robot is drawn from its description: FROM itself, the recorded one, or the one on
-    /robot_description; sliders move the joints of FROM. With -o the page becomes one file that
-    opens anywhere, without tftool: a recording or a scenario as a whole, a session for the time of
-    --for.
+    The page is served on this machine only, and loads nothing from other sites. The page shows
+    axes, names and arrows in any fixed frame, goes back in time through the buffer, and shows the
+    transform of a chosen pair. A robot is drawn from its description, which may be FROM itself, in
+    the recording, or on /robot_description. If FROM is a description, sliders move the joints. With
+    -o, the page becomes one file that opens anywhere without tftool. The file contains a whole
+    recording or scenario, or a session for the time of --for.
 
     tftool view --open
     tftool view robot --port 8800
