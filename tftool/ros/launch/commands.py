@@ -6,10 +6,9 @@ import errno
 import os
 import shlex
 import signal
-import subprocess
 import sys
-import threading
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Final
 
@@ -56,78 +55,44 @@ def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> t
     Raises:
         UsageError: If the command cannot be started.
     """
-    reason, errors = "", b""
-    try:
-        if command.emulate_tty:
-            output, status = _run_on_terminal(command)
-        else:
-            done = subprocess.run(
-                command.words,
-                env=dict(command.environment),
-                cwd=command.cwd,
-                capture_output=True,
-                check=False,
-                timeout=LONGEST_RUN,
-            )
-            output, errors, status = done.stdout, done.stderr, done.returncode
-    except subprocess.TimeoutExpired as error:
-        output, errors, status = error.stdout or b"", error.stderr or b"", -signal.SIGKILL
-        reason = (
-            f"'{shlex.join(command.words)}' had not ended after {LONGEST_RUN:g} s, and simulated "
-            "time waits for a command's end; start one that goes on running by itself"
-        )
-    except OSError as error:
-        raise _cannot_run(command, error) from None
-    for written, is_stdout in ((output, True), (errors, False)):
-        for line in written.decode(errors="replace").splitlines():
-            say(line, is_stdout)
-    return status, reason
+    # In a loop of its own: the world's loop stands still meanwhile.
+    with ThreadPoolExecutor(1) as pool:
+        lines, status, is_killed = pool.submit(asyncio.run, _run_to_end(command)).result()
+    for line, is_stdout in lines:
+        say(line, is_stdout)
+    reason = (
+        f"'{shlex.join(command.words)}' had not ended after {LONGEST_RUN:g} s, and simulated "
+        "time waits for a command's end; start one that goes on running by itself"
+    )
+    return status, reason if is_killed else ""
 
 
-def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
-    """Run a command with a terminal for its output; return the output and the exit status.
+async def _run_to_end(command: SystemCommand) -> tuple[list[tuple[str, bool]], int, bool]:
+    """Run a command; return its output lines, its exit status and whether it was killed."""
+    # In tftool's process group: Ctrl-C ends the command too.
+    process, streams = await begin(command, leads_group=False)
+    lines: list[tuple[str, bool]] = []
 
-    Raises:
-        subprocess.TimeoutExpired: If the command was killed after `LONGEST_RUN` seconds.
-        OSError: If the command cannot be started.
-    """
-    ours, theirs = os.openpty()
-    chunks: list[bytes] = []
+    async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
+        async for line in lines_of(stream):
+            lines += [(line, is_stdout)]
 
-    def drain() -> None:
-        # The end of a terminal is an error on Linux.
-        with contextlib.suppress(OSError):
-            while chunk := os.read(ours, 1 << 16):
-                chunks.append(chunk)
-
-    try:
-        try:
-            process = subprocess.Popen(
-                command.words,
-                env=dict(command.environment),
-                cwd=command.cwd,
-                stdout=theirs,
-                stderr=subprocess.STDOUT,
-            )
-        finally:
-            os.close(theirs)
-        reader = threading.Thread(target=drain, name="terminal", daemon=True)
-        reader.start()
-        try:
-            status = process.wait(LONGEST_RUN)
-        except subprocess.TimeoutExpired as error:
-            process.kill()
-            process.wait()
-            error.stdout = b"".join(chunks)
-            raise
-        reader.join(1.0)
-        return b"".join(chunks), status
-    finally:
-        os.close(ours)
+    _, late = await asyncio.wait(
+        [asyncio.ensure_future(read(*one)) for one in streams], timeout=LONGEST_RUN
+    )
+    if late:
+        process.kill()
+    return lines, await process.wait(), bool(late)
 
 
-async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
-    """Start a command in its own process group; return the process and its output streams.
+async def begin(
+    command: SystemCommand, *, leads_group: bool = True
+) -> tuple[asyncio.subprocess.Process, Streams]:
+    """Start a command; return the process and its output streams.
+
+    Args:
+        command: Command to start.
+        leads_group: Whether the process begins a process group of its own.
 
     Raises:
         UsageError: If the command cannot be run.
@@ -140,7 +105,7 @@ async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Str
             cwd=command.cwd,
             stdout=output,
             stderr=output,
-            start_new_session=True,
+            start_new_session=leads_group,
         )
     except OSError as error:
         if ours is not None:
