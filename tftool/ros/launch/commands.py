@@ -75,7 +75,7 @@ async def _run_to_end(command: SystemCommand) -> tuple[list[tuple[str, bool]], i
 
     async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
         async for line in lines_of(stream):
-            lines += [(line, is_stdout)]
+            lines.extend([(line, is_stdout)])
 
     _, late = await asyncio.wait(
         [asyncio.ensure_future(read(*one)) for one in streams], timeout=LONGEST_RUN

@@ -100,22 +100,6 @@ class LaunchContext:
         """
         self._launched().handlers.remove(event_handler)
 
-    def would_handle_event(self, event: Any) -> bool:
-        """Return whether a registered handler matches an event."""
-        return bool(self._launched().is_awaited(event))
-
-    def emit_event_sync(self, event: Any) -> None:
-        """Pass an event to the registered handlers.
-
-        Raises:
-            UsageError: If no launch is running.
-        """
-        self._launched().emit(event)
-
-    async def emit_event(self, event: Any) -> None:
-        """Pass an event to the registered handlers; await this as in ROS 2."""
-        self.emit_event_sync(event)
-
     def _launched(self) -> Any:
         if self.launch is None:
             raise UsageError(

@@ -151,14 +151,6 @@ class Action(LaunchDescriptionEntity):
             context.launch.complete(self)
         return following
 
-    @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
-        """Return the class of the action and its keyword arguments from an XML or YAML element.
-
-        Users' subclasses extend this method. Other code reads the attributes `if` and `unless`.
-        """
-        return cls, {}
-
     def execute(self, context: LaunchContext) -> Any:
         """Execute the action; return the actions to execute next, or None."""
         return None

@@ -18,7 +18,6 @@ from tftool.ros.host.importing import load
 from tftool.ros.launch import (
     actions,
     components,
-    exposing,
     lifecycle,
     nodes,
     parameters,
@@ -33,10 +32,10 @@ from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
 
 class Parser:
-    """Parser with launch's public methods, which users' own elements call."""
+    """Parser of launch.frontend for whole launch files in XML and YAML."""
 
     @classmethod
-    def load(cls, file: Any) -> tuple[exposing.Entity, "Parser"]:
+    def load(cls, file: Any) -> tuple[Element, "Parser"]:
         """Read an XML or YAML launch file; return its root element and a parser.
 
         Raises:
@@ -49,28 +48,11 @@ class Parser:
             data = data.encode() if isinstance(data, str) else data
             is_xml = data.lstrip().startswith(b"<")
             children = (read_xml if is_xml else read_yaml)(data, path)
-        return exposing.Entity(Element("launch", str(path), children=children)), cls()
+        return Element("launch", str(path), children=children), cls()
 
-    def parse_description(self, entity: exposing.Entity) -> LaunchDescription:
+    def parse_description(self, entity: Element) -> LaunchDescription:
         """Return the launch description of a launch file's root element."""
-        return LaunchDescription(actions_of(entity.element.all_inside()))
-
-    def parse_substitution(self, value: Any) -> list[Any]:
-        """Parse a text that may contain `$(…)` into a list of substitutions."""
-        return exposing.parse_substitution(value)
-
-    def parse_if_substitutions(self, value: Any) -> Any:
-        """Parse a text into substitutions if it contains `$(`; else return it unchanged."""
-        return exposing.parse_if_substitutions(value)
-
-    def parse_action(self, entity: exposing.Entity) -> Any:
-        """Return the action that an element describes."""
-        (action,) = actions_of([entity.element])
-        return action
-
-    def escape_characters(self, value: str) -> str:
-        """Escape a text so that no part of it is read as a substitution."""
-        return value.replace("\\", "\\\\").replace("$", "\\$")
+        return LaunchDescription(actions_of(entity.all_inside()))
 
 
 def actions_of(elements: Iterable[Element]) -> list[Any]:
@@ -85,9 +67,7 @@ def actions_of(elements: Iterable[Element]) -> list[Any]:
 def _action(element: Element) -> Any:
     tag = element.tag.replace("-", "_")
     make = _READERS.get(tag)
-    if (exposed := exposing.ACTIONS.get(tag)) is not None:
-        make = partial(_exposed, exposed)
-    elif make is None and tag in tagged():
+    if make is None and tag in tagged():
         make = partial(_plain, load(tagged()[tag]))
     if make is None:
         what = f"there is no '{element.tag}' in a launch file"
@@ -107,15 +87,6 @@ def _condition(element: Element) -> Any:
     if (text := element.get("unless")) is not None:
         return UnlessCondition(parsed(text, element.where))
     return None
-
-
-def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
-    """Return the action that a user's own parse function creates from an element."""
-    try:
-        kind, settings = read(exposing.Entity(element), Parser())
-        return kind(**settings)
-    except (AttributeError, TypeError, ValueError) as error:
-        raise element.refusal(f"'{element.tag}': {error_sentence(error)}", "", ()) from error
 
 
 def _text(element: Element, *names: str) -> Any:
