@@ -6,9 +6,9 @@ import pytest
 
 from tests.ros.test_launch import described
 from tftool.base.errors import NodeFailed, UsageError
-from tftool.ros import ros2
 from tftool.ros.host import rosidl_runtime, user_code
 from tftool.ros.host.workspace import Workspace
+from tftool.ros.ros2 import ros2_program
 from tftool.world.nodes.turtlesim import Turtlesim
 
 SIM = "Node(package='turtlesim', executable='turtlesim_node', name='sim')"
@@ -21,7 +21,7 @@ def ran(ros_runtime, tmp_path, *words, seconds=5.0):
     lines, ended = [], []
     if not any(isinstance(node, Turtlesim) for node in ros_runtime.world.nodes):
         ros_runtime.ask(lambda: Turtlesim(ros_runtime.world))
-    body = user_code.whole(ros2.body(words, Workspace(tmp_path), lines.append))
+    body = user_code.whole(ros2_program.body(words, Workspace(tmp_path), lines.append))
     (program,) = ros_runtime.ask(
         lambda: [Program(ros_runtime.world, "ros2", body, on_exit=ended.append)]
     )
@@ -200,7 +200,7 @@ def test_messages_are_echoed_in_part(ros_runtime, tmp_path):
 
     said = "{name: [long, ä], position: [1, 2, 3, 4]}"
     words = ["topic", "pub", "/joints", "sensor_msgs/msg/JointState", said, "-r", "10"]
-    body = user_code.whole(ros2.body(words, Workspace(tmp_path), lambda line: None))
+    body = user_code.whole(ros2_program.body(words, Workspace(tmp_path), lambda line: None))
     ros_runtime.ask(lambda: [Program(ros_runtime.world, "pub", body, on_exit=lambda _: None)])
     ros_runtime.sleep(0.5)
 
@@ -221,7 +221,9 @@ def test_messages_are_echoed_in_part(ros_runtime, tmp_path):
     with pytest.raises(
         UsageError, match=r"'m' is not a Python expression|'m is' is not a Python expression"
     ):
-        ros2.body(["topic", "echo", "/joints", "--filter", "m is"], Workspace(tmp_path), print)
+        ros2_program.body(
+            ["topic", "echo", "/joints", "--filter", "m is"], Workspace(tmp_path), print
+        )
 
 
 def test_a_message_of_many_elements_is_cut_as_in_ros_unless_whole(ros_runtime, tmp_path):
@@ -250,7 +252,7 @@ def test_a_topic_is_published_and_described_with_the_quality_asked_for(ros_runti
 
     words = ["topic", "pub", "/word", "std_msgs/msg/String", "--qos-durability", "transient_local",
              "--qos-reliability", "best_effort", "--qos-depth", "7"]  # fmt: skip
-    body = user_code.whole(ros2.body(words, Workspace(tmp_path), lambda line: None))
+    body = user_code.whole(ros2_program.body(words, Workspace(tmp_path), lambda line: None))
     ros_runtime.ask(lambda: [Program(ros_runtime.world, "pub", body, on_exit=lambda _: None)])
     ros_runtime.sleep(0.5)
     _, lines = ran(ros_runtime, tmp_path, "topic", "info", "-v", "/word")
@@ -391,7 +393,7 @@ def test_what_is_not_there_is_named(ros_runtime, tmp_path):
 )
 def test_wrong_words_are_refused_with_a_sentence(tmp_path, words, told):
     with pytest.raises(UsageError, match=told):
-        ros2.body(words, Workspace(tmp_path), print)
+        ros2_program.body(words, Workspace(tmp_path), print)
 
 
 def test_lists_of_messages_are_filled_element_by_element():

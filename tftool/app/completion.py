@@ -271,7 +271,7 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
     """Yield the commands of `ros2`; once a command is typed, yield the command's verbs."""
-    from tftool.ros.host.ros2_words import verbs
+    from tftool.ros.ros2.ros2_words import verbs
 
     if len(before) < 2:
         known = verbs()

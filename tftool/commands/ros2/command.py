@@ -14,13 +14,13 @@ from tftool.commands.shared.connection import NO_SESSION, Connection
 from tftool.commands.shared.hosting import open_empty_session, open_session
 from tftool.commands.shared.notices import tell_record
 from tftool.commands.shared.programs import workspace_here
-from tftool.ros import ros2 as ros2_command
 from tftool.ros import running
 from tftool.ros.host import user_code
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
+from tftool.ros.ros2 import ros2_program
 
 _ELSEWHERE = {
     "run": "run",
@@ -79,7 +79,7 @@ def run(connection: Connection, options: Ros2Options) -> int:
     lines = _JsonLines(words)
     if options.as_json and words[:2] == ["topic", "echo"]:
         words = [*words, "--full-length"]
-    body = ros2_command.body(words, workspace, lines if options.as_json else typer.echo)
+    body = ros2_program.body(words, workspace, lines if options.as_json else typer.echo)
     if words[0] in ("interface", "pkg"):
         body()
         lines.finish()

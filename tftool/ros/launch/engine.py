@@ -11,7 +11,6 @@ from typing import Any, ClassVar
 
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.stamps import seconds
-from tftool.ros import ros2
 from tftool.ros.host import executables, importing, program, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.program import Program, ProgramNode, exit_status
@@ -33,6 +32,7 @@ from tftool.ros.launch.events import (
 from tftool.ros.launch.frontend import load_file
 from tftool.ros.launch.processes import Executable
 from tftool.ros.rclpy.exceptions import NotInitializedException
+from tftool.ros.ros2 import ros2_program
 from tftool.world.clock import SimClock, paced
 from tftool.world.log import LogRecord
 from tftool.world.node import Node
@@ -439,7 +439,7 @@ class Launch(Node):
             UsageError: If tftool does not know this command of ROS 2.
         """
         show: list[Callable[[str], object]] = []
-        body = ros2.body(words, self.context.workspace, lambda line: show[0](line))
+        body = ros2_program.body(words, self.context.workspace, lambda line: show[0](line))
         label = self.start_body(action, ["ros2", *words], body, respawn)
         show.append(lambda line: program.current().ask(lambda: self._line(label, line)))
 

@@ -1,0 +1,346 @@
+"""Commands `ros2 topic`, and functions that all commands of `ros2` use."""
+
+import argparse
+import itertools
+import re
+import statistics
+from collections.abc import Callable, Sequence
+from copy import copy
+from typing import Any
+
+from tftool.base.errors import UsageError
+from tftool.base.plain_text import did_you_mean
+from tftool.base.stamps import seconds
+from tftool.messages.classes import INTERFACES
+from tftool.ros.host import program, rosidl_runtime
+from tftool.ros.host.values import stamp_of
+from tftool.ros.rclpy import core
+from tftool.ros.rclpy.node import Node
+from tftool.ros.rclpy.node_graph import get_action_names_and_types
+from tftool.ros.rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSPresetProfiles,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+from tftool.ros.rclpy.topics import serialize_message
+from tftool.ros.rclpy.validation import topic_or_service_is_hidden
+
+Print = Callable[[str], object]
+
+SETTLE = seconds(0.5)
+"""Time in nanoseconds to discover nodes and topics before listing them, as ROS's command does."""
+
+PATIENCE = 10.0
+"""Seconds to wait until the given node or topic appears."""
+
+
+def show_lines(text: str, show: Print) -> None:
+    """Print the lines of a text."""
+    for line in text.rstrip("\n").splitlines():
+        show(line)
+
+
+def listen() -> None:
+    """Wait until the nodes and topics of other processes are known."""
+    program.current().sleep(SETTLE)
+
+
+def full_name(name: str) -> str:
+    """Return a name with a slash before it, and none behind it."""
+    return f"/{name.strip('/')}"
+
+
+_NAMES_AND_TYPES: dict[str, Callable[[Node], Any]] = {
+    "topic": Node.get_topic_names_and_types,
+    "service": Node.get_service_names_and_types,
+    "action": get_action_names_and_types,
+}
+
+
+def names_and_types(node: Node, asked: argparse.Namespace) -> Any:
+    """Return (name, types) of all topics, services or actions, after time to discover them."""
+    listen()
+    return _NAMES_AND_TYPES[asked.noun](node)
+
+
+def list_names(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    """Print the names of all topics, services or actions, or their number."""
+    hidden = getattr(asked, f"include_hidden_{asked.noun}s", False)
+    pairs = names_and_types(node, asked)
+    seen = [one for one in pairs if hidden or not topic_or_service_is_hidden(one[0])]
+    if getattr(asked, f"count_{asked.noun}s"):
+        show(str(len(seen)))
+        return
+    for name, kinds in seen:
+        show(f"{name} [{', '.join(kinds)}]" if asked.show_types else name)
+
+
+def _topic_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    if not asked.verbose:
+        list_names(node, asked, show)
+        return
+    pairs = names_and_types(node, asked)
+    for title, role, count in (
+        ("Published", "publisher", node.count_publishers),
+        ("\nSubscribed", "subscriber", node.count_subscribers),
+    ):
+        show_lines(f"{title} topics:", show)
+        for name, kinds in pairs:
+            hidden = topic_or_service_is_hidden(name) and not asked.include_hidden_topics
+            if not hidden and (number := count(name)):
+                ends = f"{number} {role}{'s' if number > 1 else ''}"
+                show(f" * {name} [{', '.join(kinds)}] {ends}")
+
+
+def _type_of_topic(node: Node, topic: str) -> str:
+    """Wait until a topic exists, and return the name of its type.
+
+    Raises:
+        UsageError: If the topic does not appear in time.
+    """
+
+    def found() -> str:
+        kinds = dict(node.get_topic_names_and_types()).get(full_name(topic), [])
+        return kinds[0] if kinds else ""
+
+    _wait_until(found)
+    if not found():
+        raise UsageError(
+            f"There is no topic '{full_name(topic)}' after {PATIENCE:g} s: 'tftool ros2 topic "
+            "list' lists the topics that exist."
+        )
+    return found()
+
+
+def _wait_until(found: Callable[[], object]) -> None:
+    owner = program.current()
+    limit = owner.now() + seconds(PATIENCE)
+    while not found() and owner.now() < limit and not owner.interrupted:
+        owner.sleep(SETTLE // 5)
+
+
+def _wanted_quality(asked: argparse.Namespace, otherwise: QoSProfile) -> QoSProfile:
+    """Return the QoS profile of the `--qos-…` options; `otherwise` gives the other settings."""
+    profile = otherwise
+    if asked.qos_profile:
+        profile = copy(QoSPresetProfiles[asked.qos_profile.upper()].value)
+    if asked.qos_depth:
+        profile.depth = asked.qos_depth
+    for name, policy in _POLICIES.items():
+        wanted = getattr(asked, f"qos_{name}")
+        if wanted:
+            setattr(profile, name, policy[wanted.upper()])
+    return profile
+
+
+_POLICIES: dict[str, Any] = {
+    "history": HistoryPolicy,
+    "reliability": ReliabilityPolicy,
+    "durability": DurabilityPolicy,
+}
+
+
+def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
+    """Subscribe to a topic; call `callback` with each message that passes --filter.
+
+    The QoS profile is that of the `--qos-…` options; without options, it fits the publishers.
+    """
+    name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
+    ends = [one.qos_profile for one in node.get_publishers_info_by_topic(full_name(asked.topic))]
+    latched = bool(ends) and all(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in ends)
+    reliable = all(one.reliability is ReliabilityPolicy.RELIABLE for one in ends)
+    profile = QoSProfile(
+        depth=100 if latched else 10,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL
+        if latched or full_name(asked.topic) == "/tf_static"
+        else DurabilityPolicy.VOLATILE,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+    )
+    if "qos_profile" in asked:
+        profile = _wanted_quality(asked, profile)
+    # What a topic carries behind an action or a service is no message of its own file.
+    is_derived = "/action/" in name or "/srv/" in name
+    kind = INTERFACES.part(name) if is_derived else rosidl_runtime.interface(name, "msg")
+
+    def take(message: Any) -> None:
+        try:
+            if asked.wanted is not None and not asked.wanted(message):
+                return
+        except Exception as error:
+            raise UsageError(f"the expression of --filter fails for a message: {error}") from error
+        callback(message)
+
+    node.create_subscription(kind, full_name(asked.topic), take, profile)
+
+
+def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    heard: list[Any] = []
+    length = None if asked.full_length else asked.truncate_length
+    short = {"truncate_length": length, "no_arr": asked.no_arr, "no_str": asked.no_str}
+
+    def echo(message: Any) -> None:
+        heard.append(None)
+        if asked.once and len(heard) > 1:
+            return
+        value = message if asked.field is None else _field(message, asked.field)
+        shown = rosidl_runtime.plain(value, **short)
+        if asked.csv:
+            show(rosidl_runtime.as_csv(shown))
+            return
+        show_lines(rosidl_runtime.as_yaml(shown, flow_style=asked.flow_style), show)
+        show("---")
+
+    _heard(node, asked, echo)
+    while core.ok() and not (asked.once and heard):
+        core.spin_once(node)
+
+
+def _field(message: Any, path: str) -> Any:
+    """Return a message's field, given by a path such as "points[0].x".
+
+    Raises:
+        UsageError: If the message has no such field.
+    """
+    found = message
+    for step in re.findall(r"[^.\[\]]+", path):
+        try:
+            found = found[int(step)] if step.isdecimal() else getattr(found, step)
+        except (AttributeError, IndexError, TypeError):
+            known = getattr(found, "fields__", ())
+            hint = did_you_mean(step, [one.name for one in known])
+            raise UsageError(f"{type(message).__name__} has no field '{path}'{hint}") from None
+    return found
+
+
+def _measured(
+    node: Node,
+    asked: argparse.Namespace,
+    value: Callable[[Any], Any],
+    tell: Callable[[list[Any]], None],
+) -> None:
+    """Compute `value` for each message of a topic; once a second, call `tell` with the values.
+
+    Only the last `--window` values are used.
+    """
+    values: list[Any] = []
+    _heard(node, asked, lambda message: values.append(value(message)))
+
+    def each_second() -> None:
+        del values[: -asked.window]
+        if values:
+            tell(values)
+
+    node.create_timer(1.0, each_second)
+    core.spin(node)
+
+
+def _spread(seconds_of_each: Sequence[float], window: int) -> str:
+    return (
+        f"\tmin: {min(seconds_of_each):.3f}s max: {max(seconds_of_each):.3f}s "
+        f"std dev: {statistics.pstdev(seconds_of_each):.5f}s window: {window}"
+    )
+
+
+def _topic_hz(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    owner = program.current()
+
+    def tell(moments: list[int]) -> None:
+        gaps = [(b - a) / 1e9 for a, b in itertools.pairwise(moments)]
+        if gaps:
+            show(f"average rate: {1.0 / max(statistics.fmean(gaps), 1e-9):.3f}")
+            show(_spread(gaps, len(moments)))
+
+    _measured(node, asked, lambda _: owner.now(), tell)
+
+
+def _topic_bw(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    owner = program.current()
+
+    def tell(heard: list[tuple[int, int]]) -> None:
+        sizes = [size for _, size in heard]
+        lasted = (owner.now() - heard[0][0]) / 1e9
+        rate = sum(sizes) / max(lasted, 1e-9)
+        show(f"{_bytes(rate)}/s from {len(sizes)} messages")
+        show(
+            f"\tMessage size mean: {_bytes(statistics.fmean(sizes))} "
+            f"min: {_bytes(min(sizes))} max: {_bytes(max(sizes))}"
+        )
+
+    _measured(node, asked, lambda message: (owner.now(), len(serialize_message(message))), tell)
+
+
+def _bytes(number: float) -> str:
+    for limit, unit in ((1e6, "MB"), (1e3, "KB")):
+        if number >= limit:
+            return f"{number / limit:.2f} {unit}"
+    return f"{number:.0f} B"
+
+
+def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    owner = program.current()
+
+    def delay(message: Any) -> float:
+        if not hasattr(message, "header"):
+            raise UsageError(
+                f"{type(message).__name__} has no header with a stamp, so its delay is unknown"
+            )
+        return float(owner.now() - stamp_of(message.header.stamp)) / 1e9
+
+    def tell(delays: list[float]) -> None:
+        show(f"average delay: {statistics.fmean(delays):.3f}")
+        show(_spread(delays, len(delays)))
+
+    _measured(node, asked, delay, tell)
+
+
+def _topic_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    kind = _type_of_topic(node, asked.topic)
+    full = full_name(asked.topic)
+    after = [""] if asked.verbose else []
+    lines = [f"Type: {kind}", *after]
+    for role, count, infos in (
+        ("Publisher", node.count_publishers(full), node.get_publishers_info_by_topic(full)),
+        ("Subscription", node.count_subscribers(full), node.get_subscriptions_info_by_topic(full)),
+    ):
+        lines += [f"{role} count: {count}", *after]
+        for one in infos if asked.verbose else ():
+            lines += [*str(one).splitlines(), ""]
+    for line in lines:
+        show(line)
+
+
+def _topic_type(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    show(_type_of_topic(node, asked.topic))
+
+
+def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    times = 1 if asked.once else asked.times
+    wanted = asked.wait_matching_subscriptions
+    if wanted is None:
+        wanted = 1 if times else 0
+    publisher = node.create_publisher(
+        asked.kind, asked.topic, _wanted_quality(asked, QoSProfile(depth=10))
+    )
+    if publisher.get_subscription_count() < wanted:
+        show(f"Waiting for at least {wanted} matching subscription(s)...")
+        while publisher.get_subscription_count() < wanted and core.ok():
+            program.current().sleep(SETTLE // 5)
+    show("publisher: beginning loop")
+    sent = 0
+
+    def publish() -> None:
+        nonlocal sent
+        sent += 1
+        if sent % asked.each == 0:
+            show(f"publishing #{sent}: {asked.message!r}")
+        publisher.publish(asked.message)
+
+    publish()
+    rate = node.create_rate(asked.rate or 1.0)
+    while core.ok() and not (times and sent >= times):
+        rate.sleep()
+        publish()
+    # Messages on their way to another process are given time to arrive.
+    listen()
