@@ -571,3 +571,22 @@ def test_curves_that_share_their_cells_keep_all_dots_and_one_color():
     assert (both.masks == high.masks | rising.masks).all()
     assert (both.colors[rising.masks > 0] == packed(green)).all()
     assert (merged([high]).masks == high.masks).all()
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "sign"),
+    [
+        ((0, 0), (0, 31), "|"),
+        ((0, 1), (15, 1), "-"),
+        ((0, 0), (16, 32), "\\"),
+        ((0, 32), (16, 0), "/"),
+    ],
+)
+def test_a_line_in_ascii_is_a_row_of_strokes_in_its_direction(start, end, sign):
+    dots = Dots(8, 8)
+    dots.draw(np.array([[start, end]], float), 0)
+    drawn = [sign for row in dots.rows(ascii_only=True) for sign, _ in row if sign != " "]
+
+    assert drawn.count(sign) >= 7
+    # Where the line only touches a cell, the cell has a single dot.
+    assert set(drawn) <= {sign, "'", "."}

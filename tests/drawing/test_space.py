@@ -340,10 +340,32 @@ def test_names_do_not_cover_the_robot_where_there_is_room_beside_it(picture):
     assert not any(re.search(r"[▀▄].*[a-z]{4}.*[▀▄]", line) for line in named)
 
 
-def test_a_ground_of_ascii_has_dots_only_at_crossings():
+@pytest.mark.parametrize("options", [{"ascii_only": True}, {"tones": "none"}])
+def test_a_ground_without_colours_has_dots_only_at_crossings(options):
     picture = SpacePicture("root", tuple(spread(3)))
-    plain = text(cells(picture, columns=80, rows=40, ascii_only=True))
+    plain = text(cells(picture, columns=80, rows=40, **options))
     lines = text(cells(picture, columns=80, rows=40))
 
-    assert plain.isascii()
-    assert sum(sign in ".':" for sign in plain) < 0.4 * sum("⠀" < sign <= "⣿" for sign in lines)
+    def marks(drawn):
+        return sum(sign in ".'_-|/\\" or "⠀" < sign <= "⣿" for sign in drawn)
+
+    assert marks(plain) < 0.4 * marks(lines)
+
+
+def test_names_in_a_small_picture_have_a_gap_to_the_robot(picture):
+    lines = text(cells(picture, columns=34, rows=20)).splitlines()
+
+    assert any("ball" in line for line in lines)
+    assert not any(re.search(r"[▀▄][a-z]|[a-z][▀▄]", line) for line in lines)
+
+
+def test_the_outline_of_a_solid_in_ascii_is_drawn_with_strokes():
+    robot = """<robot name="post"><link name="post"><visual><geometry><box size="1 1 4"/></geometry>
+    </visual></link></robot>"""
+    solids, _ = solids_of(parse_description(robot).links.values(), MeshFolders())
+    post = SpacePicture("post", (SpaceFrame("post", Transform()),), solids)
+    lines = text(cells(post, "front", columns=40, rows=24, ascii_only=True)).splitlines()
+    sides = [line for line in lines if re.search(r"\|\S*\|", line)]
+
+    assert len(sides) >= 8
+    assert len({(line.index("|"), line.rindex("|")) for line in sides}) <= 2

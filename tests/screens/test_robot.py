@@ -355,3 +355,22 @@ def test_all_joints_are_listed_again_where_the_window_grows(shown):
     lines = shown(*["down"] * 3, size=(80, 10), resized=(120, 40))
 
     assert all(row(lines, name) for name in ("turn", "reach", "grip", "look"))
+
+
+def test_a_long_list_of_joints_counts_those_above_and_below():
+    joints = "".join(
+        f'<link name="l{n}"/><joint name="j{n}" type="continuous"><parent link="base"/>'
+        f'<child link="l{n}"/></joint>'
+        for n in range(17)
+    )
+    robot = Robot(parse_description(f'<robot name="comb"><link name="base"/>{joints}</robot>'))
+    sliders = Sliders(robot, Mover(robot))
+    app = RobotApp(new_world(), sliders, setting=Setting())
+
+    first = screen_of(app)
+    rows = [line for line in first if re.search(r"j\d+ .*rad", line)]
+    assert rows
+    assert any(f"{17 - len(rows)} more below" in line for line in first)
+    sliders.choose(-1)
+    last = screen_of(RobotApp(new_world(), sliders, setting=Setting()))
+    assert any(f"{17 - len(rows)} more above" in line for line in last)

@@ -25,7 +25,7 @@ from tftool.drawing.cells import (
     blended,
     packed,
 )
-from tftool.drawing.labels import Label, PlacedLabel, Placer, label_text
+from tftool.drawing.labels import ON_AXIS, ON_LINE, TAKEN, Label, PlacedLabel, Placer, label_text
 from tftool.drawing.plane import (
     FARTHEST,
     Drawn,
@@ -124,8 +124,7 @@ class Canvas:
             dots = self._trails.dots = Dots(self.columns, self.rows)
             dots.draw(self._ends(trails.ends[..., :2]), trails.colors)
         sheet.lay(dots, self._faint(dots.colors, field), ascii_only=self._ascii)
-        marked = self._mark(sheet, picture)
-        self._sign(sheet, picture, marked)
+        self._sign(sheet, picture, self._mark(sheet, picture))
         step = grid_step(view.per_row)
         drawn = sheet.lines(self._sheet)
         self._sheet = sheet
@@ -212,8 +211,8 @@ class Canvas:
 
     # Drawn above it
 
-    def _mark(self, sheet: CellSheet, picture: PlanePicture) -> Mask:
-        """Draw lines to parents, walls and axes; return a mask of the cells they cover."""
+    def _mark(self, sheet: CellSheet, picture: PlanePicture) -> Points:
+        """Draw lines to parents, walls and axes; return each cell's cost for a name above them."""
         view, field = self._view, picture.field
         links = [
             ends
@@ -241,15 +240,17 @@ class Canvas:
                     x, y = -0.25 * view.per_row * up / reach, 0.25 * view.per_row * along / reach
                     lines.append((one.x + x, one.y + y, end[0] + x, end[1] + y))
             layers.append((lines, self._ground_color(role, field)))
-        marked = np.zeros_like(self._inside)
-        for lines, color in layers:
+        costs = np.zeros(self._inside.shape)
+        for number, (lines, color) in enumerate(layers):
             if lines:
                 dots = Dots(self.columns, self.rows)
                 dots.draw(self._ends(np.array(lines)), 0)
-                marked |= sheet.lay(dots, color, ascii_only=self._ascii)
-        return marked
+                costs[sheet.lay(dots, color, ascii_only=self._ascii)] = (
+                    ON_LINE if number < 2 else ON_AXIS
+                )
+        return costs
 
-    def _sign(self, sheet: CellSheet, picture: PlanePicture, marked: Mask) -> None:
+    def _sign(self, sheet: CellSheet, picture: PlanePicture, costs: Points) -> None:
         """Draw turtles, origins and names above the dots."""
         hard: set[tuple[int, int]] = set()
         labels: list[Label] = []
@@ -286,10 +287,10 @@ class Canvas:
                 if one.is_turtle and bodies:
                     reach = math.ceil(1.6 * per_metre)
                 labels.append(Label(one.name, text, math.floor(place[0]), row, reach))
-        # Labels avoid lines and axes if they can.
-        soft = set(zip(*(where.tolist() for where in np.nonzero(marked)), strict=True))
+        for taken in hard:
+            costs[taken] = TAKEN
         named = {one.name: one for one in picture.frames}
-        for placed in self._placer.placed(labels, hard, soft):
+        for placed in self._placer.placed(labels, costs):
             sheet.write(placed.column, placed.row, placed.label.text,
                         self._letter_inks(placed, named[placed.label.name]))  # fmt: skip
 

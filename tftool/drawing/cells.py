@@ -27,16 +27,33 @@ Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
 """Straight piece of a trail: x and y of both ends in metres, colour, width in pixels."""
 
 _BITS: Final = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
-_UPPER: Final = 0x01 | 0x02 | 0x08 | 0x10
+
+
+def _stroke(mask: int) -> str:
+    """Return the ASCII character that looks most like the dots of a cell."""
+    across, down = [], []
+    for (row, column), bit in np.ndenumerate(_BITS):
+        if mask & bit:
+            across.append(column)
+            down.append(row)
+    if not across:
+        return " "
+    left, right = ([y for x, y in zip(across, down, strict=True) if x == side] for side in (0, 1))
+    middle = sum(down) / len(down)
+    if max(down) - min(down) < 2:
+        is_level = bool(left) and bool(right)
+        if middle < 1.0 or (middle < 2.0 and not is_level):
+            return "'"
+        return "-" if middle <= 2.0 and is_level else "_" if middle == 3.0 and is_level else "."
+    if not left or not right:
+        return "|"
+    slope = sum(right) / len(right) - sum(left) / len(left)
+    return "|" if abs(slope) < 1.0 else "\\" if slope > 0 else "/"
+
+
 _SIGNS: Final = {
     False: np.array([chr(0x2800 + mask) for mask in range(256)], "<U4"),
-    True: np.array(
-        [
-            ":" if mask & _UPPER and mask & ~_UPPER else "'" if mask & _UPPER else "."
-            for mask in range(256)
-        ],
-        "<U4",
-    ),
+    True: np.array([_stroke(mask) for mask in range(256)], "<U4"),
 }
 """Character of a cell for each mask of dots, in braille (False) and in ASCII (True)."""
 
@@ -160,14 +177,9 @@ class Dots:
         np.bitwise_or.at(self.masks, cells, _BITS[down % 4, across % 2])
         self.colors[cells] = colors
 
-    def cover(self, above: "Dots", free: Mask | None = None) -> None:
-        """Lay other dots above these; a cell with dots of both shows only the upper ones.
-
-        Args:
-            above: Dots to lay above.
-            free: Mask of the cells that the upper dots may change; None for all.
-        """
-        marked = above.masks > 0 if free is None else (above.masks > 0) & free
+    def cover(self, above: "Dots") -> None:
+        """Lay other dots above these; a cell with dots of both shows only the upper ones."""
+        marked = above.masks > 0
         self.masks[marked], self.colors[marked] = above.masks[marked], above.colors[marked]
 
     def rows(self, *, ascii_only: bool = False) -> list[list[tuple[str, str]]]:

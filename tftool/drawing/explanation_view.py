@@ -78,7 +78,10 @@ def so_far(found: Explanation) -> list[Text]:
 
 
 def _headline(found: Explanation) -> Text:
+    base = _base(found)
     when = "at the latest" if not found.stamp else f"at {_exactly(found.stamp)}"
+    if found.stamp and base and not _other_clock(found.stamp, base):
+        when = f"at {_since(found.stamp, base)} s"
     line = Text(visible(f"{found.source} in {found.target} {when}: "))
     if found.available:
         return line.append("answers", "green")
@@ -103,7 +106,10 @@ def _later(found: Explanation) -> str:
 
 
 class _Links:
-    """Table with a row for each edge; if rows are too wide, the message goes below its row."""
+    """Table with a row for each edge; if rows are too wide, the message goes below its row.
+
+    If even the other columns are too wide, they are not aligned and have no heading.
+    """
 
     def __init__(self, found: Explanation) -> None:
         self._found = found
@@ -120,9 +126,20 @@ class _Links:
         ):
             yield table
             return
-        for *link, says in rows:
-            yield Text("  ").join(link)
-            yield Padding(says, (0, 0, 0, 2))
+        links = [row[:-1] for row in rows]
+        widths = [max(cell.cell_len for cell in column) for column in zip(*links, strict=True)]
+        fits = sum(widths) + 2 * (len(widths) - 1) <= options.max_width
+        if fits:
+            for cells in links:
+                for cell, width in zip(cells, widths, strict=True):
+                    cell.pad_right(width - cell.cell_len)
+            yield Text("  ").join(links[0])
+        for *link, says in rows[1:]:
+            line = Text("  ").join(link)
+            line.rstrip()
+            yield line
+            if says:
+                yield Padding(says, (0, 0, 0, 2))
 
     def _rows(self) -> list[tuple[Text, ...]]:
         found = self._found

@@ -1,20 +1,36 @@
 """Placement of labels beside frames, so that no label covers another."""
 
-import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final, TypeAlias
 
+import numpy as np
+import numpy.typing as npt
 from rich.cells import cell_len
 
 from tftool.drawing import theme
 from tftool.drawing.table_columns import fitted
 
-FARTHEST_ROWS = 7
+Floats: TypeAlias = npt.NDArray[np.floating]
+
+FARTHEST_ROWS: Final = 7
 """Largest distance in rows between a label and its frame."""
 
-
-SMALL = 2
+SMALL: Final = 2
 """Largest reach of a symbol near which another frame's label may be."""
+
+ON_LINE: Final = 0.4
+"""Cost of a cell with a line."""
+
+ON_AXIS: Final = 1.0
+"""Cost of a cell with an axis of a frame."""
+
+TAKEN: Final = 1e6
+"""Cost of a cell that no label may cover."""
+
+SOLID: Final = 1e3
+"""Cost of a cell that only the first label may cover, if it has no other place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,78 +86,87 @@ class Placer:
     Args:
         columns: Width of the picture in cells.
         rows: Height of the picture in cells.
+        asides: Distances in columns that a label may have from its frame's symbol.
     """
 
-    def __init__(self, columns: int, rows: int) -> None:
+    def __init__(self, columns: int, rows: int, asides: tuple[int, ...] = (0,)) -> None:
         self.columns, self.rows = columns, rows
+        self._asides = asides
         self._before: dict[str, tuple[int, int]] = {}
 
-    def placed(
-        self,
-        labels: list[Label],
-        hard: set[tuple[int, int]],
-        soft: set[tuple[int, int]],
-        solid: set[tuple[int, int]] | frozenset[tuple[int, int]] = frozenset(),
-    ) -> list[PlacedLabel]:
+    def placed(self, labels: Sequence[Label], costs: Floats) -> list[PlacedLabel]:
         """Place every label; omit a label that has no room near its frame.
 
         Args:
             labels: Labels, the most important first.
-            hard: Cells (row, column) that no label may cover; the placed labels' cells are added.
-            soft: Cells that a label covers only if it must.
-            solid: Cells that a label covers only if there is no room around them.
+            costs: Cost of each cell for a label that covers it, shape (rows, columns); the cells
+                of placed labels become `TAKEN`.
         """
         found = []
         for label in labels:
             width = cell_len(label.text)
-            large = [one for one in labels if one.reach > SMALL and one is not label]
-            best: tuple[float, int, int] | None = None
-            for cost, column, row in self._places(label, width):
-                if best is not None and cost >= best[0]:
-                    continue
-                cells = [(row, column + offset) for offset in range(width)]
-                if not hard.isdisjoint(cells):
-                    continue
-                cost += 0.4 * len(soft.intersection(cells))
-                cost += 4.0 * len(solid.intersection(cells))
-                # Directly beside another label, the two would read as one word.
-                cost += 3.0 * ((row, column - 1) in hard and column - 1 != label.column)
-                own = _apart(label, column, row, width)
-                cost += 5.0 * any(_apart(one, column, row, width) <= own for one in large)
-                if best is None or cost < best[0]:
-                    best = cost, column, row
-            if best is None:
+            columns, rows, cost = self._places(label, width)
+            if not len(cost):
                 continue
-            _, column, row = best
+            sums = np.pad(np.cumsum(costs, 1), ((0, 0), (1, 0)))
+            cost = cost + sums[rows, columns + width] - sums[rows, columns]
+            # Directly beside another label, the two would read as one word.
+            beside = columns - 1
+            is_joined = (beside >= 0) & (beside != label.column) & (costs[rows, beside] >= TAKEN)
+            cost += 3.0 * is_joined
+            large = [one for one in labels if one.reach > SMALL and one is not label]
+            own = _apart(label, columns, rows, width)
+            closer = np.zeros(len(cost), bool)
+            for other in large:
+                edge, centre = _apart(other, columns, rows, width)
+                closer |= (edge < own[0]) | ((edge == own[0]) & (centre <= own[1]))
+            cost += 5.0 * closer
+            best = int(cost.argmin())
+            if cost[best] >= (TAKEN if label is labels[0] else SOLID):
+                continue
+            column, row = int(columns[best]), int(rows[best])
             self._before[label.name] = column - label.column, row - label.row
-            hard.update((row, column + offset) for offset in range(-1, width + 1))
-            found.append(PlacedLabel(label, column, row, abs(row - label.row) > 2))
+            costs[row, max(0, column - 1) : column + width + 1] = TAKEN
+            away = max(column - label.column, label.column - column - width)
+            is_far = abs(row - label.row) > 2 or away > label.reach + 2
+            found.append(PlacedLabel(label, column, row, is_far))
         return found
 
-    def _places(self, label: Label, width: int) -> Iterator[tuple[float, int, int]]:
-        column, row, reach = label.column, label.row, label.reach
-        right, left = column + reach + 1, column - reach - width
-        middle = column - width // 2
+    def _places(
+        self, label: Label, width: int
+    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], Floats]:
+        """Return column, row and cost of each place of a label, from near to far."""
+        aside, down, cost = _around(label.reach, width, self._asides).T
         before = self._before.get(label.name)
-        least = max(1, (reach + 1) // 2)
-        for down in range(FARTHEST_ROWS + 1):
-            for line in (row,) if down == 0 else (row + down, row - down):
-                if not 0 <= line < self.rows:
-                    continue
-                starts = (right, left) if down < least else (right, left, middle)
-                for place, start in enumerate(starts):
-                    if start < 0 or start + width > self.columns:
-                        continue
-                    cost = 1.5 * down + (0.0, 0.6, 0.3)[place]
-                    if before == (start - column, line - row):
-                        cost -= 1.2
-                    yield cost, start, line
+        if before is not None:
+            cost = cost - 1.2 * ((aside == before[0]) & (down == before[1]))
+        columns, rows = (aside + label.column).astype(int), (down + label.row).astype(int)
+        is_inside = (columns >= 0) & (columns + width <= self.columns)
+        is_inside &= (rows >= 0) & (rows < self.rows)
+        return columns[is_inside], rows[is_inside], cost[is_inside]
 
 
-def _apart(label: Label, column: int, row: int, width: int) -> tuple[float, float]:
-    """Return a label's distance from its frame's symbol and from the symbol's centre, in rows."""
-    nearest = min(max(label.column, column), column + width - 1)
-    across, down = abs(nearest - label.column), abs(row - label.row)
+@lru_cache(maxsize=512)
+def _around(reach: int, width: int, asides: tuple[int, ...]) -> Floats:
+    """Return the places around a symbol: columns to the right, rows down, cost; shape (n, 3)."""
+    found = []
+    for away in range(FARTHEST_ROWS + 1):
+        for down in (away, -away)[: 1 + (away > 0)]:
+            for aside in asides:
+                cost = 1.5 * away + 0.25 * aside
+                found.append((reach + 1 + aside, down, cost))
+                found.append((-reach - width - aside, down, cost + 0.6))
+            if away >= max(1, (reach + 1) // 2):
+                found.append((-(width // 2), down, 1.5 * away + 0.3))
+    return np.array(found, float)
+
+
+def _apart(
+    label: Label, columns: npt.NDArray[np.int64], rows: npt.NDArray[np.int64], width: int
+) -> tuple[Floats, Floats]:
+    """Return the rows between texts and a frame's symbol, and between texts and its centre."""
+    nearest = np.clip(label.column, columns, columns + width - 1)
+    across, down = np.abs(nearest - label.column), np.abs(rows - label.row)
     # A cell is twice as high as wide.
-    edge = max(0, across - label.reach), max(0.0, down - 0.5 * label.reach)
-    return math.hypot(0.5 * edge[0], edge[1]), math.hypot(0.5 * across, down)
+    edge = np.maximum(0, across - label.reach), np.maximum(0.0, down - 0.5 * label.reach)
+    return np.hypot(0.5 * edge[0], edge[1]), np.hypot(0.5 * across, down)

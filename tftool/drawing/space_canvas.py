@@ -15,7 +15,15 @@ from rich.cells import cell_len
 from tftool.base.color import Color
 from tftool.drawing import theme
 from tftool.drawing.cells import NONE, CellSheet, Dots, Line, dots_of, packed
-from tftool.drawing.labels import Label, PlacedLabel, Placer, label_text
+from tftool.drawing.labels import (
+    ON_AXIS,
+    SOLID,
+    TAKEN,
+    Label,
+    PlacedLabel,
+    Placer,
+    label_text,
+)
 from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length
 from tftool.drawing.table_columns import plain
 
@@ -30,11 +38,14 @@ MOST_NAMED: Final = 40
 CELLS_PER_NAME: Final = 150
 """Cells of a picture for each name; in a small picture, more names would hide the robot."""
 
+ASIDES: Final = (0, 2, 4, 7, 10, 14, 18)
+"""Distances in columns between a name and its frame; names keep off the robot."""
+
 MOST_POINTS: Final = 1_000_000
 """Points of triangles that are processed at once, to limit memory."""
 
 _LIGHT: Final = np.array([-0.35, 0.6, 0.72], np.float32)
-_RAMPS: Final = {True: " .:-=+*#%@", False: "  ░░▒▒▓▓██"}
+_RAMPS: Final = {True: " .:=+*#%@", False: "  ░░▒▒▓▓██"}
 
 
 class DepthBuffer(NamedTuple):
@@ -71,6 +82,7 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
+        edges: Mask of the dots where a part of a solid ends in front of another part or of nothing.
         names: For each label, the most important first: the labelled frame, the text, the number of
             frames at this position, and the column and row in dots from the upper left corner.
         grid: Metres between two lines of the grid.
@@ -79,6 +91,7 @@ class DrawnSpace:
     image: Floats
     depth: DepthBuffer
     layers: Sequence[Layer]
+    edges: npt.NDArray[np.bool_]
     names: Sequence[tuple[SpaceFrame, str, int, float, float]]
     grid: float
 
@@ -152,7 +165,7 @@ def drawn(
     palette: theme.Palette = theme.DARK,
     *,
     tinted: bool = True,
-    sparse: bool = False,
+    plain: bool = False,
 ) -> DrawnSpace:
     """Draw a picture in columns × rows of cells.
 
@@ -163,12 +176,14 @@ def drawn(
         rows: Height in cells of four dots.
         palette: Colours of the screen.
         tinted: Whether the solid under the cursor takes the colour of the cursor.
-        sparse: Whether the ground is a dot at each crossing of its grid, in place of lines.
+        plain: Whether to draw for a terminal without colours: the ground is a dot at each crossing
+            of its grid, and on a robot only the frame under the cursor has axes and a line.
     """
     width, height = 2 * columns, 4 * rows
     poses = {one.name: one.pose for one in picture.frames}
     solids = picture.solids
     image = np.zeros((height, width, 3), np.float32)
+    edges = np.zeros((height, width), bool)
     if solids is None:
         depth = rasterise(np.zeros((0, 3), np.float32), np.zeros((0, 3), int), width, height)
     else:
@@ -187,16 +202,22 @@ def drawn(
         image[found] = 255.0 * colors * shades[:, None]
         whose = np.full(depth.owners.shape, -1)
         whose[found] = parts
-        image[_edges(whose, depth.depths)] *= 0.6
+        edges = _edges(whose, depth.depths)
+        image[edges] *= 0.6
+        edges |= _outline(found)
     places = view.project(np.array([one.pose.translation for one in picture.frames]).reshape(-1, 3))
     names = [
         (one, name, count, 0.5 * width + x, 0.5 * height - y)
         for one, name, count, (x, y, _) in _named(picture, places.tolist())
     ]
-    ground = _ground(picture, view, sparse=sparse)
+    ground = _ground(picture, view, sparse=plain)
     layers = [Layer(theme.paper(palette).grid, view.project(ground), is_hidden=True)]
-    layers += _layers(picture, view, rows, palette)
-    return DrawnSpace(image, depth, layers, names, view.grid)
+    is_robot = solids is not None and len(solids.triangles) > 0
+    lined = [
+        one for one in picture.frames if not (plain and is_robot) or one.name == picture.chosen
+    ]
+    layers += _layers(picture, view, rows, palette, lined)
+    return DrawnSpace(image, depth, layers, edges, names, view.grid)
 
 
 def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
@@ -236,6 +257,15 @@ def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
     return edge
 
 
+def _outline(found: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """Return a mask of the outermost points of solids."""
+    around = np.pad(found, 1)
+    inner: npt.NDArray[np.bool_] = found & (
+        around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
+    )
+    return found & ~inner
+
+
 def _named(
     picture: SpacePicture, places: Sequence[Sequence[float]]
 ) -> list[tuple[SpaceFrame, str, int, Sequence[float]]]:
@@ -273,9 +303,16 @@ def _named(
 
 
 def _layers(
-    picture: SpacePicture, view: Viewpoint, rows: int, palette: theme.Palette
+    picture: SpacePicture,
+    view: Viewpoint,
+    rows: int,
+    palette: theme.Palette,
+    lined: Sequence[SpaceFrame],
 ) -> list[Layer]:
-    """Return the lines in drawing order: trails, lines to parents, the pair, axes."""
+    """Return the lines in drawing order: trails, lines to parents, the pair, axes.
+
+    Only the frames in `lined` have axes and a line to their parent.
+    """
     paper = theme.paper(palette)
     poses = {one.name: one.pose for one in picture.frames}
     layers = []
@@ -286,7 +323,7 @@ def _layers(
         layers.append(Layer(color, view.project(ends)))
     links = [
         (one.pose.translation, poses[one.parent].translation)
-        for one in picture.frames
+        for one in lined
         if one.parent in poses
     ]
     layers.append(Layer(paper.link, view.project(np.array(links, float).reshape(-1, 2, 3))))
@@ -296,7 +333,7 @@ def _layers(
     length = axis_length(view, rows)
     for number, color in enumerate((paper.x_axis, paper.y_axis, paper.z_axis)):
         axis = tuple(length * (place == number) for place in range(3))
-        ends = [(one.pose.translation, one.pose.apply(axis)) for one in picture.frames]
+        ends = [(one.pose.translation, one.pose.apply(axis)) for one in lined]
         layers.append(Layer(color, view.project(np.array(ends, float).reshape(-1, 2, 3))))
     return layers
 
@@ -345,7 +382,7 @@ class SpaceCanvas:
         self.columns, self.rows = columns, rows
         self._palette, self._tones, self._ascii = palette, tones, ascii_only
         self._has_halves = tones == "full" and not ascii_only
-        self._placer = Placer(columns, rows)
+        self._placer = Placer(columns, rows, ASIDES)
         self._sheet: CellSheet | None = None
         self._places: list[tuple[float, float, str]] = []
 
@@ -354,18 +391,21 @@ class SpaceCanvas:
         columns, rows = self.columns, self.rows
         if not columns or not rows:
             return [[] for _ in range(rows)]
-        tinted = self._tones == "full"
-        drawing = drawn(
-            picture, view, columns, rows, self._palette, tinted=tinted, sparse=self._ascii
-        )
+        tinted, plain = self._tones == "full", self._ascii or self._tones == "none"
+        drawing = drawn(picture, view, columns, rows, self._palette, tinted=tinted, plain=plain)
         self._places = [(x / 2.0, y / 4.0, one.name) for one, _, _, x, y in drawing.names]
         sheet = self._shaded(drawing)
         # A cell with a line shows one colour of the solid: of its upper half, else the lower.
         halves = sheet.inks if self._has_halves else sheet.grounds
-        dots = self._dotted(drawing)
+        # Lines of the ground never cover a cell of a solid.
+        solid = _solid(drawing, columns, rows)
+        ground = self._dotted(drawing, drawing.layers[:1])
+        ground.masks[solid] = 0
+        sheet.lay(ground, ascii_only=self._ascii)
+        dots = self._dotted(drawing, drawing.layers[1:])
         sheet.grounds = np.where(dots.masks > 0, halves, sheet.grounds)
         marked = sheet.lay(dots, ascii_only=self._ascii)
-        self._name(drawing, picture.chosen, sheet, marked)
+        self._name(drawing, picture.chosen, sheet, marked, solid)
         if self._tones == "none":
             sheet.inks[:], sheet.grounds[:] = NONE, NONE
         lines = sheet.lines(self._sheet)
@@ -399,6 +439,11 @@ class SpaceCanvas:
             # The character shows the brightness, its colour only the hue.
             hue = mean * (230.0 / np.maximum(mean.max(1, keepdims=True), 1.0))
             sheet.inks[some] = _few_shades(hue)
+            if self._ascii:
+                down, across = np.nonzero(drawing.edges)
+                strokes = Dots(columns, rows)
+                strokes.mark(across, down, NONE)
+                sheet.lay(strokes, sheet.inks, ascii_only=True)
             return sheet
         count = found.reshape(rows, 2, 2, columns, 2).sum((2, 4))
         color = drawing.image.reshape(rows, 2, 2, columns, 2, 3).sum((2, 4))
@@ -412,13 +457,11 @@ class SpaceCanvas:
         sheet.grounds[both] = lower[both]
         return sheet
 
-    def _dotted(self, drawing: DrawnSpace) -> Dots:
-        """Return the lines as braille dots; a cell has the colour of its last line."""
+    def _dotted(self, drawing: DrawnSpace, layers: Sequence[Layer]) -> Dots:
+        """Return lines as braille dots; a cell has the colour of its last line."""
         columns, rows = self.columns, self.rows
-        # Lines of the ground never cover a cell of a solid.
-        free = np.logical_not(_solid(drawing, columns, rows))
         dots = Dots(columns, rows)
-        for layer in drawing.layers:
+        for layer in layers:
             ends = layer.ends * [1, -1, 1] + [columns, 2 * rows, 0]
             across, down, points, _ = dots_of(ends, 2 * columns, 4 * rows)
             if layer.is_hidden:
@@ -426,11 +469,16 @@ class SpaceCanvas:
                 across, down = across[seen], down[seen]
             mine = Dots(columns, rows)
             mine.mark(across, down, packed(layer.color))
-            dots.cover(mine, free if layer.is_hidden else None)
+            dots.cover(mine)
         return dots
 
     def _name(
-        self, drawing: DrawnSpace, chosen: str, sheet: CellSheet, marked: npt.NDArray[np.bool_]
+        self,
+        drawing: DrawnSpace,
+        chosen: str,
+        sheet: CellSheet,
+        marked: npt.NDArray[np.bool_],
+        solid: npt.NDArray[np.bool_],
     ) -> None:
         """Write the names of frames into a sheet, where they cover no other name."""
         named: dict[str, tuple[SpaceFrame, int]] = {}
@@ -442,16 +490,19 @@ class SpaceCanvas:
                 text = label_text(name, one.age, self.columns, 18, ascii_only=self._ascii)
                 labels.append(Label(one.name, text, column, row, 1))
                 named[one.name] = one, count
-        # Names beside a robot are easier to read than names on it.
-        solid = _solid(drawing, self.columns, self.rows)
+        # Names beside a robot are easier to read than names on it, and a gap keeps them apart.
+        near = solid.copy()
+        near[:, 1:] |= solid[:, :-1]
+        near[:, :-1] |= solid[:, 1:]
+        costs = ON_AXIS * marked + SOLID * near
         total = sum(count for _, _, count, _, _ in drawing.names)
         hint = f"grid {drawing.grid:g} m"
         # The longest hint that the picture may need keeps its place free.
-        taken = {(self.rows - 1, column) for column in range(len(hint) + 24)}
+        costs[-1, : len(hint) + 24] = TAKEN
         palette = self._palette
         told = 0
         leaders = Dots(self.columns, self.rows)
-        found = self._placer.placed(labels, taken, _places(marked), _places(solid))
+        found = self._placer.placed(labels, costs)
         for placed in found:
             told += named[placed.label.name][1]
             if placed.is_far:
@@ -476,11 +527,6 @@ def _solid(drawing: DrawnSpace, columns: int, rows: int) -> npt.NDArray[np.bool_
     points = (drawing.depth.owners >= 0).reshape(rows, 4, columns, 2)
     cells: npt.NDArray[np.bool_] = np.logical_or.reduce(points, (1, 3))
     return cells
-
-
-def _places(cells: npt.NDArray[np.bool_]) -> set[tuple[int, int]]:
-    """Return row and column of each true cell."""
-    return set(zip(*(place.tolist() for place in np.nonzero(cells)), strict=True))
 
 
 def _leader(placed: PlacedLabel) -> npt.NDArray[np.float64]:

@@ -18,7 +18,7 @@ from tftool.base.plain_text import visible
 from tftool.drawing import theme
 from tftool.drawing.labels import Label, PlacedLabel, Placer
 from tftool.drawing.space import OrbitCamera, SpacePicture
-from tftool.drawing.space_canvas import MOST_NAMED, DrawnSpace, corners_of, drawn
+from tftool.drawing.space_canvas import ASIDES, MOST_NAMED, DrawnSpace, corners_of, drawn
 
 COLUMNS, ROWS = 640, 220
 """Width and height of the picture in cells of 2 × 4 points."""
@@ -41,7 +41,9 @@ def drawn_file(
         Label(one.name, visible(name), round(x / _WIDE), round(y / _HIGH), 1)
         for one, name, _, x, y in sheet.names[:MOST_NAMED]
     ]
-    placed = Placer(2 * COLUMNS // _WIDE, 4 * ROWS // _HIGH).placed(labels, set(), set())
+    columns, rows = 2 * COLUMNS // _WIDE, 4 * ROWS // _HIGH
+    solid = (sheet.depth.owners >= 0).reshape(rows, _HIGH, columns, _WIDE).any((1, 3))
+    placed = Placer(columns, rows, ASIDES).placed(labels, np.where(solid, 4.0, 0.0))
     if form == "svg":
         return _svg(sheet, placed, palette, title).encode()
     return _png(sheet, placed, palette)

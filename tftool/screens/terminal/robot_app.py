@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import ClassVar
 
+from rich.cells import cell_len
 from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
@@ -188,12 +189,7 @@ class RobotApp(PanelApp):
         self.panel("header").show([Text(padded(title, width, more=look.more), strong)])
         panel = self.panel("joints")
         columns, rows = panel.size
-        place = next((n for n, one in enumerate(shown) if one.is_chosen), 0)
-        # Before the first layout there are no rows, and after a resize there may be more.
-        most = max(0, len(shown) - rows)
-        self._first = min(most, max(min(self._first, place), place - rows + 1, 0))
-        lines = self._rows(shown[self._first : self._first + rows], columns)
-        panel.show(lines or [Text("This robot has no joint that moves.")])
+        panel.show(self._sliders(columns, rows) or [Text("This robot has no joint that moves.")])
         self.panel("pose").show(self._pose(*self.panel("pose").size))
         self.panel("footer").show([self._footer(width)])
         self._draw_space()
@@ -217,11 +213,28 @@ class RobotApp(PanelApp):
         joint = self.sliders.chosen
         return self.prefix + (self.link if joint is None else joint.child)
 
+    def _sliders(self, columns: int, rows: int) -> list[Text]:
+        """Return a line for each joint that fits, around the chosen one; then count the others."""
+        shown = self.sliders.sliders
+        if len(shown) > rows > 2:
+            # The last line says how many joints are not shown.
+            rows -= 1
+        place = next((n for n, one in enumerate(shown) if one.is_chosen), 0)
+        # Before the first layout there are no rows, and after a resize there may be more.
+        most = max(0, len(shown) - rows)
+        self._first = min(most, max(min(self._first, place), place - rows + 1, 0))
+        lines = self._rows(shown[self._first : self._first + rows], columns)
+        above, below = self._first, len(shown) - self._first - len(lines)
+        if above or below:
+            hidden = [f"{n} more {where}" for n, where in ((above, "above"), (below, "below")) if n]
+            lines.append(Text(f"  {', '.join(hidden)}", self.look.ink(self.look.palette.accent)))
+        return lines
+
     def _rows(self, shown: Sequence[Slider], width: int) -> list[Text]:
         look = self.look
         names = max((len(one.joint.name) for one in shown), default=0)
         limits = width >= 72
-        room = width - (36 if limits else 16)
+        room = width - (35 if limits else 15)
         # Names are cut only if the bar would become too short.
         name_width = min(names, max(10, room - LEAST_BAR))
         return [self._row(one, name_width, room - name_width, limits, look) for one in shown]
@@ -235,10 +248,10 @@ class RobotApp(PanelApp):
         if one.is_chosen and self.sliders.entry:
             value = f"{self.sliders.entry}_"
         else:
-            value = "?" if one.position is None else f"{one.position:.4f}"
+            value = "?" if one.position is None else f"{one.position:z.4f}"
         line = Text.assemble((f"{mark} {name} ", weak if one.follows else ink))
         line.append(_bar(one, bar_width, look), weak if one.follows else ink)
-        line.append(f" {value:>8} {one.joint.unit:<3}", weak if one.follows else ink)
+        line.append(f" {value:>7} {one.joint.unit:<3}", weak if one.follows else ink)
         if limits:
             lower, upper = one.range
             dots = ".." if look.ascii_only else "…"
@@ -265,8 +278,8 @@ class RobotApp(PanelApp):
             return [heading, *wrapped(str(error), width, look.ink(look.palette.warning))][:height]
         x, y, z = found.transform.translation
         roll, pitch, yaw = rpy_from_quaternion(found.transform.rotation)
-        place = f"xyz {x:.4f} {y:.4f} {z:.4f} m"
-        turn = f"rpy {roll:.4f} {pitch:.4f} {yaw:.4f} rad"
+        place = f"xyz {x:z.4f} {y:z.4f} {z:z.4f} m"
+        turn = f"rpy {roll:z.4f} {pitch:z.4f} {yaw:z.4f} rad"
         if height < 4:
             return [heading, Text(f"{place}   {turn}")]
         lines = [heading, Text(place), Text(turn), self._joint(width)]
@@ -286,7 +299,7 @@ class RobotApp(PanelApp):
             except TransformException:
                 continue
             name = padded(self.prefix + link, name_width, more=look.more)
-            numbers = "".join(f"{round(one, 3) + 0.0:8.3f}" for one in place.transform.translation)
+            numbers = "".join(f"{one:z8.3f}" for one in place.transform.translation)
             color = look.palette.accent if link == self.link else look.of_name(self.prefix + link)
             chosen = len(lines) if link == self.link else chosen
             lines.append(Text.assemble((name, look.ink(color)), numbers))
@@ -307,8 +320,12 @@ class RobotApp(PanelApp):
         limits = "no limits"
         if joint.limits is not None:
             limits = f"{joint.limits[0]:.3g} to {joint.limits[1]:.3g} {joint.unit}"
-        words = f"{joint.name}: {joint.type}, {limits}"
-        return Text(fitted(words, width, more=look.more), look.ink(look.palette.dim))
+        # In a narrow panel, the limits are more important than the type and the whole name.
+        words = f": {joint.type}, {limits}"
+        if cell_len(joint.name + words) > width:
+            words = f": {limits}"
+        name = fitted(joint.name, max(1, width - cell_len(words)), more=look.more)
+        return Text(fitted(name + words, width, more=look.more), look.ink(look.palette.dim))
 
     def _footer(self, width: int) -> Text:
         look = self.look
