@@ -1,7 +1,8 @@
 /* Arithmetic of a lookup: find samples, interpolate between them, compose links.
 
-   Pure C, without Python. Each function has a twin in Python (`history`, `geometry.poses`, `path`,
-   `batch/`) with the same operations in the same order, except that short arcs use a series. */
+   Pure C, without Python. Each function has a twin: a function in Python (`history`, `solver`,
+   `geometry.poses`, `batch/`) with the same operations in the same order, except that short arcs
+   use a series here. */
 
 #ifndef TFTOOL_CHAIN_H
 #define TFTOOL_CHAIN_H
@@ -28,21 +29,21 @@
 #define WIDE
 #endif
 
-/* Rows solved together: their work memory fits in the first-level cache and in the stack of a small
-   thread, and the compiler vectorises each loop. */
+/* Number of rows that are solved together. Their work memory fits in the first-level cache and in
+   the stack of a small thread, and the compiler vectorises each loop. */
 #define BLOCK 64
 
 /* Poses as a structure of arrays: `width` numbers x, then y, z, qx, qy, qz, qw. A single lookup
    uses the same functions, with a width of 1. */
 typedef double Rows[7 * BLOCK];
 
-/* A sample, as in `history`: a stamp in nanoseconds; x y z, qx qy qz qw. */
+/* A sample as in `history`: the stamp in nanoseconds, x y z, qx qy qz qw. */
 typedef struct {
     int64_t stamp;
     double pose[7];
 } Record;
 
-/* A link opened for lookups: records in order of stamps, or a static pose. */
+/* A link (pose of a child in its parent) opened for lookups: sorted records, or a static pose. */
 typedef struct {
     const Record *records; /* NULL for a static link: see `fixed`. */
     ptrdiff_t last;
@@ -54,8 +55,8 @@ typedef struct {
 
 /* Search ----------------------------------------------------------------- */
 
-/* Guess the index of the record before a time from the mean rate of the samples, and prefetch that
-   record and the next. Less than `last`, if there are two records. */
+/* Guess the index of the record before a time from the mean rate of the samples. Prefetch that
+   record and the next. If there are two records, the index is less than `last`. */
 INLINE ptrdiff_t aim(const Edge *edge, int64_t time) {
     const double most = edge->last > 0 ? (double)(edge->last - 1) : 0.0;
     double at = ((double)time - (double)edge->oldest) * edge->rate;
@@ -67,8 +68,8 @@ INLINE ptrdiff_t aim(const Edge *edge, int64_t time) {
 }
 
 /* Return the index of the last record at or before a time, given stamp[0] <= time < stamp[last]
-   and a guess. Corrects the guess twice by the mean rate, then bisects. Whatever the stamps are
-   (another thread may be writing them), the index is less than `last`. */
+   and a guess. Corrects the guess twice by the mean rate, then bisects. The index is less than
+   `last` even if another thread writes the stamps meanwhile. */
 static ptrdiff_t find(const Edge *edge, int64_t time, ptrdiff_t at) {
     const Record *records = edge->records;
     ptrdiff_t low = 0, high = edge->last;
@@ -103,15 +104,15 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
         ptrdiff_t at = places[i];
         if (edge->oldest < time && time < edge->newest) {
             if (width > 1) {
-                /* Mostly this record or a neighbour. No branches: in a batch they are
-                   mispredicted. */
+                /* Usually this record or a neighbour. Branches would be mispredicted in a batch,
+                   so there are none. */
                 at -= (at > 0) & (records[at].stamp > time);
                 at += (at < last - 1) & (records[at + 1].stamp <= time);
             }
             if (!(records[at].stamp <= time && time < records[at + 1].stamp))
                 at = find(edge, time, at);
         }
-        else /* Of equal stamps: the last one at the newest end, the first one at the oldest. */
+        else /* Of equal stamps, the newest end uses the last sample, the oldest the first. */
             at = time == edge->oldest && time != edge->newest ? 0 : last;
         const Record *here = records + at, *next = here + (at < last);
         const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
@@ -248,7 +249,7 @@ typedef struct {
     ptrdiff_t *places;
 } Workspace;
 
-/* Compose the poses of several links, lowest first, at each time: `path.chain`. */
+/* Compose the poses of several links, lowest first, at each time: `solver.chain`. */
 INLINE void compose_links(const Edge *edges, ptrdiff_t count, const int64_t *times, int n,
                           int width, double *pose, const Workspace *work) {
     double *const step = work->step;
@@ -257,8 +258,8 @@ INLINE void compose_links(const Edge *edges, ptrdiff_t count, const int64_t *tim
         if (count > 0 && edges[e].records != NULL) {
             fetch(&edges[e], times, n, width, work->first, work->second, work->fraction,
                   work->places);
-            /* A single time at which there is a sample, as for most of the newest: 7 % of a
-               lookup. */
+            /* A single time that is the stamp of a sample, as in most lookups of the latest
+               pose, needs no interpolation. This saves 7 % of a lookup. */
             if (width == 1 && work->fraction[0] == 0.0)
                 memcpy(out, work->first, 7 * sizeof *out);
             else
@@ -304,8 +305,8 @@ INLINE void solve_one(const Chain *chain, int64_t time, double *pose) {
     solve_chain(chain, &time, 1, 1, pose, &work);
 }
 
-/* Write the poses of source in target at many times, block by block; a row without data is NaN and
-   its `valid` 0. Returns the number of these rows. */
+/* Write the poses of source in target at many times, block by block. A row without data becomes
+   NaN, and its `valid` 0. Returns the number of rows without data. */
 WIDE static ptrdiff_t solve_rows(const Chain *chain, ptrdiff_t rows, const int64_t *times,
                                   double *places, double *turns, unsigned char *valid) {
     ptrdiff_t missing = 0;

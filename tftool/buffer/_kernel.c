@@ -1,13 +1,13 @@
 /* Native kernel: the inner loops of a lookup, an insert and a batch.
 
-   Everything here has a twin in Python (`history`, `path`, `geometry.poses`, `batch/`), which is
-   the readable version; the tests run on both. Rules:
+   Every function here has a twin: a function in Python (`history`, `solver`, `geometry.poses`,
+   `batch/`) with the same result, which is the readable version. The tests run on both. Rules:
 
    - A function either does exactly what its twin does, with the same operations in the same order
      (built with -ffp-contract=off), or changes nothing and lets the twin run. Unusual cases (a
      refusal, a link that changes parents, a number that is no float, a full array) go to the twin.
    - Between calls it stores only which pairs of frames were looked up recently. Samples are in
-     arrays that Python owns; they are read and written through the buffer protocol, and every
+     arrays that Python owns. They are read and written through the buffer protocol, and every
      index and length is checked against the buffer.
    - Any call into Python may run the collector, and thereby code that changes or frees what this
      file points to. So every object used across such a call is owned (a reference of ours), and
@@ -53,8 +53,8 @@ typedef struct {
     allocfunc allocate;          /* A tuple's memory, cleared. */
 } Types;
 
-/* The tuples of a result: module and name of each type, and the arguments of its constructor that
-   give a tuple of the right size. */
+/* The tuple types of a result: module and name, and the arguments of the constructor that give a
+   tuple of the right size. */
 enum { VECTOR, QUATERNION, TRANSFORM, STAMPED };
 static const Py_ssize_t SIZES[4] = {3, 4, 2, 4};
 static const struct {
@@ -97,7 +97,7 @@ static int read_stamp(PyObject *stamp, int64_t *value) {
    whether the kernel can read them; never sets an error. */
 static int read_records(const Link *link, int flags, Py_buffer *view) {
     /* From 3.12 on this may run Python code (`__buffer__`), which may change the link and its
-       records: so own the records meanwhile, and check every number afterwards. */
+       records. So own the records meanwhile, and check every number afterwards. */
     PyObject *records = Py_NewRef(link->records);
     const int opened = PyObject_GetBuffer(records, view, flags);
     Py_DECREF(records);
@@ -271,8 +271,9 @@ static PyObject *pack(PyObject **links, Py_ssize_t count) {
 /* Number of pairs in the table of recent lookups. A pair has one possible place in it. */
 #define SEEN 4096
 
-/* Whether a pair was looked up recently; if not, store it. Python caches the path of a pair that
-   is looked up again; a pair that is looked up once takes no memory. Never sets an error. */
+/* Whether a pair of frames was looked up recently; if not, remember the pair. Python caches the
+   path of a pair only at its second lookup, so that a single lookup takes no memory. Never sets an
+   error. */
 static int is_second(Door *door, int64_t target, int64_t source) {
     const int64_t pair = (target + 1) << 32 ^ source;
     const Py_ssize_t size = SEEN * sizeof pair;
@@ -286,8 +287,8 @@ static int is_second(Door *door, int64_t target, int64_t source) {
     char *place = PyByteArray_AsString(door->_seen) + mixed / (UINT64_MAX / SEEN + 1) * sizeof pair;
     int64_t held;
     memcpy(&held, place, sizeof held);
-    /* Two pairs that share a place and alternate would replace each other for ever: so the older
-       one stays every second time, at random (with the constants of C's `rand`). */
+    /* Two pairs with one place that are looked up in turn would always replace each other. So the
+       older pair stays every second time, at random (with the constants of C's `rand`). */
     door->random = door->random * 1103515245 + 12345;
     if (held == 0 || door->random >> 31)
         memcpy(place, &pair, sizeof pair);
@@ -295,7 +296,8 @@ static int is_second(Door *door, int64_t target, int64_t source) {
 }
 
 /* Return the links between two frames without a cached path as `(up, down)`, a new reference, as
-   `FrameTree.walk` does if every link has data. NULL, without an error, if the twin must answer. */
+   `FrameTree.walk` finds them if every link has data. NULL, without an error, if the twin must
+   find them. */
 static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject *source) {
     PyObject *up[MOST_LINKS], *down[MOST_LINKS], *path = NULL;
     PyObject *first = value_of(door->_numbers, source), *last = value_of(door->_numbers, target);
@@ -326,8 +328,8 @@ static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject
     return path;
 }
 
-/* Return a new tuple of one of the types, to be filled; NULL with an error set on failure. It is
-   not tracked by the collector: numbers and plain strings form no cycle. */
+/* Return a new tuple of one of the types, to be filled; NULL with an error set on failure. The
+   collector does not track the tuple, because numbers and plain strings form no cycle. */
 static PyObject *blank(const Types *types, int i) {
     /* From 3.14 on a tuple stores its hash. Cleared memory would be a hash of 0; only Python's own
        constructor marks it as unknown, and that needs a tuple to copy. */
@@ -348,8 +350,8 @@ static PyObject *set(PyObject *tuple, Py_ssize_t place, PyObject *item) {
     return NULL;
 }
 
-/* Return a new TransformStamped whose pose has no numbers yet; NULL, without an error, without
-   memory. */
+/* Return a new TransformStamped whose pose has no numbers yet; NULL, without an error, if there is
+   no memory. */
 static PyObject *prepare(const Types *types, int64_t stamp, PyObject *target, PyObject *source) {
     PyObject *made = blank(types, STAMPED), *transform = set(made, 3, blank(types, TRANSFORM));
     if (set(transform, 0, blank(types, VECTOR)) && set(transform, 1, blank(types, QUATERNION))
@@ -452,7 +454,7 @@ METHOD(can_transform) {
         ? Py_NewRef(Py_True) : PLAINLY(can_transform);
 }
 
-/* `solve_path` where target and source may be the same frame: another path has found its name. */
+/* Like `solve_path`, but both frames may be the same, if the other lookup has found that frame. */
 static int solve_leg(Door *door, const Types *types, PyObject *target, PyObject *source,
                      int64_t *time, double *pose) {
     for (int k = 0; k < 7; k++)
@@ -461,7 +463,7 @@ static int solve_leg(Door *door, const Types *types, PyObject *target, PyObject 
         || solve_path(door, types, target, source, time, pose, NULL);
 }
 
-/* Two lookups, composed. Python answers or refuses in all other cases. */
+/* The product of two lookups. In all other cases the twin answers or raises the error. */
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
     Door *buffer = (Door *)self;
@@ -506,11 +508,11 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
           && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
     const int is_full = link->start > SLACK + link->count / SLACK_PART;
-    /* `is_free` comes before the checks below, as it may change anything read before it. */
+    /* `is_free` may change anything read before it, so it comes before the checks below. */
     if (link->records == NULL || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
         || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
-    /* No Python code runs from here until the records are released, so these facts stay true. */
+    /* Until the records are released no Python code runs, so these facts stay true. */
     if (link->origins != Py_None || link->origin != origin || link->limit < 0
         || is_full != (link->start > SLACK + link->count / SLACK_PART)) {
         PyBuffer_Release(&view);
@@ -571,7 +573,7 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     double pose[7];
     if (Py_TYPE(sample) != types->tuples[STAMPED] || PyTuple_Size(sample) != 4)
         return 0;
-    /* Owned until the end: code that runs during the insert may drop it from the buffer. */
+    /* Owned until the end, because code that runs during the insert may drop it from the buffer. */
     PyObject *sender = value_of(door->_senders, PyTuple_GetItem(sample, 2));
     PyObject *transform = PyTuple_GetItem(sample, 3), *link;
     const int done = is_tuple(sender, 4)
@@ -609,7 +611,7 @@ METHOD(set_transform) {
 /* Batch lookups ----------------------------------------------------------- */
 
 PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\n--\n\n"
-"Write the poses of a path at many times, NaN if a link has no data. Returns the number of rows\n"
+"Write the poses of a path at many times, NaN where there is no data. Returns the number of rows\n"
 "without data, or None if the kernel cannot use a link. Other Python threads run meanwhile; the\n"
 "records must not change.");
 
@@ -687,8 +689,8 @@ COLLECTED(door, 7)
 #define ENTRY(name, doc) {#name, (PyCFunction)(void (*)(void))name, CALL, #name doc}
 static PyMethodDef door_methods[] = {
     ENTRY(set_transform, "($self, transform, authority='')\n--\n\n"
-        "Insert a sample of a moving link, published by `authority`.\n\n"
-        "Returns True if stored; False, with a line in the log, if refused. Nothing is lost."),
+        "Insert one sample of a moving frame, published by `authority`.\n\n"
+        "Returns True if stored; False, with a line in the log, if refused."),
     ENTRY(lookup_transform, "($self, target_frame, source_frame, time=0)\n--\n\n"
         "Return the pose of source in target, which maps points from source to target.\n\n"
         "A `time` of 0 means the newest stamp for which the whole chain has data. The stamp of\n"
@@ -700,7 +702,7 @@ static PyMethodDef door_methods[] = {
         "Both are looked up relative to `fixed_frame`, which is assumed not to move in between.\n\n"
         "Raises TransformException as `lookup_transform` does; frames are always checked."),
     ENTRY(can_transform, "($self, target_frame, source_frame, time=0)\n--\n\n"
-        "Whether `lookup_transform` would succeed; never raises for a name or a time."),
+        "Whether `lookup_transform` would succeed; false for an unknown frame or missing data."),
     {NULL, NULL, 0, NULL},
 };
 static PyMethodDef no_methods[] = {{NULL, NULL, 0, NULL}};

@@ -1,6 +1,6 @@
-/* Test of a sample that a history stores unchanged, for the kernel and for the scan of recordings.
+/* Test whether a history can store a sample unchanged, for the kernel and the scan of recordings.
 
-   Its twin is `batch.insert.adopt`. */
+   The same test in Python is in `batch.insert.adopt`. */
 
 #ifndef TFTOOL_PATH_H
 #define TFTOOL_PATH_H

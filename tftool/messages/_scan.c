@@ -1,7 +1,8 @@
 /* Native scan: find the transforms of many recorded messages and write them into columns.
 
-   `transform_rows.walk` is the readable twin in Python; `columns` in `recordings/` uses numpy where
-   there is no compiler. The tests run on both. Rules, as in the kernel of `buffer/`:
+   `transform_rows.walk` is its twin: the readable version in Python. Without a compiler,
+   `message_cutter` in `recordings/` uses numpy. The tests run on both. Rules, as in the kernel of
+   `buffer/`:
 
    - A message is either read exactly as the twin reads it, or left to the twin. The twin also judges
      everything unusual about a message (byte order, a length that does not fit, bytes left over),
@@ -27,7 +28,7 @@
 #define LONGEST_NAME 4096        /* As in `transform_rows`. */
 /* Limits on hostile files; messages beyond them are left to the twin. */
 #define MOST_PAIRS (1 << 17)     /* Pairs of names in the table. */
-#define MOST_LOOKS 256           /* Pairs with one hash, as only a file made for that purpose has. */
+#define MOST_LOOKS 256           /* Pairs with one hash: only a file made for an attack has more. */
 #define MOST_BYTES (16 << 20)    /* Bytes of all names together. */
 #define RECORD 64                /* Bytes of a sample: a stamp and seven doubles. */
 #define HEAD 31                  /* Bytes of an MCAP message record before its payload. */
@@ -57,12 +58,12 @@ static inline int64_t i64_at(const char *words, Py_ssize_t index) {
 
 /* Pairs of frame names --------------------------------------------------- */
 
-/* A pair of names, stored as the bytes of the message from the first length to the end of the
-   second name: one comparison then checks both names, their lengths and the padding. */
+/* A pair of names, stored as the bytes of a message from the first length to the end of the second
+   name. So one comparison checks both names, their lengths and the padding. */
 typedef struct {
     uint32_t hash, place, size; /* First byte in `bytes`, number of bytes. */
     uint32_t parent, child;     /* Bytes of each name: the parent after its length, the child at the end. */
-    uint32_t next;              /* Guess of the following pair: the one that followed last time. */
+    uint32_t next;              /* Guess of the next pair: the pair that followed last time. */
     int32_t target;             /* Number of its columns, or UNKNOWN or NOWHERE. */
     int32_t slashed;            /* Whether a leading slash of a name was dropped. */
 } Pair;
@@ -110,7 +111,7 @@ static uint32_t hash_of(const uint8_t *bytes, uint32_t size, uint64_t hash) {
     return (uint32_t)(hash ^ hash >> 32);
 }
 
-/* Whether `size` bytes, at least 8, are equal. Mostly a few words, for which memcmp costs more. */
+/* Whether `size` bytes, at least 8, are equal. For a few words, as usual, memcmp costs more. */
 static inline int same(const uint8_t *one, const uint8_t *other, uint32_t size) {
     for (uint32_t i = 0; i + 8 < size; i += 8) {
         if (u64_at(one + i) != u64_at(other + i))
@@ -225,7 +226,7 @@ static inline int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int
     for (uint64_t row = 0; row < count; row++) {
         const uint64_t stamp = is_cdr ? position : position + 4, begin = stamp + 8;
         if (*last < self->count) {
-            /* Publishers send the same frames in the same order: so compare with the pair that
+            /* Publishers send the same frames in the same order. So compare with the pair that
                followed last time, before the table is searched. */
             const uint32_t number = self->pairs[*last].next;
             const Pair *pair = &self->pairs[number];
@@ -286,14 +287,14 @@ static void release_all(Py_buffer *views, int count) {
 
 /* Columns ---------------------------------------------------------------- */
 
-/* Append one transform to the columns of its edge; returns whether there was room. Called without
-   the GIL: touches only memory that the views own. */
+/* Append one transform to the columns of its edge; returns whether there was room. It runs without
+   the GIL, so it touches only memory that the views own. */
 static inline int is_written(Pairs *self, const uint8_t *bytes, const Found *found, int32_t message) {
     const Pair *pair = &self->pairs[found->pair];
     Target *target = &self->targets[pair->target];
     int64_t *state = target->state.buf;
     const int64_t row = state[COUNT];
-    /* Another reader may have replaced the columns since `aim`: then `ask` must aim again. */
+    /* Another reader may have replaced the columns since `aim`. Then `ask` must call `aim` again. */
     if (state[MOVED] != target->moved || row < 0 || row >= target->room)
         return 0;
     char *record = (char *)target->records.buf + RECORD * row;
@@ -382,7 +383,7 @@ static PyObject *take(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     for (Py_ssize_t k = 0; k < messages && !failed && !is_told; k++) {
         const uint8_t *bytes = buffer + i64_at(views[1].buf, k);
         const uint64_t length = (uint64_t)i64_at(views[2].buf, k);
-        /* Inlined twice, so that each copy is compiled for one layout. */
+        /* Two calls, so that the compiler makes a copy of the function for each layout. */
         const int64_t transforms = is_cdr ? walk(self, bytes, length, 1, &last) : walk(self, bytes, length, 0, &last);
         int32_t message;
         memcpy(&message, (const char *)views[3].buf + 4 * k, sizeof message);
@@ -450,7 +451,7 @@ static PyObject *aim(PyObject *object, PyObject *const *arguments, Py_ssize_t co
         goto failed;
     }
     if (number == self->targeted) {
-        /* Doubled whenever the number is a power of two, so no capacity is stored. */
+        /* The array is doubled when the number is a power of two, so no capacity is stored. */
         if ((number & (number - 1)) == 0
             && !grow((void **)&self->targets, (uint64_t)(number ? 2 * number : 1) * sizeof *self->targets)) {
             PyErr_NoMemory();
@@ -607,7 +608,7 @@ static PyObject *pointed(PyObject *module, PyObject *const *arguments, Py_ssize_
         if (place + 8 > size)
             break;
         const uint64_t length = u32_at(data + place);
-        /* `code` and `owner` are offsets of fields in the first header: others must equal it. */
+        /* `code` and `owner` are offsets of fields in the first header, which all others must equal. */
         head = k ? head : length;
         if (length != head || head > LARGEST_HEADER || head > size - place - 8 || code >= head
             || owner >= head || head - owner < 4)
@@ -732,7 +733,7 @@ static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t c
             const uint64_t length = (types[3] - 12) / 2;
             if (length > (uint64_t)INT32_MAX || payload != (uint64_t)(body - record) + length)
                 goto odd;
-            /* sqlite continues a longer record on overflow pages; then a negative start marks it. */
+            /* A longer record continues on overflow pages. A negative start marks it for Python. */
             const int is_here = payload <= (uint64_t)usable - 35;
             if (is_here && length > (uint64_t)(end - body))
                 goto odd;
