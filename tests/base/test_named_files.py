@@ -34,10 +34,8 @@ def refused(read, path):
 
 
 def test_a_pipe_into_which_no_process_writes_is_refused(pipe):
-    assert refused(read_named, pipe) == (
-        "it is a pipe, but no process writes into it: start the writer first"
-    )
-    assert refused(open_regular, pipe) == "it is not a regular file"
+    assert refused(read_named, pipe) == ("no process writes into the pipe: start the writer first")
+    assert refused(open_regular, pipe) == "a regular file is needed, not a pipe or a device"
 
 
 def test_what_comes_through_a_pipe_is_read_to_its_end():
@@ -65,7 +63,10 @@ def test_files_are_read_whole_folders_and_what_never_ends_are_refused(tmp_path):
         assert opened.read() == read_named(file) == file.read_bytes()
     for read in (open_regular, read_named):
         assert refused(read, tmp_path) == "Is a directory"
-    assert refused(read_named, "/dev/zero") == f"it is larger than {LARGEST >> 20} MiB"
+    assert (
+        refused(read_named, "/dev/zero")
+        == f"the pipe has more than {LARGEST >> 20} MiB: write a file"
+    )
     assert answered(lambda: read_named("/dev/null")) == b""
 
 

@@ -256,18 +256,18 @@ def test_no_samples_change_nothing():
     ("change", "kind", "told"),
     [
         ({"stamps": [0.5, 1.5]}, TypeError, r"np.rint\(stamps \* 1e9\)"),
-        ({"stamps": [[1, 2]]}, ValueError, r"stamps have the shape \(n,\), not \(1, 2\)"),
+        ({"stamps": [[1, 2]]}, ValueError, r"stamps must have the shape \(n,\), not \(1, 2\)"),
         (
             {"translations": np.zeros((3, 3))},
             ValueError,
-            r"translations for 2 stamps have the shape \(2, 3\), not \(3, 3\)",
+            r"translations for 2 stamps must have the shape \(2, 3\), not \(3, 3\)",
         ),
         (
             {"rotations": np.zeros((2, 3))},
             ValueError,
-            r"rotations for 2 stamps have the shape \(2, 4\), not \(2, 3\)",
+            r"rotations for 2 stamps must have the shape \(2, 4\), not \(2, 3\)",
         ),
-        ({"translations": np.full((2, 3), "1")}, TypeError, "translations are numbers"),
+        ({"translations": np.full((2, 3), "1")}, TypeError, "translations must be numbers"),
     ],
 )
 def test_what_does_not_fit_is_refused_and_named(change, kind, told):
@@ -370,7 +370,7 @@ def test_records_that_span_more_than_is_kept_are_pruned_as_columns_are():
 def test_records_of_another_shape_or_kind_are_refused(rows):
     buffer = Buffer()
 
-    with pytest.raises(TypeError, match=r"records are int64 of the shape \(n, 8\)"):
+    with pytest.raises(TypeError, match=r"records must be an int64 array of shape \(n, 8\)"):
         buffer.set_records("world", "a", rows)
     assert buffer.frames() == []
 

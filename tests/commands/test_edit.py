@@ -115,9 +115,17 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (["-o", "b.mcap", "--everywhere"], 2, "--everywhere is only allowed with"),
         (["-o", "b.mcap", "--record-time"], 2, "--record-time is only allowed with"),
         (["-o", "b.mcap", "--from", "9", "--to", "3"], 2, "--to is before --from"),
-        (["-o", "b.mcap", "--from", "900"], 2, "Nothing was recorded after --from: it ends "),
+        (
+            ["-o", "b.mcap", "--from", "900"],
+            2,
+            "Nothing was recorded after --from: the recording ends ",
+        ),
         (["-o", "b.mcap", "--from", "900", "--record-time"], 2, "recorded after --from"),
-        (["-o", "b.mcap", "--to", "100000000"], 2, "Nothing was recorded before --to: it begins "),
+        (
+            ["-o", "b.mcap", "--to", "100000000"],
+            2,
+            "Nothing was recorded before --to: the first time is ",
+        ),
         (["./a.mcap", "-o", "b.mcap"], 2, "'./a.mcap' is already an input, as 'a.mcap'"),
         (["a.mcap", "-o", "b.mcap", "--force"], 2, "'a.mcap' is already an input, as 'a.mcap'"),
         (["missing.mcap", "-o", "b.mcap"], 3, "There is no file"),
@@ -139,10 +147,13 @@ def test_what_cannot_be_done_is_said_in_a_sentence_and_leaves_nothing(
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--from", "100"], "Nothing was recorded after --from: it ends 48.000 s after its start"),
+        (
+            ["--from", "100"],
+            "Nothing was recorded after --from: the recording ends 48.000 s after its start",
+        ),
         (
             ["--to", "1600000000"],
-            "Nothing was recorded before --to: it begins at 1700000000.000000.",
+            "Nothing was recorded before --to: the first time is 1700000000.000000.",
         ),
     ],
 )

@@ -206,7 +206,7 @@ def test_recordings_are_fetched_by_url(tftool, fleet, tmp_path):
     assert (told.status, told.out.partition(",")[0]) == (0, f"{one}: MCAP")
     elsewhere = tftool("tree", one)
     assert elsewhere.status == 3
-    assert f"'{one}' is a URL: 'tftool info' and 'tftool doctor' read" in elsewhere.err
+    assert f"'{one}' is a URL, which only 'tftool info' and 'tftool doctor' read" in elsewhere.err
     for url in (f"file://{fleet}/none.mcap", "none://bucket/run.mcap", f"file://{fleet}/*.bag"):
         assert tftool("doctor", url).status == 3
         assert "Traceback" not in tftool("doctor", url).err

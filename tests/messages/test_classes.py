@@ -190,7 +190,7 @@ def test_a_workspace_can_add_definitions_of_its_own():
     [
         (("msg", "A"), "float64", "'float64' is not a field; write 'type name'"),
         (("msg", "A"), "Unknown x", "field 'x': there is no interface pkg/msg/Unknown"),
-        (("srv", "A"), "int8 x", "2 parts separated by '---' are expected, not 1"),
+        (("srv", "A"), "int8 x", "needs 2 parts separated by '---', but has 1"),
     ],
 )
 def test_a_wrong_definition_is_refused_with_its_name(key, text, told):

@@ -211,7 +211,7 @@ def made(text):
             "announces 100 items, but only 99 bytes",
         ),
         ("std_msgs/Header[] d", struct.pack("<I", 9) + bytes(99), "announces 9 items, but only 99"),
-        ("uint8 data", b"\x01" + bytes(8), "8 bytes follow after its end"),
+        ("uint8 data", b"\x01" + bytes(8), "8 bytes follow after the message"),
         ("uint8[36] data", bytes(35), "36 bytes are announced and 35 have arrived"),
     ],
 )
@@ -223,7 +223,7 @@ def test_bytes_that_are_no_such_message_are_refused_with_the_reason(text, body, 
 @pytest.mark.parametrize(
     ("payload", "told"),
     [
-        (b"", "0 bytes are too few for a header"),
+        (b"", "0 bytes are too few for a message with a header"),
         (b"\x00\x07\x00\x00" + bytes(8), "header 0007 is not a header of plain CDR"),
     ],
 )
@@ -255,7 +255,7 @@ def test_more_texts_and_messages_than_we_make_are_refused(monkeypatch, text, ite
         return CDR.header + struct.pack("<I", count) + item * count
 
     assert len(Codec(made(text)).decode(body(most)).data) == most
-    with pytest.raises(MalformedMessage, match="contain more than 5 texts and messages"):
+    with pytest.raises(MalformedMessage, match="contain more than 5 strings and messages"):
         Codec(made(text)).decode(body(most + 1))
 
 
@@ -292,7 +292,7 @@ def test_a_value_that_was_changed_in_place_and_does_not_fit_is_not_written(text,
 
 
 def test_a_wstring_is_not_carried_as_its_bytes_differ_between_releases():
-    with pytest.raises(MalformedMessage, match="'data' is a wstring"):
+    with pytest.raises(MalformedMessage, match="field 'data' is a wstring"):
         Codec(made("wstring data"))
 
 

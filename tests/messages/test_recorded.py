@@ -170,7 +170,7 @@ def test_a_services_event_is_read_from_the_definition_of_the_service():
         (
             "pkg/A",
             f"int8 x\n{RULE}\nIDL: pkg/msg/B\nmodule pkg",
-            "in IDL, and only .msg can be read",
+            "in IDL, but only .msg definitions",
         ),
         ("pkg/A", "int8 X=three", "pkg/msg/A: 'X': 'three' is not a value of type int8"),
         ("pkg/A", "int8 x three", "pkg/msg/A: 'x': 'three' is not a value of type int8"),
@@ -184,7 +184,7 @@ def test_a_services_event_is_read_from_the_definition_of_the_service():
             "L0 x"
             + "".join(f"\n{RULE}\nMSG: pkg/L{n}\nL{n + 1} x" for n in range(1000))
             + f"\n{RULE}\nMSG: pkg/L1000\nint8 x",
-            "more than 64 levels of nested messages",
+            "more than 64 levels of messages",
         ),
     ],
 )

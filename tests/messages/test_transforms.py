@@ -106,14 +106,14 @@ ONE = encode_transforms(transforms(random.Random(1), 1))
 @pytest.mark.parametrize(
     ("payload", "told"),
     [
-        (b"", "0 bytes are too few for a header"),
-        (b"\x00\x01\x00\x00", "ends before its number of transforms"),
+        (b"", "0 bytes are too few for a message with a header"),
+        (b"\x00\x01\x00\x00", "ends before the number of transforms"),
         (b"\x00\x00\x00\x00" + ONE[4:], "only little-endian"),
         (b"\x00\x07\x00\x00" + ONE[4:], "header 0007 is not a header of plain CDR"),
-        (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms, with room"),
+        (ONE[:4] + b"\xff\xff\xff\xff" + ONE[8:], "announces 4294967295 transforms, but has bytes"),
         (ONE[:16] + b"\xff\xff\xff\xff" + ONE[20:], "a text has the length 4294967295 bytes"),
-        (ONE[:-9], "ends within transform 1 of 1|with room for 0"),
-        (ONE + bytes(8), "8 bytes follow after its end"),
+        (ONE[:-9], "ends within transform 1|has bytes for 0"),
+        (ONE + bytes(8), "8 bytes follow after the message"),
     ],
 )
 @pytest.mark.parametrize("decode", [decode_transforms, decode_columns])

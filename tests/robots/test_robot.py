@@ -93,7 +93,7 @@ def test_a_wrong_position_is_a_sentence(crane, positions, told):
 def test_a_fixed_joint_takes_no_position():
     fixed = Robot(parse_description(TEXT.replace('type="continuous"', 'type="fixed"')))
 
-    with pytest.raises(UsageError, match="is fixed: it has no position"):
+    with pytest.raises(UsageError, match="is fixed, so it has no position"):
         fixed.positions({"turn": 1.0})
 
 

@@ -309,20 +309,22 @@ def test_an_alias_bomb_is_refused():
     lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
     lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 12)]
 
-    assert told("\n".join(lines)) == ["more than 20,000 values are too many"]
+    assert told("\n".join(lines)) == ["the YAML has more than 20,000 values, the limit"]
 
 
 def test_an_alias_to_what_holds_it_is_refused():
-    assert told("nodes: &n [*n]") == ["*n is used inside its own definition"]
+    assert told("nodes: &n [*n]") == ["the alias *n is used inside its own value"]
     assert told("nodes: [*n, &n x]") == ["*n is not an anchor that was defined before"]
 
 
 def test_deep_nesting_is_refused():
-    assert told("nodes: " + "[" * 5000) == ["more than 20 levels of nesting are too deep"]
+    assert told("nodes: " + "[" * 5000) == ["the YAML has more than 20 levels, the limit"]
 
 
 def test_a_text_that_is_too_long_is_refused():
-    assert told("#" * (document.LARGEST + 1)) == ["more than 262,144 characters are too many"]
+    assert told("#" * (document.LARGEST + 1)) == [
+        "the YAML has more than 262,144 characters, the limit"
+    ]
 
 
 def test_a_second_document_is_refused():

@@ -26,7 +26,7 @@ def open_regular(path: Path) -> io.BufferedReader:
     file, mode = _opened(path)
     if not stat.S_ISREG(mode):
         file.close()
-        raise OSError(errno.EINVAL, "it is not a regular file", str(path))
+        raise OSError(errno.EINVAL, "a regular file is needed, not a pipe or a device", str(path))
     return io.BufferedReader(file)
 
 
@@ -45,7 +45,7 @@ def open_named(path: Path) -> BinaryIO:
         if first == b"" and stat.S_ISFIFO(mode):
             raise OSError(
                 errno.EINVAL,
-                "it is a pipe, but no process writes into it: start the writer first",
+                "no process writes into the pipe: start the writer first",
                 str(path),
             )
         os.set_blocking(file.fileno(), True)
@@ -53,7 +53,9 @@ def open_named(path: Path) -> BinaryIO:
         while len(data) <= LARGEST and (more := file.read(io.DEFAULT_BUFFER_SIZE)):
             data += more
     if len(data) > LARGEST:
-        raise OSError(errno.EFBIG, f"it is larger than {LARGEST >> 20} MiB", str(path))
+        raise OSError(
+            errno.EFBIG, f"the pipe has more than {LARGEST >> 20} MiB: write a file", str(path)
+        )
     return io.BytesIO(data)
 
 
@@ -92,7 +94,7 @@ def reader_there(path: str, flags: int) -> int:
         if error.errno != errno.ENXIO:
             raise
         raise OSError(
-            errno.EINVAL, "no process reads from it: start the reader first", path
+            errno.EINVAL, "no process reads from the pipe: start the reader first", path
         ) from None
     if _AT_ONCE:
         os.set_blocking(number, True)

@@ -48,7 +48,7 @@ def events(
         yaml.YAMLError: If the text is not YAML.
     """
     if len(text) > largest:
-        raise TooMuch(f"more than {largest:,} characters are too many")
+        raise TooMuch(f"the YAML has more than {largest:,} characters, the limit")
     values = 0
     sizes: dict[str, int] = {}
     # For each open collection: its anchor, and the number of values before it.
@@ -57,7 +57,8 @@ def events(
         if isinstance(event, yaml.AliasEvent):
             if any(anchor == event.anchor for anchor, _ in opened):
                 raise TooMuch(
-                    f"*{event.anchor} is used inside its own definition", event.start_mark
+                    f"the alias *{event.anchor} is used inside its own value",
+                    event.start_mark,
                 )
             # The reader of the events refuses an unknown alias.
             values += sizes.get(event.anchor or "", 1)
@@ -68,7 +69,8 @@ def events(
                 opened.append((event.anchor, values))
                 if len(opened) > deepest:
                     raise TooMuch(
-                        f"more than {deepest} levels of nesting are too deep", event.start_mark
+                        f"the YAML has more than {deepest} levels, the limit",
+                        event.start_mark,
                     )
             values += 1
         elif isinstance(event, yaml.CollectionEndEvent):
@@ -76,7 +78,10 @@ def events(
             if anchor is not None:
                 sizes[anchor] = values - before
         if values > most_values:
-            raise TooMuch(f"more than {most_values:,} values are too many", event.start_mark)
+            raise TooMuch(
+                f"the YAML has more than {most_values:,} values, the limit",
+                event.start_mark,
+            )
         yield event
 
 

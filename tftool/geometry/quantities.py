@@ -87,7 +87,7 @@ def points(a_from_b: Transform, xyz: "npt.ArrayLike") -> "npt.NDArray[np.float64
 
     given = np.asarray(xyz, dtype=np.float64)
     if given.ndim != 2 or given.shape[1] != 3:
-        raise ValueError(f"points have the shape (n, 3), not {given.shape}")
+        raise ValueError(f"points must have the shape (n, 3), not {given.shape}")
     usable = _usable(a_from_b)
     turn = np.array(quaternions.matrix(usable.rotation))
     moved: npt.NDArray[np.float64] = given @ turn.T + np.array(usable.translation)

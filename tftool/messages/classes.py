@@ -328,7 +328,7 @@ class Interfaces(Schema):
             if full in within:
                 raise InputError(f"{full} contains itself, so no message of this type can exist")
             if len(within) >= MOST_NESTED:
-                raise InputError(f"more than {MOST_NESTED} levels of nested messages")
+                raise InputError(f"{full} is nested in more than {MOST_NESTED} levels of messages")
             made = self._made[full] = self._class(self.structure(full), (*within, full))
         return made
 

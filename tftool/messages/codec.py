@@ -354,7 +354,7 @@ class _Planner:
         if field.kind == "wstring":
             raise MalformedMessage(
                 self._name,
-                f"'{field.name}' is a wstring, whose bytes differ between releases",
+                f"field '{field.name}' is a wstring, whose bytes differ between releases",
             )
         if field.kind == "bool":
             return "?"
@@ -366,7 +366,7 @@ class _Planner:
         self._fields += 1
         if self._fields > MOST_FIELDS:
             raise MalformedMessage(
-                self._name, f"its definition unfolds to more than {MOST_FIELDS} fields"
+                self._name, f"the definition unfolds to more than {MOST_FIELDS} fields"
             )
 
 
@@ -396,9 +396,9 @@ def _getter(paths: list[str]) -> Callable[[Any], tuple[Any, ...]]:
 
 def _check_count(field: MessageField, count: int) -> None:
     if field.size is not None and 0 <= field.size != count:
-        raise ValueError(f"'{field.name}' needs {field.size} values, not {count}")
+        raise ValueError(f"field '{field.name}' needs {field.size} values, not {count}")
     if field.bound is not None and count > field.bound:
-        raise ValueError(f"'{field.name}' may have at most {field.bound} values, not {count}")
+        raise ValueError(f"field '{field.name}' may have at most {field.bound} values, not {count}")
 
 
 class _Shape:

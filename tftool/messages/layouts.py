@@ -74,7 +74,9 @@ class Layout:
             MalformedMessage: If the message is too short, too long or has an unknown header.
         """
         if len(payload) < len(self.header):
-            raise MalformedMessage(kind, f"{len(payload)} bytes are too few for a header")
+            raise MalformedMessage(
+                kind, f"{len(payload)} bytes are too few for a message with a header"
+            )
         if len(payload) > LARGEST:
             raise MalformedMessage(
                 kind, f"{len(payload)} bytes are more than the maximum of {LARGEST}"
@@ -84,7 +86,7 @@ class Layout:
         order = self.headers.get(bytes(payload[:2]))
         if order is None:
             raise MalformedMessage(
-                kind, f"its header {bytes(payload[:2]).hex()} is not a header of plain CDR"
+                kind, f"the header {bytes(payload[:2]).hex()} is not a header of plain CDR"
             )
         return order
 
@@ -133,7 +135,7 @@ def check_rest(kind: str, rest: int) -> None:
     """
     # Some writers pad a message to a multiple of 8 bytes.
     if rest > 7:
-        raise MalformedMessage(kind, f"{rest} bytes follow after its end")
+        raise MalformedMessage(kind, f"{rest} bytes follow after the message")
 
 
 def text_bytes(text: str) -> bytes:
@@ -144,7 +146,7 @@ def text_bytes(text: str) -> bytes:
     """
     raw = text.encode()
     if b"\x00" in raw:
-        raise ValueError(f"{text!r} contains a zero character, which would end the text")
+        raise ValueError(f"{text!r} contains a zero character, which would end the string")
     return raw + b"\x00"
 
 
@@ -155,10 +157,10 @@ def read_text(raw: bytes) -> str:
         MalformedMessage: If the bytes are not a CDR string.
     """
     if raw and raw[-1] != 0:
-        raise MalformedMessage("string", "a text does not end with a zero byte")
+        raise MalformedMessage("string", "a string does not end with a zero byte")
     text = _decoded(raw[:-1])
     if "\x00" in text:
-        raise MalformedMessage("string", "a text continues after its zero byte")
+        raise MalformedMessage("string", "a string continues after its zero byte")
     return text
 
 
@@ -166,7 +168,7 @@ def _decoded(raw: bytes) -> str:
     try:
         return raw.decode()
     except UnicodeDecodeError as error:
-        raise MalformedMessage("string", "a text is not UTF-8") from error
+        raise MalformedMessage("string", "a string is not UTF-8") from error
 
 
 class Writer(bytearray):
@@ -266,7 +268,7 @@ class Reader:
         self._items += items
         if self._items > MOST_ITEMS:
             raise MalformedMessage(
-                self.kind, f"its lists contain more than {MOST_ITEMS} texts and messages"
+                self.kind, f"the lists contain more than {MOST_ITEMS} strings and messages"
             )
 
     def text(self, bound: int | None) -> str:
@@ -279,7 +281,7 @@ class Reader:
         raw = bytes(self.payload[start:end])
         text = read_text(raw) if self.layout.texts_end_with_zero else _decoded(raw)
         if bound is not None and len(text) > bound:
-            raise MalformedMessage(self.kind, f"a text is longer than {bound} characters")
+            raise MalformedMessage(self.kind, f"a string is longer than {bound} characters")
         return text
 
     def numbers(self, count: int, size: int) -> Payload:

@@ -200,7 +200,7 @@ class Schema:
         texts = re.split(r"^\s*---\s*$", text, flags=re.MULTILINE)
         if len(texts) != len(parts):
             raise InputError(
-                f"{full}: {len(parts)} parts separated by '---' are expected, not {len(texts)}"
+                f"{full} needs {len(parts)} parts separated by '---', but has {len(texts)}"
             )
         return dict(zip(parts, texts, strict=True))
 
@@ -273,7 +273,9 @@ def _sections(full: str, text: str) -> dict[str, str]:
         if heading is None:
             raise InputError(f"{full}: a definition after '=====' does not begin with 'MSG: name'")
         if heading["language"] == "IDL":
-            raise InputError(f"{full}: its definition is in IDL, and only .msg can be read")
+            raise InputError(
+                f"the definition of {full} is in IDL, but only .msg definitions can be read"
+            )
         found.setdefault(full_name(heading["name"]), other[heading.end() :])
     return found
 
@@ -332,5 +334,5 @@ def _field(full: str, match: "re.Match[str]", recorded: Collection[str] | None) 
 
 def _size(full: str, digits: str) -> int:
     if not (digits.isascii() and digits.isdecimal() and len(digits) <= 10):
-        raise InputError(f"{full}: {digits[:20]} is not a valid size of an array or a text")
+        raise InputError(f"{full}: {digits[:20]} is not a valid size of an array or a string")
     return int(digits)

@@ -97,7 +97,9 @@ def walk(layout: Layout, payload: bytes) -> Walked:
         # A transform has at least 72 bytes: stamp and numbers 64, two lengths 8.
         if count * SMALLEST > size - position:
             room = (size - position) // SMALLEST
-            raise MalformedMessage(KIND, f"it announces {count} transforms, with room for {room}")
+            raise MalformedMessage(
+                KIND, f"it announces {count} transforms, but has bytes for {room}"
+            )
         for _ in range(count):
             stamp = position if is_cdr else position + 4  # after the sequence number
             position = stamp + 8
@@ -108,7 +110,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
                 (length,) = word.unpack_from(payload, position)
                 end = position + 4 + length
                 if length > LONGEST_NAME or end > size:
-                    raise MalformedMessage(KIND, f"a frame name announces {length} bytes")
+                    raise MalformedMessage(KIND, f"a frame name cannot have {length} bytes")
                 raw = payload[position + 4 : end]
                 # In ROS 2 the length includes the final zero byte.
                 raw = raw.removesuffix(b"\x00") if is_cdr else raw
@@ -122,12 +124,14 @@ def walk(layout: Layout, payload: bytes) -> Walked:
             places.append(Place(names[0], names[1], stamp, position))
             position += 56
             if position > size:
-                raise MalformedMessage(KIND, f"it ends within transform {len(places)} of {count}")
+                raise MalformedMessage(KIND, f"the message ends within transform {len(places)}")
     except struct.error as error:
-        raise MalformedMessage(KIND, f"it ends within transform {len(places) + 1}") from error
+        raise MalformedMessage(
+            KIND, f"the message ends within transform {len(places) + 1}"
+        ) from error
     # Some writers pad a message to a multiple of 8 bytes.
     if size - position > (7 if is_cdr else 0):
-        raise MalformedMessage(KIND, f"{size - position} bytes follow after its end")
+        raise MalformedMessage(KIND, f"{size - position} bytes follow after the message")
     return Walked(order, tuple(places), tuple(fixed))
 
 
@@ -149,7 +153,7 @@ def _byte_order(payload: bytes) -> str:
         return "<"
     if head == _BIG:
         return ">"
-    raise MalformedMessage(KIND, f"its header {payload[:4].hex()} is not a header of plain CDR")
+    raise MalformedMessage(KIND, f"the header {payload[:4].hex()} is not a header of plain CDR")
 
 
 def row_span(layout: Layout, length: int) -> tuple[int, int]:

@@ -108,7 +108,7 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
             found.append(new(TransformStamped, (stamp, parent, child, pose)))
     except struct.error as error:
         raise MalformedMessage(
-            KIND, f"it ends within transform {len(found) + 1} of {count}"
+            KIND, f"the message ends within transform {len(found) + 1} of {count}"
         ) from error
     check_rest(KIND, size - position)
     return tuple(found)
@@ -230,11 +230,11 @@ def _count_of_transforms(payload: bytes) -> int:
     if CDR.order(KIND, payload) != LITTLE:
         raise MalformedMessage(KIND, "only little-endian transforms can be read")
     if len(payload) < 8:
-        raise MalformedMessage(KIND, "it ends before its number of transforms")
+        raise MalformedMessage(KIND, "the message ends before the number of transforms")
     (count,) = _LENGTH.unpack_from(payload, 4)
     room = (len(payload) - 8) // _SMALLEST_TRANSFORM
     if count > room:
-        raise MalformedMessage(KIND, f"it announces {count} transforms, with room for {room}")
+        raise MalformedMessage(KIND, f"it announces {count} transforms, but has bytes for {room}")
     return int(count)
 
 
@@ -245,4 +245,4 @@ def _cut_off(length: int, rest: int) -> MalformedMessage:
 
 
 def _ends_within(row: int, count: int) -> MalformedMessage:
-    return MalformedMessage(KIND, f"it ends within transform {row + 1} of {count}")
+    return MalformedMessage(KIND, f"the message ends within transform {row + 1} of {count}")

@@ -33,7 +33,7 @@ def check_told(count: int) -> None:
     """
     if count > LARGEST_TOLD:
         raise InputError(
-            f"a record about a topic has {count} bytes; at most {LARGEST_TOLD} can be read"
+            f"a record about a topic has {count} bytes, but the limit is {LARGEST_TOLD}"
         )
 
 
@@ -249,7 +249,9 @@ class Piece:
             count = os.pwrite(file, read[:count], place + done)
             again = os.preadv(file, [memoryview(_other)[:count]], place + done)
             if again != count or not _begin_alike(count):
-                raise InputError(f"the bytes written at byte {place + done} differ from those read")
+                raise InputError(
+                    f"the copied bytes at byte {place + done} differ from the original"
+                )
             if crc is not None:
                 crc = zlib.crc32(read[:count], crc)
             done += count

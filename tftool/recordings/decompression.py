@@ -52,7 +52,7 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
     """
     if method in ("", "none"):
         if len(packed) != size:
-            raise InputError(f"{len(packed)} bytes instead of {size}")
+            raise InputError(f"the data has {len(packed)} bytes instead of {size}")
         return packed
     check_size(len(packed), size)
     try:
@@ -60,9 +60,9 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
     except (InputError, UsageError, MemoryError):
         raise
     except Exception as error:
-        raise InputError(f"its {method} data is damaged ({error})") from error
+        raise InputError(f"the {method} data is damaged ({error})") from error
     if len(found) != size:
-        raise InputError(f"its {method} data expands to {len(found)} bytes instead of {size}")
+        raise InputError(f"the {method} data expands to {len(found)} bytes instead of {size}")
     return found
 
 
@@ -280,8 +280,8 @@ def check_size(packed: int, size: int) -> None:
     """
     if size > LARGEST or size > most_of(packed):
         raise InputError(
-            f"{packed} bytes claim to unpack to {size}, more than is plausible "
-            f"(at most {LARGEST}, and {MOST_GAIN} times)"
+            f"{packed} bytes cannot expand to {size} as stated "
+            f"(limits: {LARGEST} bytes, {MOST_GAIN} times the size)"
         )
 
 
@@ -323,7 +323,7 @@ def _whole(method: str, packed: bytes, size: int) -> bytes:
         module = zstandard()
         declared = module.frame_content_size(packed)
         if declared not in (-1, size):
-            raise InputError(f"its zstd data announces {declared} bytes, and the file {size}")
+            raise InputError(f"the zstd data states {declared} bytes, but the file states {size}")
         found: bytes = module.ZstdDecompressor().decompress(packed, max_output_size=size)
         return found
     if method == "lz4":
@@ -332,7 +332,7 @@ def _whole(method: str, packed: bytes, size: int) -> bytes:
         return unpacked
     if method == "bz2":
         return bz2.BZ2Decompressor().decompress(packed, max_length=size + 1)
-    raise InputError(f"its compression is unknown ({method!r})")
+    raise InputError(f"the compression {method!r} is unknown")
 
 
 def _stream(method: str) -> Any:
@@ -340,7 +340,7 @@ def _stream(method: str) -> Any:
         return lz4_frame().LZ4FrameDecompressor()
     if method == "bz2":
         return bz2.BZ2Decompressor()
-    raise InputError(f"its compression is unknown ({method!r})")
+    raise InputError(f"the compression {method!r} is unknown")
 
 
 ZSTD_LEVEL: Final = 1

@@ -229,7 +229,7 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
     # A description is latched, and so among the first messages: do not read the whole recording.
     for message in islice(source.messages([topic.name]), _MOST_DESCRIPTIONS):
         if len(message.payload) > LARGEST:
-            raise InputError(f"'{topic.name}' has no description that can be read")
+            raise InputError(f"no message on '{topic.name}' contains a readable description")
         text = codec.decode(message.payload).data
         if _PLACEHOLDER.fullmatch(text.strip()):
             continue

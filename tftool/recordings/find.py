@@ -73,7 +73,7 @@ def listed(place: str) -> list[str]:
     with _failures_told(place):
         found = sorted(system.glob(path))
     if not found:
-        raise InputError(f"'{place}' is not the address of a file.")
+        raise InputError(f"'{place}' is not the URL of a file.")
     return [system.unstrip_protocol(one) for one in found]
 
 
@@ -95,7 +95,7 @@ def _failures_told(place: str) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError as error:
-        raise InputError(f"There is nothing at '{place}'.") from error
+        raise InputError(f"There is no file at '{place}'.") from error
     except ImportError as error:
         # fsspec's error names the missing packages.
         raise UsageError(
@@ -249,7 +249,7 @@ def find(word: str) -> Found:
             if matches:
                 return _several(word, matches)
             if path.is_symlink():
-                raise InputError(f"'{word}' is a broken link to {os.readlink(path)}")
+                raise InputError(f"'{word}' is a broken symbolic link to {os.readlink(path)}")
             if word.startswith(("ws://", "wss://")):
                 raise InputError(
                     f"'{word}' is a robot's Foxglove server, but a file is needed: "
@@ -257,8 +257,8 @@ def find(word: str) -> Found:
                 )
             if is_url(word):
                 raise InputError(
-                    f"'{word}' is a URL: 'tftool info' and 'tftool doctor' read "
-                    "recordings: for other commands, save it to a file first."
+                    f"'{word}' is a URL, which only 'tftool info' and 'tftool doctor' "
+                    "read: save the recording to a file first."
                 )
             active = Path(f"{word}{ACTIVE}")
             if active.exists():

@@ -125,10 +125,12 @@ def _json(payload: bytes, several: bool) -> list[Shaped]:
         return [_of_json(one) for one in (document["transforms"] if several else [document])]
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as error:
         raise MalformedMessage(
-            "foxglove.FrameTransform", f"its data is not valid JSON: {error}"
+            "foxglove.FrameTransform", f"the data is not valid JSON: {error}"
         ) from error
     except RecursionError as error:
-        raise MalformedMessage("foxglove.FrameTransform", "its JSON is nested too deep") from error
+        raise MalformedMessage(
+            "foxglove.FrameTransform", "the JSON is nested too deeply"
+        ) from error
 
 
 def _of_json(one: dict[str, Any]) -> Shaped:
@@ -148,7 +150,7 @@ def _protobuf(payload: bytes, several: bool) -> list[Shaped]:
         return [_of_protobuf(value) for number, value in _fields(payload) if number == 1]
     except (IndexError, struct.error, TypeError, ValueError) as error:
         raise MalformedMessage(
-            "foxglove.FrameTransform", f"its data is not valid protobuf: {error}"
+            "foxglove.FrameTransform", f"the data is not valid protobuf: {error}"
         ) from error
 
 
@@ -185,7 +187,7 @@ def _of_protobuf(payload: bytes) -> Shaped:
 
 def _checked(stamp: int) -> Stamp:
     if not -LAST_STAMP <= stamp <= LAST_STAMP:
-        raise ValueError(f"its stamp {stamp} ns does not fit 64 bits")
+        raise ValueError(f"the stamp {stamp} ns does not fit 64 bits")
     return stamp
 
 
@@ -221,4 +223,4 @@ def _varint(payload: bytes, position: int) -> tuple[int, int]:
             return value, position
         shift += 7
         if shift > 63:
-            raise ValueError("a number of more than 64 bits")
+            raise ValueError("a number has more than 64 bits")

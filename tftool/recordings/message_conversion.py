@@ -248,9 +248,7 @@ def as_ros1(channel: Channel) -> Conversion:
 def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
     """Return the type of a channel, and a set of definitions by which its messages can be read."""
     if channel.encoding != encoding:
-        raise InputError(
-            f"its messages are written as '{channel.encoding}', which is not converted here"
-        )
+        raise InputError(f"messages with the encoding '{channel.encoding}' cannot be converted")
     text = ""
     if channel.schema_encoding in ("ros1msg", "ros2msg"):
         text = channel.definition.decode("utf-8", "backslashreplace")

@@ -76,7 +76,7 @@ def _stl(content: bytes) -> list[Mesh]:
         rows = [line.split()[1:4] for line in content.splitlines() if b"vertex" in line]
         corners = np.array(rows, float).reshape(-1, 3)
         if not len(corners) or len(corners) % 3:
-            raise ValueError("it is neither a binary nor a text STL file")
+            raise ValueError("the bytes are neither a binary nor a text STL file")
     return [Mesh(corners.astype(float), np.arange(len(corners)).reshape(-1, 3))]
 
 
@@ -118,7 +118,7 @@ def _node(
     node: ElementTree.Element, above: Floats, ids: Mapping[str, ElementTree.Element], depth: int
 ) -> Iterator[Mesh]:
     if depth > 50:
-        raise ValueError("its nodes contain each other in a loop")
+        raise ValueError("the nodes contain each other in a loop")
     place: Floats = above
     for one in node:
         if one.tag in ("matrix", "translate", "rotate", "scale"):

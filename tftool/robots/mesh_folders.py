@@ -105,7 +105,7 @@ class MeshFolders:
         """
         match = re.fullmatch(r"/mesh/(\d{1,6})/(.+)", address)
         if match is None or int(match[1]) >= len(self.roots):
-            raise MeshRefused("The page has no such mesh.")
+            raise MeshRefused("No mesh has this address: reload the page.")
         root = self.roots[int(match[1])]
         path = root / self._inside(root, unquote(match[2]))
         try:
@@ -127,10 +127,10 @@ class MeshFolders:
                 )
             return package, match[2]
         if _SCHEME.match(name):
-            raise MeshRefused(f"'{name}' is not shown: use package:// or a relative path")
+            raise MeshRefused(f"'{name}' cannot be shown: use package:// or a relative path")
         if name.startswith(("/", "\\")):
             raise MeshRefused(
-                f"'{name}' is not shown: absolute paths are not allowed, use package:// or a "
+                f"'{name}' cannot be shown: absolute paths are not allowed, use package:// or a "
                 "relative path"
             )
         for root in self._relative_roots():
@@ -160,10 +160,14 @@ class MeshFolders:
             MeshRefused: If the path leads out of the folder, or is not a mesh or texture.
         """
         if "\0" in name or "\\" in name:
-            raise MeshRefused("a name of a mesh has an invalid character")
+            raise MeshRefused(
+                f"the name of the mesh {name!r} contains a backslash or a zero character"
+            )
         path = Path(os.path.normpath(root / name))
         if not path.is_relative_to(root):
-            raise MeshRefused(f"'{name}' is outside of '{root.name}', and is never shown")
+            raise MeshRefused(
+                f"'{name}' is outside of the folder '{root.name}', so it cannot be shown"
+            )
         if path.suffix.lower() not in KINDS:
             raise MeshRefused(f"'{name}' is not a mesh or texture ({', '.join(SHAPES)})")
         try:
@@ -171,7 +175,9 @@ class MeshFolders:
         except (OSError, RuntimeError):
             raise MeshRefused(f"there is no file '{name}' in '{root.name}'") from None
         if not real.is_relative_to(root.resolve()):
-            raise MeshRefused(f"'{name}' is a link that leads out of '{root.name}'")
+            raise MeshRefused(
+                f"'{name}' is a symbolic link that leads out of the folder '{root.name}'"
+            )
         if real.suffix.lower() not in KINDS or not real.is_file():
             raise MeshRefused(f"'{name}' is not a mesh or texture ({', '.join(SHAPES)})")
         return path.relative_to(root)

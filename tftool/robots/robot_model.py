@@ -333,7 +333,7 @@ class Robot:
                 hint = f"; those that move are {', '.join(moving[:MOST_NAMED])}{more}"
             raise UsageError(f"robot '{self.name}' has no joint '{name[:100]}'{hint}")
         if not joint.moves:
-            raise UsageError(f"joint '{name}' is {joint.type}: it has no position")
+            raise UsageError(f"joint '{name}' is {joint.type}, so it has no position")
 
     def _leader(self, joint: RobotJoint, given: frozenset[str]) -> tuple[RobotJoint, float, float]:
         """Return the joint that `joint` mimics in the end, with factor and offset; see `drive`."""

@@ -160,7 +160,7 @@ def _text_of(path: Path) -> str:
     try:
         size = path.stat().st_size
         if size > LARGEST:
-            raise InputError(f"'{path}' has {size:,} bytes; a description may have {LARGEST:,}")
+            raise InputError(f"'{path}' has {size:,} bytes, but the limit is {LARGEST:,}")
         raw = read_named(path)
     except OSError as error:
         raise InputError(f"cannot read '{path}': {error.strerror or error}") from error
@@ -171,7 +171,7 @@ def _text_of(path: Path) -> str:
         return raw.decode("utf-8-sig" if encoding.lower() in ("utf-8", "utf8") else encoding)
     except LookupError as error:
         raise InputError(
-            f"'{path}' declares the encoding '{encoding}', which is unknown"
+            f"'{path}' declares the encoding '{encoding}', which is unknown: save it as UTF-8"
         ) from error
     except ValueError as error:
         raise InputError(f"'{path}' is not text in {encoding}: {error}") from error

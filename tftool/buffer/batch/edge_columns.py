@@ -153,10 +153,10 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
     given = np.asarray(times)
     if given.ndim == 0:
         raise ValueError(
-            f"{name} have the shape (n,), not (): write a single time as a list, [{given}]"
+            f"{name} must have the shape (n,), not (): write a single time as a list, [{given}]"
         )
     if given.ndim != 1:
-        raise ValueError(f"{name} have the shape (n,), not {given.shape}")
+        raise ValueError(f"{name} must have the shape (n,), not {given.shape}")
     if given.size == 0:
         return np.zeros(0, dtype=np.int64)
     kind = given.dtype.kind
@@ -165,16 +165,16 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
         wholes = [whole(time) for time in given]
         unfit = [time for time in wholes if not refusals.fits(time)]
         if unfit:
-            raise ValueError(f"{name} hold {unfit[0]} ns, which does not fit 64 bits")
+            raise ValueError(f"{name} contain {unfit[0]} ns, which does not fit 64 bits")
         return np.array(wholes, dtype=np.int64)
     if kind == "u" and given.max() >= 2**63:
-        raise ValueError(f"{name} hold {given.max()} ns, which does not fit 64 bits")
+        raise ValueError(f"{name} contain {given.max()} ns, which does not fit 64 bits")
     if kind not in "iu":
         remedy = {
             "f": f"np.rint({name} * 1e9).astype(np.int64) converts seconds",
             "M": f"{name}.astype('datetime64[ns]').astype(np.int64) converts dates",
         }.get(kind, "write seconds(2.5) for 2.5 seconds")
-        raise TypeError(f"{name} are whole nanoseconds (int64), not {given.dtype}: {remedy}")
+        raise TypeError(f"{name} must be whole nanoseconds (int64), not {given.dtype}: {remedy}")
     # Align the array too: rows in a file's bytes may begin at any address.
     return np.require(given, np.int64, ["C", "A"])
 

@@ -212,7 +212,8 @@ def adopt(
     """
     if records.dtype != np.int64 or records.ndim != 2 or records.shape[1] != WORDS:
         raise TypeError(
-            f"records are int64 of the shape (n, {WORDS}), not {records.dtype} of {records.shape}"
+            f"records must be an int64 array of shape (n, {WORDS}), not {records.dtype} "
+            f"of shape {records.shape}"
         )
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     objections = refusals.objections(child, parent, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
@@ -346,9 +347,11 @@ def _shaped(numbers: npt.ArrayLike, name: str, shape: tuple[int, int]) -> Floats
     if given.size == 0 and shape[0] == 0 and given.ndim == 1:
         return np.empty(shape)
     if given.shape != shape:
-        raise ValueError(f"{name} for {shape[0]} stamps have the shape {shape}, not {given.shape}")
+        raise ValueError(
+            f"{name} for {shape[0]} stamps must have the shape {shape}, not {given.shape}"
+        )
     if given.dtype.kind not in "fiub":
-        raise TypeError(f"{name} are numbers (float64), not {given.dtype}")
+        raise TypeError(f"{name} must be numbers (float64), not {given.dtype}")
     return np.asarray(given, dtype=np.float64)
 
 

@@ -48,7 +48,7 @@ def lookup_transforms(
 ) -> TransformArray:
     """Return the poses of source in target at many times; see `Buffer.lookup_transforms`."""
     if missing not in ("raise", "nan"):
-        raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
+        raise ValueError(f"missing must be 'raise' or 'nan', not {missing!r}")
     workers = _workers(threads)
     stamps = stamps_of(times, "times")
     # Like tf2: the identity, with the requested stamp.
@@ -78,7 +78,7 @@ def lookup_transforms_full(
 ) -> TransformArray:
     """Return poses computed through a fixed frame; see `Buffer.lookup_transforms_full`."""
     if missing not in ("raise", "nan"):
-        raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
+        raise ValueError(f"missing must be 'raise' or 'nan', not {missing!r}")
     for frame, argument in (
         (target, "target_frame"),
         (source, "source_frame"),
@@ -443,7 +443,8 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
     source_stamps = stamps_of(ours, "source_times")
     if len(target_stamps) != len(source_stamps):
         raise ValueError(
-            f"there are {len(target_stamps)} target_times, but {len(source_stamps)} source_times"
+            f"there are {len(target_stamps)} target_times, but {len(source_stamps)} source_times: "
+            "give as many of both, or a single time"
         )
     return target_stamps, source_stamps
 

@@ -148,7 +148,7 @@ class TransformArray:
             given.ndim not in (2, 3) or given.shape[0] != n or given.shape[-1] != 3
         ):
             raise ValueError(
-                f"points for {n} transforms have the shape (3,), ({n}, 3) or ({n}, k, 3), "
+                f"points for {n} transforms must have the shape (3,), ({n}, 3) or ({n}, k, 3), "
                 f"not {given.shape}"
             )
         if given.ndim == 3:
@@ -190,7 +190,7 @@ class TransformArray:
                 )
             if len(other) != len(self):
                 raise ValueError(
-                    f"{len(self)} transforms cannot be chained with {len(other)}, row by row"
+                    f"{len(self)} transforms cannot be chained with {len(other)}: give equally many"
                 )
             translations, rotations = other.translations, other.rotations
             child, valid = other.child_frame_id, self.valid & other.valid

@@ -90,8 +90,8 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
     if len(tops) != 1:
         shown = ", ".join(tops[:6]) + (" …" if len(tops) > 6 else "")
         raise UsageError(
-            f"A URDF is one tree, but there are {len(tops)}, with the roots {shown}: choose one "
-            "with --root FRAME."
+            f"A URDF contains one tree, but there are {len(tops)}, with the roots {shown}: choose "
+            "one with --root FRAME."
         )
     frames = dict.fromkeys([tops[0], *(one.child for one in links)])
     lines = ['<?xml version="1.0"?>', f"<robot name={_attribute(name)}>"]
@@ -187,7 +187,9 @@ def _whole_name(one: FixedLink) -> FixedLink:
     """Return the transform; raise an error if a command line cannot contain a frame name."""
     for name in (one.parent, one.child):
         if "\0" in name or _NOT_XML.search(name):
-            raise InputError(f"The frame {name!r} has characters that this format cannot contain.")
+            raise InputError(
+                f"The frame name {name!r} has characters that this format cannot contain."
+            )
     return one
 
 
@@ -216,7 +218,7 @@ def _node_names(links: Sequence[FixedLink]) -> list[str]:
 
 def _attribute(text: str) -> str:
     if _NOT_XML.search(text):
-        raise InputError(f"The frame {text!r} has characters that this format cannot contain.")
+        raise InputError(f"The frame name {text!r} has characters that this format cannot contain.")
     # A reader would convert a tab or a line end to a space.
     return quoteattr(text, {"\t": "&#9;", "\n": "&#10;", "\r": "&#13;"})
 

@@ -95,7 +95,7 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
     if len(text) > LONGEST:
         raise UsageError(f"The text is longer than {LONGEST} characters: paste only one rotation.")
     if form is not None and form not in FORMS:
-        raise UsageError(f"'{form}' is not a notation of a rotation: {_listed()}.")
+        raise UsageError(f"'{form}' is not a notation of a rotation: use {_listed()}.")
     for reader in (_publisher, _echoed, _described, _labelled):
         found = reader(text, degrees) if form is None else None
         if found is not None:
@@ -215,15 +215,15 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
         elif word and word.lower() in _DEGREES:
             degrees = True
         elif word and word.lower() not in _FILLER:
-            raise UsageError(f"'{word[:60]}' is not part of a rotation.")
+            raise UsageError(f"The text has '{word[:60]}', which is not part of a rotation.")
         elif match["other"] and match["other"] not in _PUNCTUATION:
-            raise UsageError(f"'{match['other']}' is not part of a rotation.")
+            raise UsageError(f"The text has '{match['other']}', which is not part of a rotation.")
     degrees = degrees or "°" in text
     if degrees:
         # A multiple of π is in radians, also among degrees.
         numbers = [math.degrees(n) if k in in_radians else n for k, n in enumerate(numbers)]
     if not all(map(math.isfinite, numbers)):
-        raise UsageError("A number in the text is too large.")
+        raise UsageError("The text contains a number that is too large for a float.")
     form = form or named
     count = len(numbers)
     if not count:
@@ -234,7 +234,7 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
         raise _ambiguous(count)
     wanted = 9 if form == "matrix" else notation_of(form).count
     if count != wanted:
-        raise UsageError(f"{form} needs {wanted} numbers, but there are {count}.")
+        raise UsageError(f"The notation {form} needs {wanted} numbers, but there are {count}.")
     return _of_form(form, numbers, degrees)
 
 
@@ -267,7 +267,7 @@ def _of_pi(match: "re.Match[str]") -> float:
     if match["by"]:
         by = float(match["by"])
         if match["how"] == "/" and by == 0.0:
-            raise UsageError(f"'{match[0]}' divides by zero.")
+            raise UsageError(f"The text has '{match[0]}', which divides by zero.")
         value = value / by if match["how"] == "/" else value * by
     return -value if match["sign"] == "-" else value
 

@@ -521,7 +521,7 @@ def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
         InputError: If the type is unknown.
     """
     if channel.encoding not in LAYOUTS:
-        raise InputError(f"its messages are written as '{channel.encoding}'")
+        raise InputError(f"messages with the encoding '{channel.encoding}' cannot be changed")
     interfaces = Interfaces()
     text = channel.message_text
     full = full_name(channel.type)

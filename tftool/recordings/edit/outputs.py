@@ -135,8 +135,8 @@ class EditedFile:
         if self._format.encoding:
             if channel.encoding != self._format.encoding:
                 raise InputError(
-                    f"its messages are written as '{channel.encoding}', which "
-                    f"{self._format.words} cannot hold"
+                    f"messages have the encoding '{channel.encoding}', which "
+                    f"{self._format.words} cannot contain"
                 )
             channel = replace(channel, type=full_name(channel.type))
         # An MCAP input without definitions stays unchanged; other containers cannot store them.

@@ -207,7 +207,8 @@ def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
     if clash and edits.rename:
         both = sorted(name for name in frames if edits.name(name) == clash[0])
         raise UsageError(
-            f"Two frames would be called '{clash[0]}': {' and '.join(map(repr, both))}."
+            f"Two frames would have the name '{clash[0]}': {' and '.join(map(repr, both))}: "
+            "choose another name."
         )
 
 
@@ -235,7 +236,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
     low = edits.start if edits.start is not None else 0
     high = edits.end if edits.end is not None else LAST_STAMP
     if high < low:
-        raise UsageError("--to is before --from: exchange the two.")
+        raise UsageError("--to is before --from: exchange the two times.")
     moving = [(one, edge) for one in recordings for edge in one.edges if not edge.static]
     spans: dict[LinkName, tuple[Stamp, Stamp]] = {}
     offsets, logs = [], []
@@ -289,11 +290,11 @@ def _refuse_outside(
         begins = [one.source.start if edits.by_record_time else one.start for one in recordings]
         start = min(filter(None, begins), default=0)
         raise UsageError(
-            f"Nothing was recorded after --from: it ends {as_seconds(last - start):.3f} s after "
-            f"its start, at {display(last)}."
+            f"Nothing was recorded after --from: the recording ends {as_seconds(last - start):.3f}"
+            f" s after its start, at {display(last)}."
         )
     if edits.end is not None and edits.end < first:
-        raise UsageError(f"Nothing was recorded before --to: it begins at {display(first)}.")
+        raise UsageError(f"Nothing was recorded before --to: the first time is {display(first)}.")
 
 
 def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:

@@ -128,7 +128,7 @@ class SingleMessages:
         code, length, channel, _, log_time, _ = MESSAGE_RECORD.unpack_from(piece)
         whole = length + 9
         if code != MESSAGE or length < 22 or place + whole > end:
-            raise InputError("its message index points at something else")
+            raise InputError("a message index points at something other than its messages")
         whole = min(whole, self._most)
         if whole > len(piece):
             piece += self._file.at(place + len(piece), whole - len(piece))
@@ -172,7 +172,7 @@ def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, S
             return starts, lengths, log_times
     places = pairs[:, 1]
     if len(data) < IN_CHUNK or places.min() < 0 or places.max() > len(data) - IN_CHUNK:
-        raise InputError("its message index points outside of the chunk")
+        raise InputError("a message index points outside of the chunk")
     # Read the code (1 byte), length (8) and channel (2) of all records at once.
     heads = rows_of(data, places, 16)
     lengths = (heads[:, 0] >> np.uint64(8)).view(np.int64)
@@ -184,7 +184,7 @@ def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, S
         or int(lengths.min()) < 0
         or int((starts + lengths).max()) > len(data)
     ):
-        raise InputError("its message index points at something else")
+        raise InputError("a message index points at something other than its messages")
     return starts, lengths, pairs[:, 0]
 
 
@@ -302,7 +302,7 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length
     if end > (len(body) if last is None else last):
-        raise InputError(f"a text announces {length} bytes, more than the record has")
+        raise InputError(f"a string announces {length} bytes, more than the record has")
     return body[place + 4 : end].decode("utf-8", "surrogateescape"), end
 
 

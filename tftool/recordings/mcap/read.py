@@ -128,7 +128,7 @@ class Mcap(ChunkedReader):
         except (InputError, struct.error) as error:
             # Half a summary may have described wrong channels: forget them.
             self._forget()
-            self.damage.append(f"Its summary cannot be read ({reason_of(error)}).")
+            self.damage.append(f"The summary cannot be read ({reason_of(error)}).")
         if self._by_index and not complete:
             self._forget()
             self._index()
@@ -179,11 +179,11 @@ class Mcap(ChunkedReader):
         if not begin:
             return False
         if not len(MCAP_MAGIC) <= begin <= size - FOOTER_SIZE:
-            raise InputError(f"it should begin at byte {begin}")
+            raise InputError(f"no summary can begin at byte {begin}")
         summary = self.at(begin, size - FOOTER_SIZE - begin)
         # The CRC covers the summary, and the footer up to the CRC itself; 0 means none.
         if crc and zlib.crc32(tail[:25], zlib.crc32(summary)) != crc:
-            raise InputError("its CRC is wrong")
+            raise InputError("the CRC is wrong")
         counts: dict[int, int] = {}
         total, span = 0, (0, 0)
         has_statistics = False
@@ -365,7 +365,7 @@ class Mcap(ChunkedReader):
         low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
         (length,) = U32.unpack_from(head, 37)
         if length > LONGEST_METHOD:
-            raise InputError(f"the name of a compression announces {length} bytes")
+            raise InputError(f"the name of a compression has {length} bytes")
         method = head[41 : 41 + length].decode("utf-8", "surrogateescape")
         (packed,) = U64.unpack_from(head, 41 + length)
         place = position + 49 + length
@@ -435,7 +435,7 @@ class Mcap(ChunkedReader):
             place += 4 + size
         end = body + length - 4
         if place + 8 > end:
-            raise InputError("it is too short for an attachment")
+            raise InputError("the record is too short for an attachment")
         names = self.at(body + 16, place - body - 16)
         (size,) = U64.unpack(self.at(place, 8))
         (crc,) = U32.unpack(self.at(end, 4))
@@ -548,7 +548,7 @@ class Mcap(ChunkedReader):
         code, length, told, count = INDEX_HEAD.unpack_from(head)
         # A wrong count must not make this read more than the record has.
         if code != MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
-            raise InputError(f"it has no message index at byte {place}")
+            raise InputError(f"no message index is at byte {place}")
         if 15 + count > len(head):
             head = self.at(place, 15 + count)
         self._index_sizes[channel] = max(15 + count * 17 // 16, _INDEX_AT_ONCE)
@@ -615,4 +615,4 @@ def check_length(length: int) -> None:
         InputError: If the length is too small.
     """
     if length < MESSAGE_HEAD.size:
-        raise InputError(f"the record of a message announces {length} bytes")
+        raise InputError(f"a message record has only {length} bytes")

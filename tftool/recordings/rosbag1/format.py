@@ -77,7 +77,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
     if place == 0:
         return header, 0, b""
     if place > file.size:
-        raise InputError(f"it should begin at byte {place} of {file.size}")
+        raise InputError(f"no index can begin at byte {place} of {file.size}")
     return header, place, file.at(place, file.size - place)
 
 
@@ -109,12 +109,12 @@ def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Sta
     # header, and compare the bytes of all others at the same offsets.
     first = int(entries[0, 2])
     if first > len(data) - 4:
-        raise InputError("its index points outside of it")
+        raise InputError("the index points outside of the chunk")
     (head,) = U32.unpack_from(data.data, first)
     header = data[first + 4 : first + 4 + min(head, _LARGEST_HEADER)].tobytes()
     code, owner = header.find(b"op=") + 3, header.find(b"conn=") + 5
     if code < 3 or owner < 5 or not code < len(header) >= owner + 4 or len(header) != head:
-        raise InputError("its index points at something else")
+        raise InputError("the index points at something other than its messages")
     # The C code checks the same; at the first difference the code below raises the error.
     if SCAN is not None:
         found = tuple(np.empty(len(entries), dtype=np.int64) for _ in range(3))
@@ -127,13 +127,13 @@ def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Sta
     lengths = _within(bodies, data)
     starts = bodies + 4
     if (heads > _LARGEST_HEADER).any() or (starts + lengths > len(data)).any():
-        raise InputError("its index points outside of it")
+        raise InputError("the index points outside of the chunk")
     if (
         (heads != head).any()
         or (data[places + 4 + code] != MESSAGE[0]).any()
         or (words_at(data, places + 4 + owner, "<u4") != connection).any()
     ):
-        raise InputError("its index points at something else")
+        raise InputError("the index points at something other than its messages")
     return starts, lengths, entries[:, 0].astype(np.int64) * NANOSECONDS + entries[:, 1]
 
 
@@ -144,7 +144,7 @@ def _within(places: Stamps, data: Bytes) -> Stamps:
         InputError: If an offset is outside the data.
     """
     if len(data) < 4 or int(places.max()) > len(data) - 4:
-        raise InputError("its index points outside of it")
+        raise InputError("the index points outside of the chunk")
     return words_at(data, places, "<u4").astype(np.int64)
 
 

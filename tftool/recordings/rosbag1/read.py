@@ -78,7 +78,7 @@ class Rosbag1(ChunkedReader):
             complete = self._read_index()
         except FAULTS as error:
             self._forget()
-            self.damage.append(f"Its index cannot be read ({reason_of(error)}).")
+            self.damage.append(f"The index cannot be read ({reason_of(error)}).")
         if self._by_index and not complete:
             self._scan(self._pieces())
             if self._ended_at < self.size:
@@ -121,7 +121,7 @@ class Rosbag1(ChunkedReader):
         # An index that is cut off may lack its last chunks.
         (count,) = U32.unpack(bag[b"chunk_count"])
         if len(infos) != count:
-            raise InputError(f"it names {len(infos)} chunks of {count}")
+            raise InputError(f"it names {len(infos)} chunks instead of {count}")
         if any(info.position >= place for info in infos):
             raise InputError("a chunk is beyond the end of the file")
         # The header of a chunk is read by `_locate`, when its messages are needed.
@@ -262,7 +262,7 @@ class Rosbag1(ChunkedReader):
             times = np.stack([words_at(data, starts - n, "<u4") for n in (12, 8)], axis=1)
             marks = words_at(data, starts - 16, "<u4")
             if (times != entries[:, :2]).any() or (marks != _BEFORE_TIME).any():
-                raise InputError("the times in its index differ from those of the messages")
+                raise InputError("the times in the index differ from those of the messages")
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
@@ -333,7 +333,7 @@ class Rosbag1(ChunkedReader):
                 found.append((connection, table.reshape(-1, 3)))
         # Without this check, messages would be lost silently.
         if any(connection in chosen for connection in missing):
-            raise InputError("its index is incomplete")
+            raise InputError("the index of the chunk is incomplete")
         return found
 
     def _ahead(self, chunk: Chunk) -> Packed | None:

@@ -129,7 +129,7 @@ def read_metadata(folder: Path) -> dict[str, Any]:
         raise ValueError(str(error) or type(error).__name__) from error
     found = document["rosbag2_bagfile_information"]
     if not isinstance(found, dict):
-        raise TypeError("it does not describe a recording")
+        raise TypeError("the file does not describe a recording")
     return found
 
 
