@@ -51,9 +51,9 @@ def test_what_is_no_recording_is_wrong_usage_as_everywhere(run, tmp_path, capsys
     (tmp_path / "arm.urdf").write_text("<robot name='arm'><link name='base'/></robot>")
 
     assert main(["edit", "arm.urdf", "-o", "b.mcap"]) == 2
-    assert "a recording is needed here" in capsys.readouterr().err
+    assert "name a recording instead" in capsys.readouterr().err
     assert main(["play", "arm.urdf"]) == 2
-    assert "a recording is needed here" in capsys.readouterr().err
+    assert "name a recording instead" in capsys.readouterr().err
 
 
 def test_a_cut_by_seconds_since_the_start_and_json(run, capsys):

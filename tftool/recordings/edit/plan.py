@@ -117,7 +117,7 @@ def open_input(name: str) -> EditedInput:
     """
     found = find(name)
     if not found.kind.is_recording:
-        raise UsageError(f"'{name}' is a {found.kind.value}: a recording is needed here.")
+        raise UsageError(f"'{name}' is a {found.kind.value}: name a recording instead.")
     opened = EditedInput(name)
     opened.notes += found.told()
     try:
