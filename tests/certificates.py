@@ -1,4 +1,4 @@
-"""A small authority and one certificate of it for this machine."""
+"""Certificate authority for tests, and one certificate of it for this machine."""
 
 import shutil
 import subprocess
@@ -13,7 +13,7 @@ needs_openssl = pytest.mark.skipif(
 
 
 def certificates(folder):
-    """Make them in a folder, with the authority's own key beside them, ca.key."""
+    """Create the certificates in a folder, with the authority's key in ca.key."""
 
     def openssl(*words):
         subprocess.run(["openssl", *words], check=True, capture_output=True, cwd=folder)

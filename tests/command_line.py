@@ -1,4 +1,4 @@
-"""The command line in tests: what a run gives, and worlds on simulated time."""
+"""Command line in tests: the results of a run, and worlds on simulated time."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ class Result:
 
 
 class Simulated(Providers):
-    """Worlds live on simulated time, from the end of their head start on, and unshared."""
+    """Worlds without a session, on simulated time that begins after their head start."""
 
     def wall_clock(self, rate=1.0, *, head_start=0):
         return SimClock()

@@ -26,7 +26,7 @@ from tftool.buffer.native_kernel import BUILD, IS_NATIVE
 
 ROOT = Path(__file__).parents[2]
 
-# What would make every command slow to answer, help included.
+# Modules whose import would make every command slow to start, help included.
 HEAVY = {
     "numpy",
     "textual",
@@ -88,13 +88,14 @@ def test_the_nearest_option_is_named_first(tftool):
 
 def test_one_option_is_spelt_alike_in_all_commands():
 
-    # A frequency where something is printed or drawn; where time runs, how fast.
+    # `--rate` is a frequency where something is printed or drawn, and a speed where time runs.
     other = {("demo", "--rate"), ("play", "--rate")}
-    # A value of a node, and the pose of a link; the present, and what a recording knows.
+    # `--set` is a parameter of a node in one command, and the pose of a link in another;
+    # `--restamp` is an option of recordings.
     other |= {("edit", "--set"), ("edit", "--restamp")}
-    # One world's recording, and those of many.
+    # `--record` takes one recording in some commands, and a folder for many recordings in others.
     other |= {("check", "--record")}
-    # A joint to change, and positions of joints.
+    # `--joint` is a joint to calibrate in one command, and the position of a joint in others.
     other |= {("calibrate", "--joint")}
     spelt = {}
     for command in map(made, COMMANDS):
@@ -229,7 +230,7 @@ def test_help_of_every_command_opens_with_its_words_and_keeps_its_examples(tftoo
     assert result.out.startswith(f"Usage: tftool {command}")
     assert f"\n  tftool {command}" in result.out
     assert "\b" not in result.out
-    # Times are nanoseconds inside, ranges have types: neither is what one types.
+    # Times are nanoseconds inside and ranges have types, but users type neither.
     assert not re.search(r"default: \d{8}|<int range>", result.out)
     examples = [row for row in result.out.split("\n\n") if row.startswith(f"  tftool {command}")]
     assert len(examples) == 1
@@ -255,7 +256,7 @@ def test_a_name_that_an_encoding_lacks_is_an_escape():
 
 
 def imported_by(lines, heavy, file):
-    """Which of the heavy modules are imported when these command lines have been run."""
+    """Return the heavy modules that were imported when these command lines had been run."""
     code = (
         "import sys\n"
         "from tftool.app.main import main\n"
@@ -300,7 +301,7 @@ def test_a_scenario_that_asks_no_doctor_is_played_without_numpy(tmp_path):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_it_quietly_with_130(number):
     with start("static", "0", "0", "3", "0", "0", "3.14", "A", "B") as process:
-        # It publishes first, so whoever reads this line knows that it runs.
+        # The process publishes before it prints this line, so the line shows that it runs.
         assert process.stdout.readline() == "Spinning until stopped - publishing transform\n"
         process.send_signal(number)
         _, err = process.communicate(timeout=PATIENCE)

@@ -1,4 +1,4 @@
-"""The GitHub action and the hooks of pre-commit, run as those who use them run them."""
+"""Tests of the GitHub action and of the hooks for pre-commit, run as their users run them."""
 
 import json
 import os
@@ -32,7 +32,7 @@ def generate_launch_description():
 
 @pytest.fixture
 def act(tmp_path):
-    """Run the last step of the action with inputs, as a runner does."""
+    """Return a function that runs the last step of the action with inputs, as a runner does."""
     python = tmp_path / "temp" / "tftool" / "bin" / "python"
     python.parent.mkdir(parents=True)
     python.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} "$@"\n')
@@ -120,7 +120,8 @@ def test_no_input_is_code(act, tmp_path):
     act(check="$(touch made) `touch made`; touch made")
 
     assert not (tmp_path / "made").exists()
-    # Nor in the steps' own texts, into which the runner would paste it.
+    # The texts of the steps contain no expression either: the runner would paste its value into the
+    # shell's code.
     assert not any("${{" in step.get("run", "") for step in ACTION["runs"]["steps"])
 
 

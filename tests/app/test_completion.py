@@ -1,4 +1,4 @@
-"""What the shell offers when Tab is pressed."""
+"""Tests of the completions that the shell offers when Tab is pressed."""
 
 import os
 import shutil
@@ -16,7 +16,7 @@ from tftool.app.index import COMMANDS
 
 @pytest.fixture
 def offered(tftool, monkeypatch):
-    """What is offered behind words, the last of which is being typed."""
+    """Return a function that returns the completions for words; the last word is being typed."""
 
     def ask(*words, shell="bash"):
         monkeypatch.setenv(completion.VARIABLE, shell)
@@ -121,7 +121,7 @@ def test_it_is_installed_once_and_leaves_the_rest_of_a_start_file_alone(
 
 @pytest.fixture
 def homeless(monkeypatch):
-    """A user whom the system gives no home, as one that a service or a container makes up."""
+    """Remove the user's home, as for a user that a service or a container creates."""
 
     def none():
         raise RuntimeError("Could not determine home directory.")
@@ -176,7 +176,7 @@ def test_another_shell_is_told_which_there_are(tftool, monkeypatch, shell):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="bash")
 def test_bash_takes_the_script_and_completes_with_it(tmp_path):
-    # What Tab does, without a terminal: the words as bash splits them, then the function.
+    # The steps of Tab without a terminal: split the words as bash does, then call the function.
     (tmp_path / "tftool").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tftool "$@"\n')
     (tmp_path / "tftool").chmod(0o755)
     lines = f"""
@@ -193,7 +193,7 @@ echo "${{COMPREPLY[*]}}"
 
 @pytest.fixture
 def recorded(tftool, tmp_path, monkeypatch):
-    """A recording of scenario `robot`, in the folder one stands in."""
+    """Record the scenario `robot` to a file in the current folder."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     result = tftool("export", "robot", "-o", "run.mcap")
@@ -293,8 +293,8 @@ def test_tab_completes_in_a_real_shell(tmp_path, recorded, shell, options):
         terminal.shows("tftool check")
         terminal.press("tur", "Tab")
         terminal.shows("tftool check turtles")
-        # A frame of the recording that stands behind the word that is typed. fish tells
-        # completions of no word behind.
+        # A frame of the recording that is named later in the line. fish does not pass later words
+        # to completions.
         if shell != "fish":
             terminal.press(" && tftool echo b run.mcap", *["Left"] * len(" run.mcap"), "Tab")
             terminal.shows("tftool echo base_link")

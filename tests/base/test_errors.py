@@ -1,4 +1,4 @@
-"""What every exception of ours promises: it survives pickle and copy, and never changes."""
+"""Tests that every exception of tftool survives pickle and copy, and never changes."""
 
 import copy
 import inspect

@@ -1,4 +1,4 @@
-"""Files that people name: no pipe is waited for in which nothing comes."""
+"""Tests of files that users name; a pipe without a writer must not block."""
 
 import os
 import subprocess
@@ -46,7 +46,7 @@ def test_what_comes_through_a_pipe_is_read_to_its_end():
         with open(writing, "w", encoding="utf-8", newline="") as file:
             file.write(sent)
 
-    # More than a pipe holds: it is written while it is read.
+    # This is more than a pipe stores, so it must be written while the test reads.
     writer = threading.Thread(target=write, daemon=True)
     writer.start()
 

@@ -1,4 +1,4 @@
-"""What was meant by an unknown name."""
+"""Tests of proposals for unknown names."""
 
 from tftool.base.plain_text import LONGEST, did_you_mean, near_names
 

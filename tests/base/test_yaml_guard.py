@@ -1,4 +1,4 @@
-"""The one way in for YAML: what a text stands for is bounded, and only plain values come out."""
+"""Tests of the only reader of YAML: results are limited in size, and contain only plain values."""
 
 import pytest
 import yaml

@@ -1,4 +1,4 @@
-"""Every benchmark, on demand: `python -m tests.benchmarks`; `--only scalar,batch` for some."""
+"""All benchmarks: `python -m tests.benchmarks`; `--only scalar,batch` selects some."""
 
 import argparse
 import platform
@@ -42,7 +42,7 @@ REPORTS = {
 
 
 def chosen(names: str) -> list[str]:
-    """The names in a list with commas, if there are such benchmarks."""
+    """Return the names in a list separated by commas, if there are such benchmarks."""
     asked = names.split(",")
     if unknown := [name for name in asked if name not in REPORTS]:
         raise argparse.ArgumentTypeError(

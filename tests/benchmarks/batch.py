@@ -1,7 +1,7 @@
-"""Many lookups at once: against tf2's own C++, other libraries' batches, and ourselves.
+"""Batches of lookups compared with tf2's C++, with other libraries and with single lookups.
 
-Single-threaded work is told in processor time, so that what else runs on the machine
-counts for nobody. Answers are compared before anything is timed.
+Single-threaded work is measured in processor time, so that other programs on the machine do not
+count. The results are compared before anything is timed.
 """
 
 import statistics
@@ -30,7 +30,7 @@ FEW = 100_000
 
 @dataclass(frozen=True)
 class Chain:
-    """f0 ← f1 ← …, each link a hundred samples a second, in a world that moves in all axes."""
+    """Chain of frames f0 ← f1 ← …; each edge has 100 samples per second and moves in all axes."""
 
     stamps: np.ndarray
     samples: np.ndarray
@@ -41,18 +41,18 @@ class Chain:
         return f"f{len(self.stamps)}"
 
     def times(self, count: int, *, in_order: bool) -> np.ndarray:
-        """Moments all over the chain's data."""
+        """Return stamps spread over all data of the chain."""
         random = np.random.default_rng(7)
         times = random.integers(self.stamps[:, 0].max(), self.stamps[:, -1].min(), count)
         return np.sort(times) if in_order else times
 
     def ask(self, times: np.ndarray, threads: int = 1) -> TransformArray:
-        """The batch under test."""
+        """Run the measured batch of lookups."""
         return self.buffer.lookup_transforms("f0", self.source, times, threads=threads)
 
 
 def chain(depth: int, samples: int = 1000) -> Chain:
-    """Make one."""
+    """Create a chain."""
     random = np.random.default_rng(depth)
     jitter = random.integers(0, 2_000_000, (depth, samples))
     stamps = seconds(1) + np.arange(samples) * 10_000_000 + jitter
@@ -76,7 +76,7 @@ def interleaved(
     rounds: int = ROUNDS,
     of: Callable[[list[float]], float] = statistics.median,
 ) -> dict[str, float]:
-    """Seconds each takes, the median of rounds in which they take turns."""
+    """Return the median seconds of each function, measured in rounds in which all of them run."""
     for work in works.values():
         work()
     taken: dict[str, list[float]] = {name: [] for name in works}
@@ -89,7 +89,7 @@ def interleaved(
 
 
 def against_noetic() -> list[str]:
-    """One million times, depth 5, against single lookups in C++."""
+    """Compare one million lookups at depth 5 with single lookups in tf2's C++."""
     head = "  noetic C++, single lookups, depth 5"
     if isinstance(noetic.program(), str):
         return [f"{head}: left out, {noetic.program()}"]
@@ -100,7 +100,7 @@ def against_noetic() -> list[str]:
         _, answers = noetic.lookups(world.stamps, world.samples, times[:FEW])
         found = world.ask(times[:FEW])
         np.testing.assert_allclose(found.translations, answers[:, :3], rtol=0, atol=1e-12)
-        # ROS 1 gives another sign where ROS 2 gives the canonical one.
+        # For some rotations ROS 1 returns a quaternion of the other sign than ROS 2.
         dots = np.einsum("ij,ij->i", found.rotations, answers[:, 3:])
         np.testing.assert_allclose(np.abs(dots), 1.0, rtol=0, atol=1e-12)
         ours, theirs = [], []
@@ -122,7 +122,7 @@ def against_noetic() -> list[str]:
 
 
 def against_peers() -> list[str]:
-    """The same chain and the same times in every library that is installed."""
+    """Compare lookups at the same stamps in every installed library."""
     lines = []
     for peer in PEERS:
         if find_spec(peer.module) is None:
@@ -147,10 +147,9 @@ def against_peers() -> list[str]:
 
 
 def threads() -> list[str]:
-    """Two threads against one, by the clock on the wall, the best round of each.
+    """Compare two threads with one thread in wall time, by the fastest round of each.
 
-    What else runs on the two cores only ever takes time away, from two threads more than
-    from one.
+    Other programs on the two cores slow two threads down more than one thread.
     """
     world = chain(5)
     lines = []
@@ -168,7 +167,7 @@ def threads() -> list[str]:
 
 
 def growth() -> list[str]:
-    """What a time costs by depth, by samples, and by the size of the batch."""
+    """Measure the time per lookup by depth, by number of samples, and by size of the batch."""
     lines = []
     for depth, samples, count in (
         (2, 1000, FEW),
@@ -191,10 +190,10 @@ def growth() -> list[str]:
 
 
 def reads_alone() -> list[str]:
-    """Lookups at random against the mere copying of the samples that they need.
+    """Compare random lookups with copying only the samples that these lookups need.
 
-    A time needs the two samples around it in each of five links: adjacent rows of 64 bytes, 32
-    megabytes in all, more than a processor keeps near. numpy copies them row by row.
+    A lookup needs two adjacent samples of 64 bytes in each of five edges. All samples have 32
+    megabytes, more than the caches of a processor. numpy copies the samples row by row.
     """
     world = chain(5, FEW)
     times = world.times(MANY, in_order=False)
@@ -215,7 +214,7 @@ def reads_alone() -> list[str]:
 
 
 def insertion() -> list[str]:
-    """A hundred thousand samples set together, and one by one."""
+    """Measure the insertion of 100,000 samples in one call, and one by one."""
     world = chain(1, FEW)
     stamps, places, turns = world.stamps[0], world.samples[0, :, :3], world.samples[0, :, 3:]
     order = np.random.default_rng(3).permutation(FEW)
@@ -244,9 +243,9 @@ def insertion() -> list[str]:
 
 
 def memory() -> list[str]:
-    """What a batch needs at its worst moment, as numpy tells it, beyond what it must hold.
+    """Measure the peak memory of a batch, as numpy reports it, beyond the necessary memory.
 
-    That is its answers and a copy of the samples, which may change while it runs.
+    A batch needs its results, and a copy of the samples, which may change during the batch.
     """
     lines = []
     for samples in (1000, FEW):
@@ -269,10 +268,10 @@ def memory() -> list[str]:
 
 
 def snapshot() -> list[str]:
-    """All frames in one sweep against a lookup each."""
+    """Compare a snapshot of all frames with one lookup per frame."""
     world = chain(300, 3)
     frames = [f"f{number}" for number in range(1, 301)]
-    # A chain is the worst of trees: every frame lies below all those before it.
+    # A chain is the slowest tree: every frame is below all earlier frames.
     taken = interleaved(
         {
             "sweep": lambda: world.buffer.snapshot(0, seconds(1.015)),
@@ -306,7 +305,7 @@ def snapshot() -> list[str]:
 
 
 def row(what: str, ours: float, theirs: float, wanted: float) -> str:
-    """One line of the table."""
+    """Return one row of the table."""
     return (
         f"{what:<62}{theirs:8.0f} → {ours:5.0f} ns   {theirs / ours:5.1f} times faster "
         f"(wanted: {wanted:g})"
@@ -314,7 +313,7 @@ def row(what: str, ours: float, theirs: float, wanted: float) -> str:
 
 
 def report() -> str:
-    """Measure, and say it as a table."""
+    """Run all measurements, and return the table."""
     parts = (
         against_noetic,
         against_peers,

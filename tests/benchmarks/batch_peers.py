@@ -1,4 +1,4 @@
-"""The batches of other libraries, each asked what ours is asked."""
+"""Batch lookups of other libraries, with the same data and stamps as tftool's."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ Work = Callable[[], object]
 
 @dataclass(frozen=True)
 class Peer:
-    """A library, how it is made ready, and how its answers compare with ours."""
+    """Library to compare with: preparation of its data, and comparison of its results."""
 
     name: str
     module: str
@@ -35,7 +35,7 @@ def _same_turns(rotations: np.ndarray, ours: TransformArray, tolerance: float) -
 
 
 def transform_tree_plan(stamps: np.ndarray, samples: np.ndarray) -> Any:
-    """Rust: pushed in one go, to be asked through its compiled plan."""
+    """Insert all samples into transform_tree (Rust) in one call, and compile its plan."""
     import tf_tree
 
     depth, count = stamps.shape
@@ -49,19 +49,19 @@ def transform_tree_plan(stamps: np.ndarray, samples: np.ndarray) -> Any:
 
 
 def transform_tree(stamps: np.ndarray, samples: np.ndarray, times: np.ndarray) -> Work:
-    """Its plan, asked for all moments at once."""
+    """Look up all stamps with the compiled plan in one call."""
     plan = transform_tree_plan(stamps, samples)
     return lambda: plan.at(times, layout="quat")
 
 
 def compare_transform_tree(theirs: np.ndarray, ours: TransformArray) -> None:
-    """w x y z, then the translation."""
+    """Compare results in the layout w x y z and translation with tftool's results."""
     np.testing.assert_allclose(theirs[:, 4:], ours.translations, rtol=0, atol=1e-12)
     _same_turns(theirs[:, [1, 2, 3, 0]], ours, 1e-12)
 
 
 def scipy(stamps: np.ndarray, samples: np.ndarray, times: np.ndarray) -> Work:
-    """Slerp and interp for each link, chained as scipy's own rotations."""
+    """Interpolate each edge with scipy's Slerp and `interp`, and multiply scipy's rotations."""
     from scipy.spatial.transform import Rotation, Slerp
 
     origin = int(stamps.min())
@@ -89,13 +89,13 @@ def scipy(stamps: np.ndarray, samples: np.ndarray, times: np.ndarray) -> Work:
 
 
 def compare_scipy(theirs: tuple[np.ndarray, np.ndarray], ours: TransformArray) -> None:
-    """Seconds as floats cost a few digits."""
+    """Compare scipy's results; seconds as floats lose a few digits."""
     np.testing.assert_allclose(theirs[0], ours.translations, rtol=0, atol=1e-6)
     _same_turns(theirs[1], ours, 1e-9)
 
 
 def pytransform3d(stamps: np.ndarray, samples: np.ndarray, times: np.ndarray) -> Work:
-    """Its manager of transforms that move."""
+    """Look up with pytransform3d's manager of moving transforms."""
     from pytransform3d.transform_manager import NumpyTimeseriesTransform, TemporalTransformManager
 
     origin = int(stamps.min())
@@ -110,14 +110,14 @@ def pytransform3d(stamps: np.ndarray, samples: np.ndarray, times: np.ndarray) ->
 
 
 def compare_pytransform3d(theirs: np.ndarray, ours: TransformArray) -> None:
-    """It moves along a screw between two samples, so that only turns are the same."""
+    """Compare only rotations: pytransform3d moves along a screw between two samples."""
     turned = ours.matrices()
     np.testing.assert_allclose(theirs[:, :3, :3], turned[:, :3, :3], rtol=0, atol=1e-6)
     np.testing.assert_allclose(theirs[:, :3, 3], turned[:, :3, 3], rtol=0, atol=1e-2)
 
 
 def rigid_body_motion(stamps: np.ndarray, samples: np.ndarray, times: np.ndarray) -> Work:
-    """Its frames in a registry; it moves points, from which the pose shows."""
+    """Transform points with rigid_body_motion's registry of frames; the points give the pose."""
     import rigid_body_motion as rbm
 
     rbm.clear_registry() if hasattr(rbm, "clear_registry") else rbm.registry.clear()
@@ -140,9 +140,10 @@ def rigid_body_motion(stamps: np.ndarray, samples: np.ndarray, times: np.ndarray
 
 
 def compare_rigid_body_motion(theirs: tuple[np.ndarray, np.ndarray], ours: TransformArray) -> None:
-    """Compare where the point (1, 2, 3) goes: near enough, as it interpolates what it has chained.
+    """Compare the transformed point (1, 2, 3), with a large tolerance.
 
-    It chains the links at the stamps of one of them, and only then looks between those.
+    rigid_body_motion multiplies the edges at the stamps of one edge, and then interpolates between
+    the products.
     """
     assert len(theirs[0]) == len(ours)
     np.testing.assert_allclose(theirs[0], ours.apply((1.0, 2.0, 3.0)), rtol=0, atol=0.1)
@@ -160,6 +161,6 @@ PEERS = (
         6,
         rigid_body_motion,
         compare_rigid_body_motion,
-        ("sorted",),  # it refuses others
+        ("sorted",),  # needed: the library refuses other orders
     ),
 )

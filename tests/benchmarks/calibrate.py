@@ -1,7 +1,7 @@
-"""Calibration on made motions of known truth: accuracy, intervals, refusals, processor time.
+"""Calibration of simulated motions with a known mount: accuracy, intervals, refusals, speed.
 
-Where uv installs them, OpenCV (before 5) with its five methods and trajectopy solve the same poses,
-each in a process of its own.
+If uv can install them, OpenCV (before 5) with its five methods and trajectopy solve the same
+poses, each in a separate process.
 """
 
 import shutil
@@ -95,7 +95,7 @@ def solved(made):
 
 
 def case(name, options):
-    """Return a line about one case, and how many of its intervals hold."""
+    """Return a line about one case, and the number of its intervals that contain the true value."""
     verdicts, held, factors, moved, turned = {}, [], [], [], []
     for seed in range(EACH):
         made = world(1000 + seed, **{"seconds": 60.0, **options})
@@ -125,7 +125,7 @@ def case(name, options):
 
 
 def accuracy():
-    """Return errors on 3-D motions of 60 s against the noise of one pose, and processor time."""
+    """Return errors on 3-D motions of 60 s by the noise of one pose, and the processor time."""
     noise = 0.003, 0.3
     rows, same, poses = [], [], ([], [], [])
     for seed in range(WORLDS):
@@ -150,7 +150,7 @@ def accuracy():
 
 
 def synchronised(made, poses):
-    """Add some poses of both bodies at the same moments, by the true clock offset; return both."""
+    """Return poses of both bodies at the same moments, resampled with the true clock offset."""
     a, b = BodyMotion.of(made.a), BodyMotion.of(made.b)
     times = b.times + (b.start - a.start) / 1e9 + made.offset
     places, turns, valid = a.at(times)
@@ -168,7 +168,7 @@ def synchronised(made, poses):
 
 
 def printed(package, script, file):
-    """Run another solver, and return what it prints, or why it did not run."""
+    """Run another solver; return its output, or the reason why it did not run."""
     uv = shutil.which("uv")
     if uv is None:
         return "", "uv is not installed"
@@ -178,7 +178,7 @@ def printed(package, script, file):
 
 
 def against(poses, ours):
-    """Return the medians of other solvers on the same poses, thinned and synchronised."""
+    """Return the median errors of other solvers on the same poses, thinned and synchronised."""
     lines, wrong = [], {}
     truths = [world(seed, seconds=60.0, offset=0.2).mount for seed in range(WORLDS)]
     with tempfile.TemporaryDirectory() as folder:
@@ -210,7 +210,7 @@ def against(poses, ours):
 
 
 def report():
-    """Measure all of it."""
+    """Run all measurements."""
     lines = ["calibrate", *accuracy()]
     held, factors, confident = [], [], 0
     for name, options in CASES.items():

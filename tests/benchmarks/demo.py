@@ -1,4 +1,4 @@
-"""What the demo costs while turtle1 draws by itself: processor time against time on the wall."""
+"""Processor time of the demo per second of real time while turtle1 drives by itself."""
 
 import fcntl
 import os
@@ -10,19 +10,20 @@ import termios
 import time
 
 SIZES = ((80, 24), (120, 40), (200, 60))
-# It draws from 5 s on; the start of both runs, and that of the drawing, cancels out.
+# turtle1 starts to draw at 5 s. The difference of both runs contains neither the start nor that
+# moment.
 SHORT, LONG = 8.0, 20.0
 ALLOWED = 15.0
 
 
 def cost(columns: int, rows: int, duration: float) -> float:
-    """Processor seconds of a demo on a terminal of that size that ends after `duration`."""
+    """Return the processor seconds of a demo on such a terminal that ends after `duration`."""
     folder = tempfile.mkdtemp()
     pid, terminal = pty.fork()
     if pid == 0:
         os.environ["TERM"] = "xterm-256color"
         os.environ["COLORTERM"] = "truecolor"
-        # In a session of its own: where others are, nothing draws by itself.
+        # The session must be empty: turtle1 drives by itself only if nobody else is in the session.
         os.environ["TFTOOL_SESSION_DIR"] = folder
         os.execv(sys.executable, [sys.executable, "-m", "tftool", "demo", "--for", str(duration)])
     fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
@@ -40,7 +41,7 @@ def cost(columns: int, rows: int, duration: float) -> float:
 
 
 def report() -> str:
-    """Measure, and say it in a few lines; a short run beside the long one takes out the start."""
+    """Measure a short and a long run, and print the result; their difference removes the start."""
     lines = ["the demo while turtle1 draws by itself, plots included, share of one core"]
     for columns, rows in SIZES:
         started = time.perf_counter()

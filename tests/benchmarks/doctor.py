@@ -1,6 +1,6 @@
-"""The doctor on a long recording, against reading it; and a fleet with two processes against one.
+"""The doctor on a long recording compared with reading it, and two processes compared with one.
 
-The sides take turns, and medians are compared.
+The compared programs run in turn, and their medians are compared.
 """
 
 import statistics
@@ -24,7 +24,7 @@ _STAMP = struct.Struct("<II")
 
 
 def write_long(path: Path, transforms: int = TRANSFORMS, headers: int = HEADERS) -> Path:
-    """A robot that drives and turns its joints, five transforms a message, and a sensor."""
+    """Write a recording of a robot with moving joints, five transforms a message, and a sensor."""
     from tests.recordings import writers
 
     pairs = [("odom", "base_link")] + [("base_link", f"joint_{k}_link") for k in range(1, 5)]
@@ -67,7 +67,7 @@ def _seconds(work) -> float:
 
 
 def compare_reading() -> str:
-    """A million transforms and 100 000 headers: judged in how many times the reading."""
+    """Compare the check of one million transforms and 100,000 headers with reading them."""
     from tftool.doctor.evidence import evidence_of_recording
     from tftool.doctor.judge import judge
     from tftool.recordings.recording import open_recording
@@ -94,7 +94,7 @@ def compare_reading() -> str:
 
 
 def compare_processes() -> str:
-    """Small recordings, two processes against one."""
+    """Compare two processes with one on many small recordings."""
     from tftool.commands.fleet import fleet
     from tftool.commands.fleet.fleet import Examination
     from tftool.commands.fleet.workers import workers_of
@@ -119,5 +119,5 @@ def compare_processes() -> str:
 
 
 def report() -> str:
-    """All of it."""
+    """Run all measurements."""
     return f"{compare_reading()}\n{compare_processes()}"

@@ -1,4 +1,4 @@
-"""How long a million poses take to be written, CSV beside np.savetxt in one run."""
+"""Time to write one million poses, in the same run as np.savetxt for CSV."""
 
 import statistics
 import tempfile
@@ -17,7 +17,7 @@ ROUNDS = 3
 
 
 def poses(count=POSES):
-    """A trajectory of noisy doubles, stamped at today's date."""
+    """Return a trajectory of noisy doubles with stamps of today."""
     draw = np.random.default_rng(1)
     turns = draw.normal(size=(count, 4))
     turns /= np.linalg.norm(turns, axis=1)[:, np.newaxis]
@@ -29,14 +29,14 @@ def poses(count=POSES):
 
 
 def seconds_of(way):
-    """How long one call takes."""
+    """Return the seconds that one call takes."""
     began = time.perf_counter()
     way()
     return time.perf_counter() - began
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     found = poses()
     path = found.path
     table = np.column_stack([path.stamps, path.translations, path.rotations])

@@ -1,4 +1,4 @@
-"""How the cost of a lookup grows with depth, samples and frames, out of what was measured."""
+"""Growth of the time per lookup with depth, samples and frames, computed from measurements."""
 
 import math
 
@@ -8,9 +8,10 @@ FRAMES = (100, 1000, 10_000)
 
 
 def fit(xs: list[float], ys: list[float]) -> tuple[float, float]:
-    """Where the line through the points begins, and how steep it is; each point counts alike.
+    """Fit a line to points; return its start and its slope.
 
-    Relative distances are least: a line through depths from 2 to 100 shall fit at 2 as well.
+    The relative distances are minimised, so that a line through depths from 2 to 100 also fits
+    at 2.
     """
     weights = [1.0 / (y * y) for y in ys]
     total = sum(weights)
@@ -23,7 +24,7 @@ def fit(xs: list[float], ys: list[float]) -> tuple[float, float]:
 
 
 def lines(table: dict[str, dict[str, float]]) -> list[str]:
-    """What grows how, a line for each side.
+    """Return a line about the growth for each compared program.
 
     Args:
         table: Nanoseconds by workload and side.

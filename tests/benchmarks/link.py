@@ -1,7 +1,7 @@
-"""How fast transforms cross from one process to another, over a real session, DDS and Foxglove.
+"""Rate and delay of transforms between two processes, over a real session, DDS and Foxglove.
 
-The far end is a process of its own: `python -m tests.benchmarks.link READERS-WORD ...`
-is how this file starts it.
+The other end is a separate process, which this file starts as
+`python -m tests.benchmarks.link READERS-WORD ...`.
 """
 
 import contextlib
@@ -37,7 +37,7 @@ FLAT_OUT = 10_000
 """Messages sent without a pause."""
 
 
-# Made beforehand: what is measured is how poses travel, not how they are computed.
+# The poses are made in advance, because the benchmark measures their transport only.
 POSE = Transform((1.0, 2.0, 0.0))
 FRAMES = [f"frame{number}" for number in range(1000)]
 
@@ -57,7 +57,7 @@ def options(name, middleware):
 
 
 async def _read(messages, middleware):
-    """Take so many messages; say how late each was and how long all took."""
+    """Receive some messages; print the delay of each message, and the time for all."""
     clock = WallClock()
     world = World(clock)
     delays = []
@@ -106,7 +106,7 @@ async def _send(link, world, size, count, period):
 
 
 def measure(*, size, count, period, readers=1, middleware="zenoh"):
-    """Send `count` messages of `size` transforms; give what each reader found."""
+    """Send `count` messages of `size` transforms; return the results of each reader."""
     with tempfile.TemporaryDirectory(prefix="tf") as folder:
         os.environ["TFTOOL_SESSION_DIR"] = folder
         world = World(WallClock())
@@ -132,7 +132,7 @@ def measure(*, size, count, period, readers=1, middleware="zenoh"):
 
 
 def measure_foxglove(*, size, count, period):
-    """Send likewise from foxglove-sdk's server; give what the one reader found."""
+    """Send the same messages from foxglove-sdk's server; return the results of the one reader."""
     subscribed = threading.Event()
 
     class Listener(foxglove.websocket.ServerListener):
@@ -164,7 +164,7 @@ def measure_foxglove(*, size, count, period):
 
 
 def paths(size=20_000):
-    """Samples a second from a message of one long path: taken in at once, and one by one."""
+    """Return samples per second of a message with one long path, inserted at once or singly."""
     payload = encode_transforms([sample_of(10**18 + step, 0) for step in range(size)])
 
     def at_once():
@@ -199,7 +199,7 @@ sys.exit(main(["static", "--frame-id", "A", "--child-frame-id", "B", "--once"], 
 
 
 def opening():
-    """Seconds a command takes with a link, where another process waits, and without."""
+    """Return the seconds of a command in a session with another waiting process, and without."""
     found = {"linked": [], "alone": []}
     with holding_out():
         for way in (*found,) * 8:
@@ -211,7 +211,7 @@ def opening():
 
 @contextlib.contextmanager
 def holding_out():
-    """A session in which nothing happens: `tftool static`, its transform published."""
+    """Host a session in which nothing happens: `tftool static` after its transform is published."""
     with tempfile.TemporaryDirectory(prefix="tf") as folder:
         os.environ["TFTOOL_SESSION_DIR"] = folder
         words = ["static", "--frame-id", "A", "--child-frame-id", "B"]
@@ -224,7 +224,7 @@ def holding_out():
 
 
 def idle(duration=5.0):
-    """The share of a core that a session takes in which nothing happens; None off Linux."""
+    """Return the share of a core that an idle session uses; None except on Linux."""
 
     def used():
         fields = stat.read_text().rpartition(")")[2].split()
@@ -242,7 +242,7 @@ def idle(duration=5.0):
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     lines = ["link, one process to another (unix sockets)"]
     linked, alone = opening()
     lines.append(

@@ -1,6 +1,6 @@
-"""ROS 1's compiled tf2, asked one by one from C++.
+"""Single lookups with ROS 1's compiled tf2, from C++.
 
-Needs Debian's libtf2-dev and a C++ compiler; says so where they are missing.
+This needs Debian's libtf2-dev and a C++ compiler; without them the benchmark prints the reason.
 """
 
 import atexit
@@ -19,7 +19,7 @@ SOURCE = Path(__file__).with_name("noetic.cpp")
 
 @functools.cache
 def program() -> Path | str:
-    """The compiled program, or why there is none."""
+    """Return the compiled program, or the reason why there is none."""
     compiler = shutil.which("g++") or shutil.which("clang++")
     if compiler is None:
         return "no C++ compiler"
@@ -42,13 +42,13 @@ def program() -> Path | str:
 def lookups(
     stamps: np.ndarray, samples: np.ndarray, times: np.ndarray, rounds: int = 1
 ) -> tuple[list[float], np.ndarray]:
-    """Nanoseconds a lookup in each round, of processor time, and the answers, shape (n, 7).
+    """Return nanoseconds of processor time per lookup in each round, and the results, shape (n, 7).
 
     Args:
-        stamps: Of each link of the chain f0 ← f1 ← …, shape (depth, k).
-        samples: Their poses, shape (depth, k, 7).
-        times: When f0 ← f(depth) is asked for, shape (n,).
-        rounds: How often.
+        stamps: Stamps of each edge of the chain f0 ← f1 ← …, shape (depth, k).
+        samples: Poses of these samples, shape (depth, k, 7).
+        times: Times of the lookups of f(depth) in f0, shape (n,).
+        rounds: Number of rounds.
     """
     built = program()
     assert isinstance(built, Path), built

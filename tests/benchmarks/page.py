@@ -1,4 +1,4 @@
-"""The page of `tftool view`: hundreds of frames in a browser without a graphics card."""
+"""The page of `tftool view` with hundreds of frames, in a browser without a graphics card."""
 
 import asyncio
 import contextlib
@@ -24,7 +24,7 @@ pause = threading.Event().wait
 
 
 async def crowd(world: World) -> None:
-    """Move a tree of so many frames, each of them at 30 Hz, for ever."""
+    """Move a tree of many frames, each at 30 Hz, without end."""
     links = [("map" if n < 10 else f"frame{(n - 10) // 3}", f"frame{n}") for n in range(FRAMES)]
     clock = world.clock
     due = clock.now()
@@ -54,13 +54,13 @@ async def crowd(world: World) -> None:
 def shown(
     act: Callable[[World], Awaitable[None]], state: str, ready: str, robot: Any = None
 ) -> Iterator[tuple[Any, Any, float]]:
-    """A page in a headless browser: the stage, the driver, seconds to the first picture.
+    """Yield a page in a headless browser: the stage, the driver, seconds to the first picture.
 
     Args:
-        act: What goes on in the world.
-        state: The page's address behind the #.
-        ready: Holds in the page once everything is drawn.
-        robot: Shown in the page.
+        act: Coroutine that changes the world.
+        state: Part of the page's address after the #.
+        ready: Expression that is true in the page once everything is drawn.
+        robot: Robot to show in the page.
     """
     from tests.screens.browser.driving import start_chromium
     from tests.screens.browser.stage import Stage
@@ -90,7 +90,7 @@ def has_browser() -> bool:
 def pictures_a_second(
     act: Callable[[World], Awaitable[None]], state: str, ready: str, robot: Any = None
 ) -> float | None:
-    """How many pictures a second a headless browser draws; None without one."""
+    """Return the pictures per second that a headless browser draws; None without a browser."""
     if not has_browser():
         return None
     with shown(act, state, ready, robot) as (stage, _, _):
@@ -100,14 +100,14 @@ def pictures_a_second(
 
 
 def told(what: str, pictures: float | None) -> str:
-    """A line of a report."""
+    """Return a line of a report."""
     if pictures is None:
         return f"{what}: no chromium here"
     return f"{what} in headless Chromium: {pictures:.1f} pictures/s (wanted: {WANTED:.0f})"
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     ready = f"globalThis.tftool?.drawn().length > {FRAMES}"
     named = pictures_a_second(crowd, "", ready)
     bare = pictures_a_second(crowd, "names=0", ready)

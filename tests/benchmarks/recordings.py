@@ -1,11 +1,10 @@
-"""Recordings read into the buffer: against `rosbags`, `mcap` and `transform_tree`, where installed.
+"""Time to read recordings into the buffer, compared with `rosbags`, `mcap` and `transform_tree`.
 
-Each side runs in a process of its own, so that its memory is its own, and sides take turns. In
-each process it reads the file several times. The quickest reading of all counts, on each side:
-the first one also pays for imports, and what a machine takes to find memory can double others.
-Two ratios are printed: of processor time, which work elsewhere on the machine hardly changes, and
-of time on the clock, in which what is unpacked in threads counts once, and which means something
-on a quiet machine alone.
+Each program runs in a separate process, so that its memory is measured alone, and the programs run
+in turn. Each process reads the file several times, and the fastest reading counts: the first
+reading includes imports, and allocation of memory can double the time of others. The report has
+two ratios. The ratio of processor time hardly depends on other work of the machine. The ratio of
+wall time includes unpacking in threads, and is meaningful only on an idle machine.
 """
 
 import importlib.util
@@ -38,7 +37,7 @@ _STAMP = struct.Struct("<II")
 
 
 def _messages(layout: str, per_message: int, transforms: int) -> Iterator[tuple[int, bytes]]:
-    """Log time and bytes of each message: a noisy odometry and four joints that turn."""
+    """Yield log time and bytes of each message: noisy odometry and four moving joints."""
     draw = np.random.default_rng(7)
     count = transforms // per_message
     kinds = min(count, 5000)
@@ -108,7 +107,7 @@ def _write(kind: str, path: Path, per_message: int) -> None:
 
 
 def _write_big(path: Path, method: str) -> None:
-    """Write 2 GB of images, with a thousandth of transforms."""
+    """Write 2 GB of images, of which a thousandth is transforms."""
     from tests.recordings import writers
 
     image = np.random.default_rng(3).integers(0, 255, 500_000, dtype=np.uint8).tobytes()
@@ -126,7 +125,7 @@ def _write_big(path: Path, method: str) -> None:
         writer.finish()
 
 
-# The sides
+# The compared programs
 
 
 def _ours(path: Path, most: int) -> int:
@@ -138,7 +137,7 @@ def _ours(path: Path, most: int) -> int:
 
 
 def _rosbags(path: Path, most: int) -> int:
-    """Decode with rosbags, up to so many transforms: it is slow."""
+    """Decode a limited number of transforms with rosbags, which is slow."""
     from rosbags.highlevel import AnyReader
 
     from tests.recordings import writers
@@ -169,7 +168,7 @@ def _transform_tree(path: Path, most: int) -> int:
 
 @cache
 def _packed(path: Path) -> list[tuple[bytes, int]]:
-    """The chunks of a recording, packed, and how long each is unpacked."""
+    """Return the compressed chunks of a recording, and the length of each when unpacked."""
     if path.suffix == ".mcap":
         from mcap.records import Chunk
         from mcap.stream_reader import StreamReader
@@ -187,7 +186,7 @@ def _packed(path: Path) -> list[tuple[bytes, int]]:
 
 
 def _unpacking(path: Path, most: int) -> int:
-    """Unpack the chunks in threads, into memory that is used again, and do nothing else."""
+    """Unpack the chunks in threads into memory that is reused, and do nothing else."""
     import bz2
 
     import lz4.frame
@@ -205,7 +204,7 @@ def _unpacking(path: Path, most: int) -> int:
         for packed, _ in pieces:
             assert unpack(packed)
 
-    # As tftool.recordings.decompression says of lz4.
+    # The reason is in tftool.recordings.decompression, at lz4.
     np.empty(31 << 20, dtype=np.uint8)
     pieces, workers = _packed(path), len(os.sched_getaffinity(0))
     with ThreadPoolExecutor(workers) as pool:
@@ -224,8 +223,8 @@ SIDES: dict[str, Callable[[Path, int], int]] = {
 
 
 def _side(name: str, path: str, most: str) -> None:
-    """Run one side: processor and clock seconds a transform, megabytes, and transforms."""
-    # What a first call imports is no reading; and numpy's own memory is not counted.
+    """Run one program: return processor and wall seconds a transform, megabytes, and transforms."""
+    # Imports of the first call are not part of reading, and numpy's own memory does not count.
     import lz4.frame  # noqa: F401
     import rosbags.highlevel  # noqa: F401
     import zstandard  # noqa: F401
@@ -244,14 +243,14 @@ def _side(name: str, path: str, most: str) -> None:
 
 
 def _peak() -> float:
-    """Megabytes that this process ever had at once."""
+    """Return the peak memory of this process in megabytes."""
     lines = Path("/proc/self/status").read_text().splitlines()
     return next(int(line.split()[1]) / 1e3 for line in lines if line.startswith("VmHWM"))
 
 
 def _measured(name: str, path: Path, most: int = TRANSFORMS) -> tuple[float, float, float, float]:
     words = [sys.executable, "-m", "tests.benchmarks.recordings", name, str(path), str(most)]
-    # Threads of a library for matrices, which has nothing to do here, would count as work.
+    # Threads of a library for matrices, which reading does not use, would count as work.
     env = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     done = subprocess.run(words, capture_output=True, text=True, check=True, env=env)
     spent, clock, memory, count = map(float, done.stdout.split())
@@ -259,7 +258,7 @@ def _measured(name: str, path: Path, most: int = TRANSFORMS) -> tuple[float, flo
 
 
 def report() -> str:
-    """Millions of transforms a processor second, and how many times each peer."""
+    """Print millions of transforms per processor second, and the ratio to each other library."""
     lines = ["recordings: 1 000 000 transforms into the buffer, by the processor (by the clock)"]
     with tempfile.TemporaryDirectory() as folder:
         for kind, per_message, peers in (
@@ -301,7 +300,7 @@ def report() -> str:
 
 
 def _told(spent: tuple[float, float], peers: dict[str, tuple[float, float]]) -> str:
-    """Transforms a second, and how many times as fast as each peer."""
+    """Return transforms per second, and the ratio to each other library."""
     ratios = "".join(
         f", {theirs[0] / spent[0]:.1f} times {one} ({theirs[1] / spent[1]:.1f})"
         for one, theirs in peers.items()
@@ -317,7 +316,7 @@ def _big(folder: Path) -> list[str]:
     lines = []
     path = folder / "big.mcap"
     _write_big(path, "none")
-    _measured("ours", path)  # warm
+    _measured("ours", path)  # to fill the caches
     for one in ("ours", "rosbags", "mcap"):
         took, _, _, count = _measured(one, path)
         lines.append(f"  2 GB uncompressed, 0.1 % tf, {one}: {took * count:.2f} s")
@@ -339,7 +338,7 @@ def _big(folder: Path) -> list[str]:
 
 
 def _asked(path: Path, kept: Path) -> float:
-    """Processor seconds of a question to a recording whose columns are kept."""
+    """Return the processor seconds of a lookup in a recording whose columns are cached."""
     from tftool.recordings.column_cache import ColumnCache
     from tftool.recordings.recording import open_recording
 

@@ -27,7 +27,7 @@ WANTED_TRANSFORMS = 3e6
 
 
 def arms(links: int, count: int) -> str:
-    """A robot of so many links in so many arms, each link a cylinder and a box."""
+    """Return a robot of many links in several arms; each link is a cylinder and a box."""
     shapes = (
         '<visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.03" length="0.2"/>'
         '</geometry></visual><visual><geometry><box size="0.08 0.08 0.08"/></geometry></visual>'
@@ -48,7 +48,7 @@ def arms(links: int, count: int) -> str:
 
 
 def machine(folder: Path) -> str:
-    """A robot of many links with meshes of 2,000 triangles, some of which slide."""
+    """Write a robot of many links with meshes of 2,000 triangles; some links slide."""
     for n in range(10):
         (folder / f"{n}.stl").write_bytes(ball(0.05 + 0.002 * n))
     parts = ['<link name="base"/>']
@@ -65,7 +65,7 @@ def machine(folder: Path) -> str:
 
 
 def ball(radius: float, rings: int = 32) -> bytes:
-    """A sphere as binary STL."""
+    """Return a sphere as binary STL."""
     polar, around = np.meshgrid(
         np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, rings + 1), indexing="ij"
     )
@@ -82,7 +82,7 @@ def ball(radius: float, rings: int = 32) -> bytes:
 
 
 def transforms_a_second() -> float:
-    """Transforms for each second of processor time, the buffer's own work included."""
+    """Return transforms per second of processor time, including the buffer's work."""
     robot = Robot(parse_description(arms(JOINTS + 1, 1)))
     stamps = 10**9 + 10_000_000 * np.arange(STATES)
     positions = np.random.default_rng(1).uniform(-0.5, 0.5, (STATES, JOINTS))
@@ -96,7 +96,7 @@ def transforms_a_second() -> float:
 
 
 def pictures_a_second() -> float | None:
-    """How many pictures a second a headless browser draws of the robot; None without one."""
+    """Return the pictures per second of the robot in a headless browser; None without a browser."""
     from tftool.screens.browser.robots import ShownRobot
 
     robot = Robot(parse_description(arms(LINKS, ARMS)))
@@ -109,7 +109,7 @@ def pictures_a_second() -> float | None:
 
 
 def task_time() -> str:
-    """Task time of the page for each picture of a machine with sliders, and its first picture."""
+    """Return the page's task time per picture of a machine with sliders, and its first picture."""
     from tftool.screens.browser.robots import ShownRobot
 
     what = f"{PARTS} links with meshes, {SLIDERS} of which slide"
@@ -147,7 +147,7 @@ def task_time() -> str:
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     rate = transforms_a_second()
     lines = [
         f"joint states to frames: {rate / 1e6:.1f} M transforms/s "

@@ -1,7 +1,7 @@
-"""One question, one sample at a time, against ROS 1's tf2 in Python and in C++.
+"""Single lookups and inserts, compared with ROS 1's tf2 in Python and in C++.
 
-Every side is a process of its own that is told the same worlds and the same questions; the
-answers are compared before anything is timed, and the sides take turns.
+Each compared program is a separate process that gets the same worlds and the same questions. The
+answers are compared before anything is timed, and the programs run in turn.
 """
 
 import math
@@ -47,12 +47,12 @@ POSES = 997
 
 @dataclass(frozen=True)
 class World:
-    """Links with so many samples each, a hundred a second, give or take.
+    """Edges with many samples each, at about 100 Hz with jitter.
 
     Attributes:
-        links: Parent and child of each.
-        samples: How many each link has.
-        ends: Target and source of the questions; None for frames at random.
+        links: Parent and child of each edge.
+        samples: Number of samples of each edge.
+        ends: Target and source of the questions; None for random frames.
     """
 
     links: tuple[tuple[str, str], ...]
@@ -61,22 +61,22 @@ class World:
 
     @property
     def newest(self) -> int:
-        """A moment for which every link has data."""
+        """Return a time at which every edge has data."""
         return SECOND + (self.samples - 1) * PERIOD
 
     def command(self) -> list[str]:
-        """What makes it."""
+        """Return the command that creates this world."""
         return ["make", str(self.samples), *(name for link in self.links for name in link)]
 
     def pair(self, random: Random) -> tuple[str, str]:
-        """Target and source of a question."""
+        """Return target and source of a question."""
         if self.ends is not None:
             return self.ends
         return random.choice(self.links)[1], random.choice(self.links)[1]
 
 
 def chain(depth: int, samples: int = 1000) -> World:
-    """f0 ← f1 ← …; of two links, the two turtles in their world."""
+    """Return the chain f0 ← f1 ← …; a chain of two edges has the two turtles in their world."""
     if depth == 2:
         links = (("world", "turtle1"), ("world", "turtle2"))
         return World(links, samples, ("turtle2", "turtle1"))
@@ -85,19 +85,19 @@ def chain(depth: int, samples: int = 1000) -> World:
 
 
 def tree(frames: int, children: int) -> World:
-    """So many frames, each with so many children."""
+    """Return a tree of so many frames, each with so many children."""
     return World(tuple((f"f{(n - 1) // children}", f"f{n}") for n in range(1, frames)), 3)
 
 
 @dataclass(frozen=True)
 class Workload:
-    """What is measured.
+    """Workload to measure.
 
     Attributes:
-        name: What it is called in the table.
-        world: Where it is asked; None for inserts, which begin with an empty buffer.
-        command: Given a turn's random numbers, what each side is told.
-        wanted: How many times as fast as tf2_py, and as tf2 in C++, the native kernel is to be.
+        name: Name in the table.
+        world: World of the questions; None for inserts, which begin with an empty buffer.
+        command: Function from a round's random numbers to the command for each program.
+        wanted: Wanted ratio of the native kernel to tf2_py, and to tf2 in C++.
     """
 
     name: str
@@ -114,9 +114,9 @@ def questions(
     kind: str = "lookup",
     again: bool = False,
 ) -> Workload:
-    """Questions about the last so many periods; 0 for the latest.
+    """Return a workload of questions about the last `back` periods; 0 for the latest time.
 
-    Asked `again`, they are about the same frames in every turn.
+    With `again`, the questions of every round are about the same frames.
     """
     count = max(100, MOST // (1 + len(world.links) // 25)) if world.ends else MOST
 
@@ -128,7 +128,7 @@ def questions(
             moment = world.newest - 1 - random.randrange(back * PERIOD) if back else 0
             words += [target, str(moment), source]
             if kind == "full":
-                # Where it was up to five seconds before, by what does not move.
+                # The pose up to five seconds before, with the fixed frame f0.
                 words += [str(max(moment - random.randrange(5 * SECOND), 2 * SECOND)), "f0"]
         return words
 
@@ -141,7 +141,7 @@ def inserts(
     asked: int,
     wanted: tuple[float | None, float | None] = (None, None),
 ) -> Workload:
-    """Samples of one link, which remembers ten seconds, in some order of their numbers."""
+    """Return a workload that inserts samples of one edge, with a cache of ten seconds."""
 
     def command(random: Random) -> list[str]:
         words = ["insert", str(SECOND + asked * PERIOD + PERIOD // 2)]
@@ -153,15 +153,15 @@ def inserts(
 
 
 def _late(random: Random) -> list[int]:
-    """Every second one up to four seconds after its turn."""
+    """Return the order in which every second sample comes up to four samples too late."""
     due = [number + (random.randrange(400) if number % 2 else 0) for number in range(MOST)]
     return sorted(range(MOST), key=due.__getitem__)
 
 
 def workloads() -> Iterator[Workload]:
-    """All of them; those that share a world follow each other.
+    """Return all workloads; workloads of the same world are adjacent.
 
-    The longest chain of histories comes first: it is what memory is measured by.
+    The longest chain comes first, because the memory is measured with it.
     """
     for samples in (100_000, 1000):
         for depth in (5, 2, 20, 100):
@@ -193,7 +193,7 @@ def workloads() -> Iterator[Workload]:
 
 
 def agree(one: list[float], other: list[float]) -> bool:
-    """Whether two lists of answers are the same, up to each quaternion's sign."""
+    """Whether two lists of answers are equal, up to each quaternion's sign."""
     if len(one) != len(other):
         return False
     width = 7 if len(one) % 7 == 0 else 1
@@ -207,7 +207,7 @@ def agree(one: list[float], other: list[float]) -> bool:
 
 
 def poses() -> list[str]:
-    """The poses samples are made of: a round trip, turning twice about a tilted axis."""
+    """Return the poses of the samples: a circle, with two turns about a tilted axis."""
     words = ["poses"]
     for number in range(POSES):
         angle = 2.0 * math.pi * number / POSES
@@ -221,7 +221,7 @@ def poses() -> list[str]:
 
 
 def sides() -> tuple[dict[str, Side], list[str]]:
-    """Those that are there, and a line for each that is not."""
+    """Return the available programs, and a line for each missing one."""
     lines = []
     switches = {"native": "0", "pure": "1"}
     if not IS_NATIVE:
@@ -244,14 +244,14 @@ def sides() -> tuple[dict[str, Side], list[str]]:
 
 
 def together(found: dict[str, Side], command: list[str]) -> list[list[float]]:
-    """What each side answers, all at work at once."""
+    """Return each program's answer to a command; all programs work at the same time."""
     for side in found.values():
         side.tell(*command)
     return [side.answer() for side in found.values()]
 
 
 def measure(found: dict[str, Side], workload: Workload) -> list[float] | str:
-    """Nanoseconds for one, the median of turns, for each side; or why they are not compared."""
+    """Return each program's median nanoseconds per item, or the reason for no comparison."""
     random = Random(workload.name)
     first, *others = (answer[1:] for answer in together(found, workload.command(random)))
     if not all(agree(first, other) for other in others):
@@ -264,7 +264,7 @@ def measure(found: dict[str, Side], workload: Workload) -> list[float] | str:
 
 
 def row(workload: Workload, taken: dict[str, float]) -> str:
-    """One line of the table."""
+    """Return one row of the table."""
     line = f"  {workload.name:<42}" + "".join(f"{one:10.0f}" for one in taken.values())
     if "native" not in taken:
         return line
@@ -278,7 +278,7 @@ def row(workload: Workload, taken: dict[str, float]) -> str:
 
 
 def against_transform_tree() -> str:
-    """`transform_tree` (Rust), asked from Python for one moment after the other: a matrix."""
+    """Compare with `transform_tree` (Rust): single lookups from Python, with a matrix as result."""
     depth, wanted = 3, 1.0
     name = f"transform_tree, any time in 1,000 samples, {depth} links"
     if find_spec("tf_tree") is None:
@@ -308,7 +308,7 @@ def against_transform_tree() -> str:
 
 
 def report() -> str:
-    """Measure, and say it as a table: the native kernel and the plain path, in the same turns."""
+    """Measure the native kernel and plain Python in the same rounds, and print a table."""
     found, absent = sides()
     lines = [
         f"scalar path, nanoseconds (median of {TURNS} turns each, {PYTHON}); "

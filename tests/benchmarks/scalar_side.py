@@ -1,7 +1,7 @@
-"""One side of the scalar benchmark, in a process of its own: `scalar_side.py ours|debian`.
+"""One compared program of the scalar benchmark: `scalar_side.py ours|debian`.
 
-Takes the commands of `noetic.cpp`, and answers as it does. Both sides run on the system's
-Python, where Debian's tf2 lives; imports nothing but what is measured.
+It takes the same commands as `noetic.cpp`, and prints the same answers. It runs on the system's
+Python, which has Debian's tf2, and imports only the code that is measured.
 """
 
 import gc
@@ -16,7 +16,7 @@ SHOWN = 20
 
 
 class Ours:
-    """tftool."""
+    """tftool's buffer."""
 
     def __init__(self):
         from tftool.buffer.buffer import Buffer
@@ -40,7 +40,7 @@ class Ours:
     def sample(self, parent, child, stamp, transform):
         return self.stamped(stamp, parent, child, transform)
 
-    # What is sent once is a value; nothing to copy.
+    # A sample that is sent once needs no copy, because it is an immutable value.
     fresh = sample
 
     def moment(self, stamp):
@@ -104,7 +104,7 @@ class Debian:
 
 
 class Commands:
-    """What a side is told to do."""
+    """Commands that a compared program executes."""
 
     def __init__(self, side):
         self.side = side
@@ -151,7 +151,7 @@ class Commands:
 
     def insert(self, asked, *words):
         samples = [
-            # Each with numbers of its own, as they come in from outside.
+            # Each sample has new number objects, as when it comes from a message.
             self.side.sample(
                 "world", "turtle1", int(stamp), self.side.transform(self.table[int(pose)])
             )
@@ -168,7 +168,7 @@ class Commands:
 
 
 def memory():
-    """Bytes of this process that are in memory."""
+    """Return the bytes of this process that are in memory."""
     gc.collect()
     with open("/proc/self/statm") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")

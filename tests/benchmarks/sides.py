@@ -1,4 +1,4 @@
-"""A process that is measured: told a line of words, it answers with a line of numbers."""
+"""Process to measure: it reads a line of words, and answers with a line of numbers."""
 
 import subprocess
 from collections.abc import Sequence
@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 class Side:
-    """One of those that are compared, kept alive and asked in turn with the others."""
+    """One of the compared programs; it runs until `end`."""
 
     def __init__(self, command: Sequence[str | Path], env: dict[str, str] | None = None) -> None:
         self._process = subprocess.Popen(
@@ -14,21 +14,21 @@ class Side:
         )
 
     def tell(self, *words: object) -> None:
-        """Have it begin; `answer` waits for what comes of it."""
+        """Send a command without waiting; `answer` waits for the result."""
         assert self._process.stdin is not None
         self._process.stdin.write(" ".join(map(str, words)) + "\n")
         self._process.stdin.flush()
 
     def answer(self) -> list[float]:
-        """What came of the oldest command not answered yet."""
+        """Return the result of the oldest command without an answer."""
         assert self._process.stdout is not None
         return [float(word) for word in self._process.stdout.readline().split()]
 
     def ask(self, *words: object) -> list[float]:
-        """Tell, and wait for the answer."""
+        """Send a command, and wait for its result."""
         self.tell(*words)
         return self.answer()
 
     def end(self) -> None:
-        """Let it go."""
+        """End the process."""
         self._process.communicate()

@@ -1,4 +1,4 @@
-"""What a picture of a robot in space costs on a terminal: processor time for each."""
+"""Processor time per 3-D picture of a robot on a terminal."""
 
 import tempfile
 import time
@@ -25,7 +25,7 @@ _STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2
 
 
 def tube() -> bytes:
-    """An STL file of a tube with rings."""
+    """Return an STL file of a tube with rings."""
     rings = TRIANGLES // LINKS // AROUND // 2
     angle = np.linspace(0.0, 2.0 * np.pi, AROUND, endpoint=False)
     height = np.linspace(0.0, 0.2, rings + 1)
@@ -42,7 +42,7 @@ def tube() -> bytes:
 
 
 def made_arm() -> SpacePicture:
-    """An arm of tubes with the triangles of a UR5e, made coarse as `tftool robot` does it."""
+    """Return an arm of tubes with the triangles of a UR5e, simplified as by `tftool robot`."""
     mesh = '<visual><geometry><mesh filename="tube.stl"/></geometry></visual>'
     parts = "".join(f'<link name="link{n}">{mesh}</link>' for n in range(LINKS))
     parts += "".join(
@@ -63,7 +63,7 @@ def made_arm() -> SpacePicture:
 
 
 def cost(picture: SpacePicture, columns: int, rows: int) -> float:
-    """Milliseconds of processor time for a picture, while the camera turns: the median."""
+    """Return the median milliseconds of processor time per picture while the camera turns."""
     camera, canvas = OrbitCamera(), SpaceCanvas(columns, rows)
     times = []
     for _ in range(PICTURES):
@@ -75,7 +75,7 @@ def cost(picture: SpacePicture, columns: int, rows: int) -> float:
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     picture = made_arm()
     drawn = 0 if picture.solids is None else len(picture.solids.triangles)
     lines = [f"an arm of {TRIANGLES:,} triangles, {drawn:,} of them drawn, on a terminal"]

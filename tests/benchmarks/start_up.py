@@ -1,4 +1,4 @@
-"""How soon a command answers, against a Python that does nothing, and one that only imports."""
+"""Time until a command answers, compared with a Python that does nothing or only imports."""
 
 import os
 import statistics
@@ -20,7 +20,7 @@ LIBRARIES = {
 }
 """Imports that each command needs: no command can start faster."""
 
-# What is run, and how many milliseconds it may take beyond the bare start.
+# Command lines, and the milliseconds that each may take longer than an empty Python program.
 COMMANDS = {
     "tftool --help": (["--help"], 45.0),
     "tftool echo --help": (["echo", "--help"], 45.0),
@@ -34,7 +34,7 @@ COMMANDS = {
 
 
 def files(folder: Path) -> None:
-    """Make the description and the recording that are asked about."""
+    """Write the description and the recording that the commands read."""
     links = "".join(f'<link name="link{n}"/>' for n in range(10))
     joints = "".join(
         f'<joint name="joint{n}" type="revolute"><parent link="link{n}"/>'
@@ -47,7 +47,7 @@ def files(folder: Path) -> None:
 
 
 def measure(command: list[str], folder: Path) -> float:
-    """Milliseconds from start to end of one run."""
+    """Return the milliseconds from start to end of one run."""
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     started = time.perf_counter()
     subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=True)
@@ -55,7 +55,7 @@ def measure(command: list[str], folder: Path) -> float:
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     commands = {"python -c pass": BARE, **LIBRARIES}
     commands |= {name: [*TFTOOL, *words] for name, (words, _) in COMMANDS.items()}
     taken: dict[str, list[float]] = {name: [] for name in commands}
@@ -64,7 +64,7 @@ def report() -> str:
         files(folder)
         for command in commands.values():
             measure(command, folder)  # once, so that bytecode and columns are cached
-        # In turn, so that a slow moment of the machine hits them all alike.
+        # The commands run in turn, so that a slow moment of the machine affects all of them.
         for _ in range(ROUNDS):
             for name, command in commands.items():
                 taken[name].append(measure(command, folder))

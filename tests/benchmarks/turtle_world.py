@@ -1,4 +1,4 @@
-"""How fast the turtle world plays: simulated time over the time one core is given for it."""
+"""Speed of the turtle world: simulated time per second of one core."""
 
 import statistics
 import time
@@ -27,12 +27,12 @@ WANTED_OF_SCENARIO = 200.0
 
 
 def rounds(*, square: bool, color: bool = False, count: int = 7) -> list[float]:
-    """Play turtlesim, two broadcasters and the follower; give each round's ratio.
+    """Run turtlesim, two broadcasters and the follower; return the ratio of each round.
 
     Args:
-        square: Whether the leader draws squares; otherwise it rests.
-        color: Whether somebody listens to the colour sensors.
-        count: How many rounds.
+        square: Whether the leader draws squares; otherwise it stands.
+        color: Whether a node subscribes to the colour sensors.
+        count: Number of rounds.
     """
     ratios = []
     for _ in range(count):
@@ -53,7 +53,7 @@ def rounds(*, square: bool, color: bool = False, count: int = 7) -> list[float]:
 
 
 def scenario(count: int = 7) -> list[float]:
-    """Play the scenario `turtles`, its script and expectations too; each round's ratio."""
+    """Run the scenario `turtles` with script and expectations; return the ratio of each round."""
     turtles = load.load(builtin.path_of("turtles"))
     ratios = []
     for _ in range(count):
@@ -65,7 +65,7 @@ def scenario(count: int = 7) -> list[float]:
 
 
 def wakeups(nodes: int = 100, count: int = 7) -> list[float]:
-    """Let many nodes wake ten times a simulated second; how often in a second of work."""
+    """Return the wake-ups per second of work of nodes that wake ten times a simulated second."""
     rates = []
     for _ in range(count):
         world = World(SimClock())
@@ -78,7 +78,7 @@ def wakeups(nodes: int = 100, count: int = 7) -> list[float]:
 
 
 class _Ticking(Node):
-    """Wakes, and sleeps on."""
+    """Node that wakes periodically and does nothing."""
 
     async def run(self) -> None:
         async for _ in self.every(seconds(0.1)):
@@ -86,7 +86,7 @@ class _Ticking(Node):
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     lines = [
         f"turtle world, {SIMULATED:g} simulated seconds over processor time (median of 7 rounds)"
     ]

@@ -1,4 +1,4 @@
-"""What those who wait for other frames cost one set."""
+"""Time of an insert while many requests wait for other frames."""
 
 import statistics
 import time
@@ -17,11 +17,11 @@ ROUNDS = 500
 
 
 def microseconds(waiting: int, name: str) -> float:
-    """The median time of a set while so many wait for sisters of the child.
+    """Return the median time of an insert while requests wait for siblings of the child.
 
     Args:
-        waiting: How many requests are pending, each for a frame of its own.
-        name: Who is set; with a number put in, a new child each time.
+        waiting: Number of pending requests, each for a different frame.
+        name: Name of the inserted child; with a placeholder for a number, a new child each time.
     """
     buffer = Buffer()
     buffer.set_transform(TransformStamped(1, "world", "known", Transform()), "benchmark")
@@ -39,7 +39,7 @@ def microseconds(waiting: int, name: str) -> float:
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     lines = [f"one set while {WAITING} requests wait for other frames, microseconds (median)"]
     for what, name in (("of a known child", "known"), ("of a new child", "new{}")):
         alone, beside = microseconds(0, name), microseconds(WAITING, name)

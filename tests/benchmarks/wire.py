@@ -1,4 +1,4 @@
-"""How long messages take to become bytes and to be read, ours beside rosbags' in one run."""
+"""Time to write messages as bytes and to read them, in the same run as rosbags."""
 
 import statistics
 import time
@@ -14,7 +14,7 @@ PIXELS = 640 * 480 * 3
 
 
 def pairs():
-    """(name, our message, rosbags' message, its type) of a large and a small message."""
+    """Return (name, tftool's message, rosbags' message, type) of a large and a small message."""
     from rosbags.typesys import Stores, get_typestore
 
     store = get_typestore(Stores.ROS2_JAZZY)
@@ -45,7 +45,7 @@ def pairs():
 
 
 def together(*ways, rounds=60, calls=1):
-    """Median microseconds of a call of each way, the ways taking turns."""
+    """Return the median microseconds of a call of each function; the functions run in turn."""
     spent = {way: [] for way in ways}
     for _ in range(rounds):
         for way in ways:
@@ -57,7 +57,7 @@ def together(*ways, rounds=60, calls=1):
 
 
 def copies(way, size):
-    """The most memory a call takes, in multiples of the payload."""
+    """Return the peak memory of a call, in multiples of the payload."""
     tracemalloc.start()
     way()
     tracemalloc.reset_peak()
@@ -69,7 +69,7 @@ def copies(way, size):
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and print a few lines."""
     lines = ["wire, messages as CDR (median of 60 rounds, taking turns with rosbags)"]
     for name, ours, store, theirs in pairs():
         own, full = codec(type(ours)), ours.interface__

@@ -1,8 +1,9 @@
-"""Recordings written: editing against `cp` and against `info`, and how much a recorder holds.
+"""Writing of recordings: edits compared with `cp` and `info`, and the memory of a recorder.
 
     python -m tests.benchmarks.writing [MEGABYTES]
 
-Sides take turns; only the ratios travel. Editing reads the result again and compares it.
+The compared programs run in turn, because only ratios are comparable between machines. After an
+edit, the result is read again and compared.
 """
 
 import os
@@ -35,7 +36,7 @@ EACH = 5
 
 
 def _large(path: Path, megabytes: int) -> None:
-    """Images of noise, and a few transforms between them, uncompressed as rosbag2 leaves them."""
+    """Write an uncompressed file of noisy images with a few transforms, as rosbag2 does."""
     writer = McapWriter(path, compression="none", with_crc=False)
     tf = writer.channel(ros2_channel("/tf", TRANSFORMS))
     static = writer.channel(ros2_channel("/tf_static", TRANSFORMS, static=True))
@@ -52,7 +53,7 @@ def _large(path: Path, megabytes: int) -> None:
 
 
 def _timed(work) -> tuple[float, float]:
-    """Seconds, and seconds of processor time."""
+    """Return the seconds, and the seconds of processor time, of a function."""
     began, used = time.perf_counter(), time.process_time()
     work()
     return time.perf_counter() - began, time.process_time() - used
@@ -86,7 +87,7 @@ def _edits(folder: Path, megabytes: int) -> None:
 
 
 def _edits_of_transforms(folder: Path) -> None:
-    """Processor time of edits that change transforms, against `info` of the same recording."""
+    """Compare edits that change transforms with `info` of the same recording, in processor time."""
     source = folder / "transforms.mcap"
     writer = McapWriter(source)
     tf = writer.channel(ros2_channel("/tf", TRANSFORMS))
@@ -149,7 +150,7 @@ def _records(folder: Path) -> None:
 
         def run(rolling=rolling, channel=channel, count=count, payloads=payloads, each=each):
             for number in range(count):
-                # A hundred thousand transforms a second.
+                # 100,000 transforms per second.
                 now = START + number * each * 10_000
                 rolling.take(channel, now, payloads[number % 1000], each)
             rolling.close()

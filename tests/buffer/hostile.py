@@ -1,8 +1,8 @@
-"""Hostile operations on a buffer, for the sanitizers: python -m tests.buffer.hostile [HOW_MANY].
+"""Hostile operations on a buffer for the sanitizers: python -m tests.buffer.hostile [COUNT].
 
-Names are of classes that drop paths, change links or collect garbage while they are compared;
-meanwhile other threads look up, and frames come and go. Whatever Python raises is fine here: what
-the kernel reads or writes where it must not, the sanitizers report.
+The names' classes drop paths, change edges or collect garbage while names are compared. Meanwhile
+other threads look up, and frames are added and dropped. Any exception of Python is fine here; the
+sanitizers report invalid reads and writes of the kernel.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ FRAMES = [f"f{number}" for number in range(24)]
 
 
 class World:
-    """A buffer, and the draws that decide what is done to it."""
+    """A buffer, and the random numbers that decide which operations are applied to it."""
 
     def __init__(self, seed: int) -> None:
         self.draw = random.Random(seed)
@@ -31,7 +31,7 @@ class World:
         self.now = seconds(10)
 
     def name(self) -> str:
-        """A frame's name, one in four of a class that strikes while it is compared."""
+        """Return a frame's name; one in four has a class that runs hostile code when compared."""
         name = self.draw.choice(FRAMES)
         return self.striking(name) if self.draw.random() < 0.25 else name
 
@@ -82,7 +82,7 @@ class World:
                 assert pickle.loads(pickle.dumps(found)) == found
 
     def step(self) -> None:
-        """Do one thing; what Python raises is its answer."""
+        """Do one random operation; ignore an exception of Python."""
         with contextlib.suppress(Exception):
             drawn = self.draw.random()
             if drawn < 0.45:
@@ -98,7 +98,7 @@ class World:
 
 
 def run(count: int, threads: int = 2) -> None:
-    """Do so many things in each of some threads, to one buffer each and to one that all share."""
+    """Run random operations in several threads, on their own buffers and on a shared buffer."""
     shared = World(0)
 
     def work(seed: int) -> None:
@@ -114,7 +114,7 @@ def run(count: int, threads: int = 2) -> None:
 
 
 def grow(frames: int) -> int:
-    """Hang so many frames below one root, and look some of them up; how many there are."""
+    """Insert so many frames below one root, and look some up; return the number of frames."""
     buffer = Buffer(NO_LIMIT, max_frames=frames + 1)
     for number in range(frames):
         for stamp in (1, 2):

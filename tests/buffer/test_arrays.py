@@ -1,4 +1,4 @@
-"""What can be done with many transforms at once."""
+"""Tests of operations on arrays of transforms."""
 
 import builtins
 
@@ -67,7 +67,7 @@ def test_chaining_two_is_chaining_row_by_row(poses):
 
 
 def test_quaternions_come_out_with_length_one_and_the_sign_of_a_lookup():
-    # A turn of 200° about z: tf2 gives z positive and w negative.
+    # For a turn of 200° about z, tf2 returns a positive z and a negative w.
     turned = Transform((0.0, 0.0, 0.0), (0.0, 0.0, 0.984807753012208, -0.17364817766693041))
 
     back = many([turned]).inverse().rotations[0]
@@ -160,7 +160,7 @@ def test_velocities_are_those_of_a_steady_motion():
 
 
 def test_turning_is_told_in_the_axes_of_the_target():
-    # The child lies on its side: its own x is the target's z.
+    # The child is turned so that its x axis is the target's z axis.
     side = Transform(rotation=(0.0, -np.sqrt(0.5), 0.0, np.sqrt(0.5)))
     poses = [side @ Transform(rotation=(np.sin(k / 2), 0.0, 0.0, np.cos(k / 2))) for k in range(3)]
 

@@ -278,7 +278,7 @@ def test_a_strangers_hundred_thousand_names_are_bounded(said):
     assert len(buffer.frames()) == MAX_FRAMES
     assert f"holds {MAX_FRAMES} frame names" in said[-1]
     assert "max_frames" in said[-1]
-    # Nothing already held is lost, and who is known goes on.
+    # Stored samples are not lost, and known frames are still accepted.
     assert put(buffer, 2, child="stranger7")
     assert not put(buffer, 2, parent="new parent", child="stranger7")
     assert buffer.lookup_transform("world", "stranger7", seconds(1.5)).stamp == seconds(1.5)
@@ -468,7 +468,7 @@ def test_a_listener_may_stop_itself_and_others(buffer):
     assert heard == ["first", "second"]
 
 
-# Plans
+# Lookup plans
 
 
 def test_an_answer_follows_the_tree_when_that_changes(buffer):
@@ -495,7 +495,7 @@ def test_a_run_of_statics_counts_as_one_link(buffer):
 
     for _ in range(2):
         found = buffer.lookup_transform("s0", "moving", seconds(2))
-        # Four quarter turns come back to where they began; the fifth is one more.
+        # Four quarter turns are a full turn; the fifth adds one more.
         assert found.transform.translation == pytest.approx((1.0, 2.0, 0.0), abs=1e-12)
         assert found.transform.rotation == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
         assert buffer.lookup_transform("s0", "s5", seconds(9)).stamp == seconds(9)

@@ -1,4 +1,4 @@
-"""What must hold in every world: hypothesis builds one, and asks."""
+"""Laws that hold in every world; hypothesis builds the worlds."""
 
 import pytest
 from hypothesis import given, settings
@@ -54,7 +54,7 @@ def answer(buffer, target, source, time):
 
 
 def chain_to_root(snapshot, name):
-    """The links from a frame up to its root, by their newest samples."""
+    """Return the edges from a frame up to its root, by their newest samples."""
     links = []
     while (info := snapshot.frame(name)).parent is not None:
         links.append(info)
@@ -78,7 +78,7 @@ def test_a_lookup_and_its_opposite_undo_each_other(world, a, b, time):
 @settings(max_examples=200)
 def test_lookups_chain(world, a, b, c, time):
     buffer = build(world)
-    # At one moment: "latest" is another moment for each pair.
+    # A fixed time is needed, because "latest" is a different time for each pair.
     a_from_b, b_from_c, a_from_c = (
         answer(buffer, *pair, time + 1) for pair in ((a, b), (b, c), (a, c))
     )
@@ -97,7 +97,7 @@ def test_can_transform_says_what_lookup_does(world, a, b, time):
     assert buffer.can_transform(a, b, time) is (told == "")
     found = answer(buffer, a, b, time)
     assert (found is not None) is (told == "")
-    # Again, by the plan the first lookup may have left behind.
+    # The second call may use the plan that the first lookup stored.
     assert buffer.can_transform(a, b, time) is (told == "")
     assert answer(buffer, a, b, time) == found
 
@@ -114,7 +114,7 @@ def test_the_latest_common_time_can_be_answered_unless_a_link_is_younger(world, 
 
     found = answer(buffer, a, b, latest)
     if found is None:
-        # A link that began after another one ended, or led elsewhere then.
+        # An edge may begin after another one ended, or may have had another parent at that time.
         snapshot = buffer.snapshot(0)
         assert any(
             not info.is_static

@@ -1,4 +1,4 @@
-"""Many lookups at once give, row by row, what one at a time gives."""
+"""Tests that each row of a batch lookup is equal to a single lookup."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ from tftool.geometry.rigid import Quaternion, Transform
 
 times_lists = st.lists(st.integers(0, 22), max_size=12)
 
-# Any parent, so that loops come about as well.
+# Any frame may be a parent, so that loops occur too.
 tangled = st.lists(
     st.builds(
         lambda stamp, pair, pose, static: (
@@ -42,7 +42,7 @@ tangled = st.lists(
 )
 
 
-# Numbers go up to 100 and chains up to three links: what is subtracted on the way has this size.
+# Numbers go up to 100 and chains up to three edges, so intermediate differences may be this large.
 SIZE = 300.0
 
 
@@ -58,7 +58,7 @@ def one_by_one(ask, times):
 
 
 def assert_same(found, rows):
-    """Each row of a batch is the answer, or the refusal, of the single lookup."""
+    """Assert that each row of a batch has the result or the error of the single lookup."""
     assert len(found) == len(rows)
     assert found.valid.tolist() == [not isinstance(row, Exception) for row in rows]
     for row, wanted in enumerate(rows):
@@ -79,7 +79,7 @@ def assert_same(found, rows):
 
 
 def on_an_edge_of_signs(rotation):
-    """Whether the last bit decides which of a quaternion's two signs is given."""
+    """Return whether only the last bit decides which of a quaternion's two signs is returned."""
     x, y, z, w = rotation
     first, second = sorted((abs(x), abs(y), abs(z)))[:0:-1]
     return abs(w * w - 0.25) < 1e-9 or (w * w < 0.2501 and first - second < 1e-9)
@@ -94,7 +94,7 @@ def hold_against_single(buffer, target, source, times):
         lambda: buffer.lookup_transforms(target, source, times, missing="nan"),
     )
     if isinstance(found, LookupException):
-        # A name that is unknown is refused whatever may be missing.
+        # An unknown name is refused, whatever `missing` allows.
         assert [str(row) for row in rows] == [str(found)] * len(rows)
         return
     assert_same(found, rows)
@@ -141,7 +141,7 @@ def test_each_row_of_time_travel_is_the_single_one(world, target, source, fixed,
 
 
 def chain(depth, samples=200, *, seed=1, step=10_000_000, turn=0.05):
-    """A buffer with f0 ← f1 ← … of turning links, and the stamps of its first and last data."""
+    """Return a buffer with f0 ← f1 ← … of turning edges, and its first and last stamp."""
     random = np.random.default_rng(seed)
     buffer = Buffer(seconds(1000))
     for link in range(depth):
@@ -177,7 +177,7 @@ def test_turns_of_any_size_between_two_samples_agree(turn, samples):
 
 @pytest.mark.parametrize("most", [1 << 16, 100])
 def test_a_long_batch_is_split_and_comes_out_in_order(monkeypatch, most):
-    # Where histories are longer than that, moments are sorted first, a section at a time.
+    # For histories longer than this limit, moments are sorted first, one section at a time.
     monkeypatch.setattr(kernel, "MOST_INTERVALS", most)
     monkeypatch.setattr(lookup, "SECTION", 1 << 16)
     buffer, first, last = chain(2, 300)

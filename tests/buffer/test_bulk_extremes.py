@@ -1,4 +1,4 @@
-"""Batches where something is unusual: sizes, spacing, infinity, other threads."""
+"""Tests of batches with unusual sizes, spacing or infinities, and beside other threads."""
 
 import os
 import threading
@@ -36,7 +36,7 @@ def assert_agrees(buffer, times):
 @pytest.mark.parametrize("in_order", [True, False])
 @pytest.mark.parametrize("most", [1 << 16, 10])
 def test_histories_shorter_and_longer_than_the_batch_agree(monkeypatch, in_order, most):
-    # Beyond so many samples, intervals are worked out a block at a time.
+    # Above this number of samples, the intervals are computed in blocks.
     monkeypatch.setattr(kernel, "MOST_INTERVALS", most)
     random = np.random.default_rng(6)
     for count, asked in ((2000, 300), (300, 2000), (5, 2000)):
@@ -145,7 +145,7 @@ def test_so_it_is_with_time_travel():
 
 
 def test_links_that_turn_little_and_much_and_not_at_all_are_chained_together():
-    # More than are worked on at a time, with constants at the ends of such a group.
+    # The batch is larger than one block, with constant poses at the ends of the block.
     buffer = Buffer(seconds(1000))
     turns = (0.0, 1e-12, 1e-3, 0.4, 3.0, 1.2, None, None, 0.3, 2.9, 0.0, None, 0.02, 0.7)
     for number, turn in enumerate(turns):

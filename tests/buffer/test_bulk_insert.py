@@ -1,4 +1,4 @@
-"""Many samples set together leave what the same ones leave that are set one by one."""
+"""Tests that a batch insert has the same effect as inserts of single samples."""
 
 import math
 

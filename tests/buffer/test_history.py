@@ -1,4 +1,4 @@
-"""A link's history against a naive model of tf2's rules: a plain list, newest first."""
+"""Comparison of an edge's history with a naive model of tf2's rules: a list, newest first."""
 
 import math
 import struct
@@ -28,7 +28,7 @@ NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 
 class Model:
-    """tf2's rules, word for word, without a thought for speed."""
+    """Model with tf2's rules, written without regard to speed."""
 
     def __init__(self, limit):
         self.limit = limit
@@ -72,7 +72,7 @@ class Model:
 
 
 def on_the_way(start, end, share):
-    """A share of the turn from one rotation to the other, by its axis and angle."""
+    """Interpolate between two rotations by the axis and angle of the turn from one to the other."""
     x, y, z, w = quaternions.multiply(quaternions.conjugate(start), end)
     sine, sign = math.hypot(x, y, z), math.copysign(1.0, w)
     if sine == 0.0:

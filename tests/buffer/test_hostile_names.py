@@ -1,4 +1,4 @@
-"""Names whose class compares, hashes or converts by code of its own."""
+"""Tests of names whose class has its own code for comparison, hashing or conversion."""
 
 import subprocess
 import sys
@@ -14,7 +14,7 @@ from tftool.geometry.rigid import Transform
 
 
 class Hostile(str):
-    """A name that raises wherever its own code is asked to compare or convert it."""
+    """Name that raises an error when it is compared or converted."""
 
     __slots__ = ()
 
@@ -32,7 +32,7 @@ class Hostile(str):
 
 
 class Slashless(str):
-    """A name that denies its leading slash."""
+    """Name whose class denies its leading slash."""
 
     __slots__ = ()
 
@@ -90,7 +90,7 @@ def test_a_class_cannot_hide_its_leading_slash():
 
 
 def test_two_threads_that_look_up_and_drop_paths_by_such_names_do_no_harm():
-    # In a process of its own: what is freed too early ends it.
+    # In a separate process, because memory that is freed too early would end the process.
     code = """
 import threading
 from tests.buffer.test_hostile_names import filled

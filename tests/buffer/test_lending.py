@@ -1,4 +1,4 @@
-"""Samples that two buffers share: what one does later, the other does not see."""
+"""Tests that changes of one buffer are invisible in another buffer that shares the samples."""
 
 import numpy as np
 import pytest

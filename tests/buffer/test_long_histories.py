@@ -1,4 +1,4 @@
-"""Histories so long that they are put into large pages of memory once they are asked about."""
+"""Tests of histories so long that the first lookup moves them into large pages of memory."""
 
 import gc
 import sys
@@ -30,7 +30,7 @@ def sample(stamp, number):
 
 
 def filled(buffer, count=MANY):
-    """With a sample every ten milliseconds, put in one by one."""
+    """Insert a sample for every ten milliseconds, one by one; return the buffer."""
     for number in range(1, count + 1):
         buffer.set_transform(sample(number * PERIOD, number), "me")
     return buffer
@@ -94,7 +94,7 @@ def test_no_sample_is_lost_where_one_thread_asks_and_another_inserts():
     def insert():
         asking.wait()
         for number in range(1, more + 1):
-            # Behind all others, and between the others: by the kernel and by Python.
+            # Insert behind all samples, and between samples: in the kernel and in plain Python.
             for stamp in (NEWEST + number * PERIOD, number * PERIOD + 1):
                 for link in range(links):
                     buffer.set_transform(
@@ -141,7 +141,7 @@ def test_what_the_collector_runs_while_samples_move_may_insert(which):
 
     def collected(phase, info):
         nonlocal collections
-        # Python keeps one slice for when it wants the next: each is to be a new one, for which the
+        # Python stores one slice object for reuse. Each slice must be a new object, for which the
         # collector runs.
         held.extend([slice(None) for _ in range(5)])
         collections += phase == "stop"
@@ -175,10 +175,10 @@ def test_a_history_that_was_cleared_is_asked_about_as_a_new_one():
 
 
 def borrowed(let_go=None):
-    """A history whose samples are not its own, as in large pages or of a recording.
+    """Return a history whose samples belong to another object, such as large pages or a recording.
 
     Args:
-        let_go: Called with it once it has let go of them.
+        let_go: Function called with that object when the history releases the samples.
     """
     records = np.zeros((MANY, WORDS), dtype=np.int64)
     records[:, 0] = np.arange(1, MANY + 1) * PERIOD
@@ -191,7 +191,7 @@ def borrowed(let_go=None):
 
 
 def most_memory(work):
-    """How many bytes more than before are in use at most meanwhile."""
+    """Return the largest number of additional bytes in use while `work` runs."""
     tracemalloc.start()
     try:
         work()
@@ -251,7 +251,7 @@ def test_who_asks_while_samples_are_let_go_of_finds_those_before_or_after():
     def ask(history):
         asking = threading.Thread(target=lambda: found.append(len(history.columns()[0]) // WORDS))
         asking.start()
-        # It may have to wait for what is under way here.
+        # The thread may have to wait for the work in progress here.
         asking.join(0.2)
         waited.append(asking)
 

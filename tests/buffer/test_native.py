@@ -1,4 +1,4 @@
-"""The native kernel against the plain path: one meaning."""
+"""Tests that the native kernel and plain Python give the same results."""
 
 import gc
 import itertools
@@ -82,7 +82,7 @@ REACH = 300.0
 
 
 def same(ours, plain, tolerance=0.0):
-    """Whether two answers mean the same: numbers up to rounding, all else exactly."""
+    """Return whether two results are equal: numbers up to rounding, everything else exactly."""
     if type(ours) is not type(plain):
         return False
     if isinstance(ours, Transform):
@@ -113,7 +113,7 @@ def same(ours, plain, tolerance=0.0):
 def test_whatever_is_set_and_asked_both_answer_alike(calls):
     twins = Twins(seconds(2))
 
-    # In the end every frame in every other, which also is what all samples became.
+    # At the end, look up every frame in every other frame, which also compares all samples.
     for call in [*calls, *(("lookup_transform", a, b) for a in FRAMES for b in FRAMES)]:
         ours, plain = twins.ask(*call)
         assert same(ours, plain), (ours, plain)
@@ -126,7 +126,7 @@ def test_between_samples_both_give_the_same(poses, moments):
     for number, pose in enumerate(poses):
         for parent, child in (("a", "b"), ("c", "b"), ("c", "d")):
             stamp = 10**8 * (number + 1) + 10**6 * len(child + parent) * (number % 3)
-            # b hangs from a; c has children of its own.
+            # b is a child of a; c has children.
             if (parent, child) != ("c", "b"):
                 twins.ask("set_transform", TransformStamped(stamp, parent, child, pose))
         twins.ask("set_transform", TransformStamped(10**8 * (number + 1), "a", "c", pose))
@@ -163,7 +163,7 @@ def test_a_rotation_through_many_links_is_of_length_one():
 
 
 HALF = math.sqrt(0.5)
-# Quarters, halves and thirds of a turn: of products of these, |w| is a half, or hardly more.
+# Quarter, half and third turns: in their products, |w| is a half, or slightly more.
 EVEN_TURNS = (
     (HALF, 0.0, 0.0, HALF),
     (0.0, -HALF, 0.0, HALF),
@@ -207,7 +207,10 @@ def test_a_history_of_many_sizes_keeps_the_same_samples():
 
 
 def columns_read(monkeypatch):
-    """What batches of the native package read from now on, kept as one in a thread keeps it."""
+    """Return a list of the columns that batches of the native package read from now on.
+
+    The list holds the columns, as a batch in another thread would.
+    """
     from tftool.buffer.batch import edge_columns as columns
 
     read = []
@@ -227,7 +230,7 @@ def test_late_samples_are_put_where_they_belong_while_a_batch_reads(monkeypatch)
     random = Random(4)
     held = []
     for number in range(1500):
-        # In order, late by some, before all others, far too late, and again what is there.
+        # In order, somewhat late, before all others, far too late, and again an existing stamp.
         late = random.choice([0, 0, 0, random.randrange(40), 90, 130])
         stamp = (100 + number // 2 - late) * 10**7 + random.choice([0, 0, number])
         pose = Transform((float(number), 0.0, 0.0))
@@ -237,7 +240,7 @@ def test_late_samples_are_put_where_they_belong_while_a_batch_reads(monkeypatch)
             ours, plain = twins.ask("samples", "b")
             assert ours.stamps.tolist() == plain.stamps.tolist()
             assert ours.poses.tobytes() == plain.poses.tobytes()
-            # Some are read for a while, as by a batch in another thread.
+            # Some columns are held for a while, as by a batch in another thread.
             column = read[-1]
             held = [*held[-(number % 3) :], (column, column.records.copy())]
         assert all(np.array_equal(column.records, before) for column, before in held)
@@ -261,7 +264,7 @@ def test_answers_are_of_the_types_they_always_were():
     assert hash(found) == hash(TransformStamped(5, "a", "b", Transform((1.0, 2.0, 3.0))))
 
 
-# What no code of ours hands over, and the kernel must survive.
+# Arguments that tftool's own code never passes, and the kernel must survive
 
 LENGTHS = st.sampled_from([0, 1, 7, 8, 9, 63, 64, 65, 128, 256, 1000])
 NUMBERS = st.one_of(
@@ -291,7 +294,7 @@ FIELDS = st.sampled_from(["start", "count", "newest_stamp", "oldest_stamp", "lim
 
 
 def changed(data, link):
-    """A link with some fields that none has, by whatever the data draws."""
+    """Return an edge with some fields replaced by random invalid values."""
     for name in data.draw(st.lists(FIELDS)):
         setattr(link, name, data.draw(NUMBERS))
     if data.draw(st.booleans()):
@@ -303,7 +306,7 @@ PLAINLY = "plainly"
 
 
 class Bare(Door):
-    """The kernel's methods of a buffer, and in place of the plain ones a word."""
+    """Buffer with the kernel's methods only; a text replaces the methods of plain Python."""
 
     def __init__(self, paths=None, senders=None, listening=(), pending=None):
         self._paths = paths
@@ -355,7 +358,7 @@ def test_what_the_collector_runs_in_the_middle_of_an_insert_is_survived():
         links = [link]
         senders = {"b": ("a", "", 5, link)}
         if change is dict.clear:
-            # Then nobody else holds it.
+            # Nothing else holds the object then.
             links.clear()
         del link
         door, late = Bare(senders=senders), TransformStamped(150, "a", "b", Transform())
@@ -366,7 +369,7 @@ def test_what_the_collector_runs_in_the_middle_of_an_insert_is_survived():
                 waiting.pop()(senders)
 
         before = gc.get_threshold()
-        # Python has one slice to spare: who needs another one allocates it.
+        # Python stores one slice object for reuse; further slices are new objects.
         slices = [slice(number, number + 1) for number in range(3)]
         gc.callbacks.append(run)
         try:
@@ -419,7 +422,7 @@ def test_lengths_that_no_batch_has_are_survived(data):
 def test_no_moments_may_lie_anywhere():
     from tftool.buffer import _kernel
 
-    # From Python 3.13 on, an empty bytearray does.
+    # From Python 3.13 on, an empty bytearray has such a pointer.
     nothing = memoryview(bytearray(16))
 
     assert [_kernel.solve((), (), *[nothing[k:k]] * 4) for k in range(9)] == [0] * 9
@@ -472,7 +475,7 @@ def test_a_path_that_is_none_is_left_to_the_plain_path(path):
 
 
 class Kept(dict):
-    """What is gone once nobody holds it."""
+    """Object that is freed when nothing holds it any more."""
 
 
 @pytest.mark.parametrize("name", ["_paths", "_senders", "_listening", "_pending"])
@@ -491,7 +494,10 @@ def test_what_a_door_holds_goes_with_it(name):
 
 
 def test_the_collector_never_sees_an_answer():
-    """Not while items of it are missing, which code it runs could look at; nor when it is kept."""
+    """Check that the garbage collector never sees a result that is incomplete or cached.
+
+    Code that the collector runs could otherwise look at missing items.
+    """
     buffer = Buffer(seconds(10))
     buffer.set_transform(TransformStamped(5, "a", "b", Transform((1.0, 0.0, 0.0))))
 
@@ -506,7 +512,7 @@ def test_the_collector_never_sees_an_answer():
 
 
 def grown(random, frames):
-    """Samples of a forest: chains of statics, links that move, parents that change, loops."""
+    """Return samples of a forest: chains of static edges, moving edges, changed parents, loops."""
     for child in range(1, frames):
         parent = max(0, child - random.choice((1, 1, 1, 2, 7)))
         pose = Transform(
@@ -607,7 +613,7 @@ def test_samples_that_are_there_already_take_no_memory(repeated):
     tracemalloc.stop()
 
     assert len(buffer.samples("b")) == 100
-    # A record has 64 bytes; Python keeps some two thousand small objects in stock meanwhile.
+    # A record has 64 bytes; meanwhile Python reserves memory for about two thousand small objects.
     assert grown < 64 * 5000
 
 
@@ -638,7 +644,8 @@ def test_listeners_and_requests_are_told_of_what_the_kernel_took():
 
 
 def test_a_batch_and_inserts_go_together(monkeypatch):
-    # What a batch reads cannot grow; the insert takes a copy, and the batch keeps what it has.
+    # Columns that a batch reads cannot grow. So the insert copies them, and the batch reads the old
+    # ones.
     read = columns_read(monkeypatch)
     buffer = Buffer(seconds(1))
     pose = Transform((1.0, 0.0, 0.0))
@@ -667,7 +674,7 @@ def test_a_batch_and_its_plain_twin_agree(poses, moments, ordered):
     twins.ask("set_transform_static", TransformStamped(0, "c", "b", poses[0]))
     for number, pose in enumerate(poses):
         for link, (parent, child) in enumerate((("a", "b"), ("a", "d"), ("c", "a"))):
-            # Some are twice at one stamp, and d changes its parent.
+            # Some samples have equal stamps, and d changes its parent.
             stamp = 10**7 * (1 + number // 2 * 2 + link % 2)
             parent = "c" if child == "d" and number == 3 else parent
             twins.ask("set_transform", TransformStamped(stamp, parent, child, pose))

@@ -1,4 +1,4 @@
-"""A question changes no answer: what was asked before leaves no trace."""
+"""Tests that earlier lookups never change the result of a later one."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def build(world):
 
 
 def answers(buffer, target, source, time):
-    """Everything a buffer says to one question."""
+    """Return all results of a buffer for one question."""
     try:
         found = buffer.lookup_transform(target, source, time)
     except TransformException as refused:
@@ -43,7 +43,8 @@ steps = st.tuples(
     st.integers(1, 12), st.integers(0, 4), st.integers(1, 4), st.sampled_from([False] * 5 + [True])
 ).filter(lambda step: step[1] != step[2])
 
-# s and t hang from m; m hangs from root now, and at first from a, which hung from m.
+# s and t are children of m. m is a child of root now, and at first was a child of a, which was a
+# child of m.
 CIRCLE_ABOVE = [
     *((stamp, 2, child, False) for child in (3, 4) for stamp in (1, 2, 3, 4)),
     *((stamp, 1, 2, False) for stamp in (1, 2)),

@@ -130,7 +130,7 @@ def test_the_chain_may_be_rebuilt_while_somebody_waits(buffer, told):
 
     put(buffer, "x", "c", 3)
     put(buffer, "a", "x", 1)
-    # c hangs from b until 3 s, so that b is what is missing at 2 s.
+    # c is a child of b until 3 s, so at 2 s the frame b is missing.
     assert told == []
     put(buffer, "a", "b", 3)
 

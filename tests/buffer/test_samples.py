@@ -1,4 +1,4 @@
-"""What `Buffer.samples` gives of one frame, and who may ask for it."""
+"""Tests of `Buffer.samples`, which returns the samples of one frame."""
 
 import threading
 

@@ -27,7 +27,7 @@ def buffer():
 def test_the_latest_is_the_latest_of_each_chain(buffer):
     snapshot = buffer.snapshot(now=seconds(10))
 
-    # base has data until 2 s, so that it is shown where odom was then.
+    # base has data until 2 s, so its pose uses odom's pose at 2 s.
     assert snapshot.frame("laser").root_from_frame.translation.x == 2.0 + 20.0 + 0.5
     assert snapshot.frame("odom").root_from_frame.translation.x == 3.0
     assert snapshot.frame("laser").root == "map"
@@ -45,7 +45,8 @@ def test_a_moment_is_shown_where_there_is_data(buffer):
 
 
 def test_turns_have_the_sign_they_have_in_a_lookup():
-    # Twice 130° is 100° the other way: tf2 has w positive, which the product has not.
+    # Twice 130° is 100° in the other direction: tf2 returns a positive w, but the product has a
+    # negative one.
     buffer = Buffer()
     turned = Transform((0.0, 0.0, 0.0), (0.0, 0.0, 0.9063077870366499, 0.42261826174069944))
     for parent, child in (("map", "odom"), ("odom", "base")):
@@ -146,7 +147,7 @@ def test_a_child_that_moved_to_another_tree_too_lately_has_no_place_in_it_yet():
     put("a", "c", 1)
     put("b2", "c", 2)
 
-    # The new chain has data until 1 s only, and then it hung from a.
+    # The new chain has data until 1 s only, and at that time c was a child of a.
     moved = buffer.snapshot(now=0).frame("c")
     assert (moved.parent, moved.root) == ("b2", "b")
     assert moved.root_from_frame is None

@@ -11,7 +11,10 @@ from tftool.geometry.rigid import Transform, transform_from_pose
 
 @pytest.fixture
 def circling():
-    """A body at radius 2, once round in 2π seconds, and an eye that is turned a quarter."""
+    """Return a buffer with a body on a circle of radius 2, 2π seconds per turn, and a turned eye.
+
+    The eye is turned by a quarter to the left.
+    """
     buffer = Buffer(seconds(100))
     for tick in range(101):
         angle = 0.05 * tick
@@ -36,7 +39,7 @@ def test_a_twist_is_tangential_and_turns_with_the_circle(circling):
 def test_a_twist_is_given_in_the_frame_it_is_seen_from(circling):
     found = circling.lookup_twist("body", "eye", seconds(1002), seconds(0.1))
 
-    # The eye is turned a quarter to the left: what goes along y there goes along x here.
+    # Since the eye is turned by a quarter to the left, motion along y is along x for the eye.
     assert found.linear == pytest.approx((2 * math.cos(2), 2 * math.sin(2), 0), abs=2e-3)
 
 

@@ -1,4 +1,4 @@
-"""`tftool calibrate`, from its words to files."""
+"""Tests of `tftool calibrate`, from options to files."""
 
 import json
 import re
@@ -45,14 +45,14 @@ def made():
 
 @pytest.fixture
 def words(made, tmp_path):
-    """The two motions as pose files, with their frames."""
+    """Write the two motions as pose files; return their paths and frames as options."""
     a = write_poses(tmp_path / "a.tum", made.a)
     b = write_poses(tmp_path / "b.tum", made.b)
     return ["calibrate", a, "--frames", "odom:base_link", b, "--frames", "world:camera"]
 
 
 def record(made, file):
-    """Both motions in one recording, each with a tree of its own."""
+    """Write both motions to one recording, each with a separate tree."""
     with library.write_recording(file) as recording:
         for path in (made.a, made.b):
             for one in path:

@@ -1,4 +1,4 @@
-"""`tftool check`: status, stdout, stderr, and the files it writes."""
+"""Tests of `tftool check`: status, stdout, stderr, and written files."""
 
 import json
 import os
@@ -22,7 +22,7 @@ WRONG = "duration: soon\nnodes: [turtlsim]\n"
 
 @pytest.fixture
 def scenarios(tmp_path, monkeypatch):
-    """A folder with a true, a false and a wrong scenario, and the way there."""
+    """Create a folder with a true, a false and an invalid scenario, and change to it."""
     monkeypatch.chdir(tmp_path)
     for name, text in {"good": GOOD, "bad": BAD, "wrong": WRONG}.items():
         (tmp_path / f"{name}.yaml").write_text(text)

@@ -1,4 +1,4 @@
-"""`tftool check --run` and `--launch`: a learner's own nodes, judged by a scenario."""
+"""Tests of `tftool check --run` and `--launch`: a scenario judges a learner's own nodes."""
 
 import json
 import re
@@ -23,7 +23,7 @@ EXERCISE = re.findall(
 
 @pytest.fixture
 def broken(tmp_path):
-    """The tutorial's listener with something else in place of a line of it."""
+    """Return a function that writes the tutorial's listener with one line replaced."""
 
     def change(line, other):
         text = LISTENER.read_text()
@@ -210,7 +210,7 @@ def test_a_script_stops_a_learners_program_with_its_node(tftool, tmp_path):
     )
     result = tftool("check", tmp_path / "stopped.yaml", "--run", f"follower={LISTENER}")
 
-    # It came half way and stood still.
+    # The turtle stopped half way.
     assert "stopped  FAILED  2 of 3 expectations held" in result.out
     assert "failed:" not in result.out
 

@@ -1,4 +1,4 @@
-"""The options of sharing: what they say, and what cannot be said."""
+"""Tests of the options for sharing a session: their meaning, and refused combinations."""
 
 import subprocess
 import sys
@@ -14,7 +14,7 @@ from tftool.commands.shared.declaration import CommandKind
 
 @pytest.fixture
 def told():
-    """The connection that some options give."""
+    """Return a function that returns the connection for some options."""
 
     return partial(read, "command", CommandKind())
 

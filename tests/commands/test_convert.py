@@ -1,4 +1,4 @@
-"""`tftool convert`, from its words to its lines."""
+"""Tests of `tftool convert`, from arguments to output lines."""
 
 import io
 import json
@@ -32,7 +32,7 @@ def test_json_holds_all_orders_in_full(tftool):
 
 
 def test_a_chain_goes_on_in_the_child(tftool):
-    # A metre ahead after a quarter turn to the left is a metre to the left.
+    # After a quarter turn to the left, one metre ahead is one metre to the left.
     result = tftool(
         "convert", "--yaw", "1.5707963267948966", "--then", "--x 1", "--into", "matrix4"
     )

@@ -19,7 +19,7 @@ expect:
 
 @pytest.fixture
 def on_terminal(monkeypatch):
-    """A terminal that everything is drawn for, but not on."""
+    """Replace the terminal by one for which screens are drawn but not shown."""
     monkeypatch.setattr("tftool.commands.demo.command.screen_lacks", lambda: "")
     monkeypatch.setattr(showing, "show", partial(showing.show, headless=True))
     apps = []

@@ -158,7 +158,7 @@ def test_words_with_an_assignment_are_arguments_of_xacro(tftool, tmp_path):
 
 @pytest.fixture
 def recording(tmp_path):
-    """A recording of the post's joint, without its description."""
+    """Write a recording of the post's joint, without its description."""
     from tests.recordings.writers import SECOND, Sent, write_mcap
 
     start = 1_750_000_000 * SECOND

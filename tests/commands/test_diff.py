@@ -1,4 +1,4 @@
-"""`tftool diff`, from its words to its lines."""
+"""Tests of `tftool diff`, from arguments to output lines."""
 
 import json
 
@@ -12,7 +12,7 @@ from tftool.geometry.conversions import quaternion_from_rpy
 
 @pytest.fixture
 def runs(tmp_path):
-    """Two recordings: in the second the laser was moved by 12.5 mm."""
+    """Write two recordings; in the second one the laser is moved by 12.5 mm."""
     library.export(frames(), path=tmp_path / "a.mcap")
     moved = Transform((0.1, 0.2, 0.3125), quaternion_from_rpy(0.1, 0.2, 0.3))
     library.export(frames(laser=moved), path=tmp_path / "b.mcap")

@@ -24,7 +24,7 @@ def test_what_is_wrong_is_told_and_is_the_exit_status(tftool):
 
 
 def test_for_says_how_long_a_scenario_is_looked_at(tftool):
-    # The leader is lost after five seconds.
+    # The leader disappears after five seconds.
     assert tftool("doctor", "lost_leader", "--for", "4").status == 0
 
 
@@ -123,7 +123,7 @@ def test_a_scenario_expects_what_the_doctor_says(tftool, tmp_path, doctor, expec
     file.write_text(TWO_PARENTS.format(doctor=doctor, expected=expected), encoding="utf-8")
     result = tftool("check", file, "--json")
     assert result.status == status
-    # What is ignored here may still be why something else failed.
+    # An ignored check may still explain the finding of another check.
     assert ('"found": "two-parents: table changes between the parents' in result.out) is (
         status == 1 and "two-parents" not in expected
     )
@@ -177,7 +177,7 @@ def test_what_was_not_looked_at_is_not_called_fine(tftool):
 
 
 def broken(tmp_path, tftool):
-    """A recording with a finding, from the built-in robot without its lidar's mount."""
+    """Write a recording with a finding: the built-in robot without its lidar's mount."""
     place = tmp_path / "broken.mcap"
     made = tftool("record", "--in", "robot", "-o", str(place), "--for", "5")
     assert made.status == 0, made.err
@@ -199,7 +199,7 @@ def test_only_what_a_baseline_lacks_fails(tftool, tmp_path):
     assert again.status == 0
     assert "(in the baseline)" in again.out
 
-    # A report from before fingerprints has the names they are made of.
+    # A report from before fingerprints has the names from which fingerprints are made.
     for row in report["findings"]:
         del row["fingerprint"]
     accepted.write_text(json.dumps([report]), encoding="utf-8")

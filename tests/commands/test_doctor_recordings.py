@@ -1,4 +1,4 @@
-"""The doctor looks at real recordings, written by other people's writers."""
+"""Tests of the doctor on recordings written by other libraries."""
 
 import csv
 import dataclasses
@@ -19,7 +19,7 @@ MOUNT = (0.1, 0.0, 0.2, 0.0, 0.0, 0.0, 1.0)
 
 
 def drive(scans_in="laser"):
-    """Four seconds at 50 Hz, half a metre a second, and scans at 10 Hz."""
+    """Return four seconds of messages at 50 Hz, at half a metre per second, and scans at 10 Hz."""
     sent = [Sent(START, "/tf_static", ((0, "base_link", "laser", MOUNT),), node="/urdf")]
     for tick in range(200):
         stamp = START + tick * SECOND // 50
@@ -65,7 +65,7 @@ def test_a_scan_is_explained_by_when_it_arrived(tftool, tmp_path):
 
 @pytest.fixture
 def runs(tmp_path):
-    """Three recordings: a healthy one, one with a frame that is unknown, and none at all."""
+    """Write a healthy recording, one with an unknown frame, and a file that is no recording."""
     write_mcap(tmp_path / "a.mcap", drive())
     write_mcap(tmp_path / "b.mcap", drive(scans_in="laser_frame"))
     (tmp_path / "c.mcap").touch()

@@ -22,7 +22,7 @@ def test_one_moment_of_a_scenario_is_exact(tftool):
     result = tftool("echo", "turtle2", "turtle1", "turtles", "--at", "4", "--distance")
 
     assert result.status == 0
-    # The distance after the first command of the tutorial's follower.
+    # The distance after the first command of the tutorial's follower
     assert result.out.split("\n")[-2] == "- Distance: 2.515"
     assert result.out.startswith("At time 1004.0\n- Translation: [2.323, 0.965, 0.000]\n")
     assert result.err == "turtle1 in turtle2, 4 s after scenario 'turtles' began:\n"
@@ -148,7 +148,7 @@ def test_head_ends_a_hosted_echo_quietly():
         process.wait(timeout=PATIENCE)
 
     assert process.returncode == 0
-    # A node of a starved world may say beside it that it is behind its timer.
+    # A node of a slow machine may also log that it is behind its timer.
     told = [line for line in err.splitlines() if "behind its own timer" not in line]
     assert told == [HOSTING.rstrip("\n"), "turtle1 in turtle2:"]
 
@@ -177,8 +177,8 @@ def test_on_a_terminal_answers_take_the_place_of_the_last(monkeypatch, capsys):
     out = capsys.readouterr().out
     assert out.count("\x1b[1mturtle1 in world\x1b[0m\x1b[2m  0.00 s ago") == 2
     assert "\x1b[31m1.000\x1b[0m, \x1b[32m2.000\x1b[0m, \x1b[94m3.000\x1b[0m" in out
-    # The second begins by going up over the twelve lines of the first, and so does the refusal;
-    # the end draws the four lines of that once more.
+    # The second answer, and the refusal, first move the cursor up over the twelve lines of the
+    # first answer. The end draws the four lines of the refusal once more.
     assert out.count("\x1b[1A\x1b[2K") == 2 * 11 + 3
     assert "Exception thrown:gone" in out
     assert out.count("\x1b[?25h") == out.count("\x1b[?25l") == 1

@@ -1,4 +1,4 @@
-"""`tftool edit` as a user types it."""
+"""Tests of `tftool edit` as a user types it."""
 
 import json
 import math
@@ -192,7 +192,7 @@ def test_new_names_can_be_asked_for_as_tf2_keeps_names(run, words, name):
 
     with open_recording("b.mcap") as recording:
         assert name in {edge.child for edge in recording.edges}
-    # As it is written, for readers that strip nothing.
+    # The name is stored without a slash, for readers that strip nothing.
     assert f"/{name}".encode() not in (run / "b.mcap").read_bytes()
 
 

@@ -21,7 +21,7 @@ def test_a_lookup_between_two_samples_is_refused_with_the_wait_it_needs(tftool):
 def test_a_question_before_a_frame_begins_is_told_what_to_ask_for(tftool):
     result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "0.5")
     assert result.status == 4
-    # turtle2 is spawned after a second: echo, too, refuses.
+    # turtle2 is spawned after a second, so `echo` refuses too.
     assert result.out.splitlines()[0].endswith("asked as a robot would have at that moment")
     assert "turtle2 in world begins 508 ms after the question, at 1001.008" in result.out
     assert "cure   ask for 1001.008 or later" in result.out

@@ -1,4 +1,4 @@
-"""`tftool export`, read back by others: numpy, pyarrow, evo, our own readers and tf2's rules."""
+"""Tests of `tftool export`; numpy, pyarrow, evo and our own readers read the files back."""
 
 import csv
 import errno
@@ -28,7 +28,10 @@ EVO = os.environ.get("TFTOOL_EVO_PYTHON") or (sys.executable if find_spec("evo")
 
 @pytest.fixture
 def buffer():
-    """A robot that drives and turns through ±π, with a camera that looks down, and a gap."""
+    """Return a buffer of a robot that drives and turns through ±π, with a camera that looks down.
+
+    The data has a gap.
+    """
     found = Buffer(seconds(1000))
     for n in range(200):
         stamp = START + n * 7_000_001
@@ -48,7 +51,7 @@ def wanted(buffer):
 
 @pytest.fixture
 def run(buffer, tmp_path):
-    """The same as a recording."""
+    """Write the same data as a recording."""
     library.export(buffer, path=tmp_path / "run.mcap")
     return tmp_path / "run.mcap"
 
@@ -265,7 +268,7 @@ def test_links_are_written_to_be_published_again(tftool, run, buffer, tmp_path, 
 
     result = tftool("export", run, "-o", path)
     if end in ("launch.xml", "launch.yaml"):
-        # A quote would end its word there.
+        # A quote would end the quoted word in this format.
         assert result.status == 3
         assert "write a .launch.py" in result.err
         assert not path.exists()
@@ -360,7 +363,7 @@ def test_protobufs_own_reader_understands_foxgloves_frames(buffer, tmp_path):
     )
 
 
-# What goes wrong
+# Errors
 
 
 def test_what_exists_is_kept_unless_forced(tftool, run, tmp_path):

@@ -1,4 +1,4 @@
-"""Many recordings at once: by one process, by several, by a cluster of Dask workers."""
+"""Tests of commands for many recordings: by one process, several, or a cluster of Dask workers."""
 
 import gc
 import json
@@ -27,7 +27,7 @@ from tftool.world.clock import WallClock, run
 
 @pytest.fixture
 def fleet(tmp_path):
-    """A folder of twelve recordings in three days; each third is wrong, one is none at all."""
+    """Write twelve recordings of three days; each third has a fault, one is no recording."""
     good = write_mcap(tmp_path / "good.mcap", drive())
     bad = write_mcap(tmp_path / "bad.mcap", drive(scans_in="laser_frame"))
     runs = tmp_path / "runs"
@@ -60,7 +60,7 @@ def test_a_glob_reaches_into_folders_and_names_what_is_broken(tftool, fleet, tmp
     assert ids_of(rows_of(output)) == expected()
     assert result.out.startswith("13 recordings: 4 with errors, 8 fine, 1 unreadable. ")
     assert tftool("doctor", f"{fleet}/*.none", "-o", output).status == 3
-    # Of a glob that fits everything only recordings are meant.
+    # A glob that matches all files selects only recordings.
     everything = tmp_path / "all.jsonl"
     tftool("doctor", f"{fleet}/**/*", "-o", everything)
     assert ids_of(rows_of(everything)) == expected()
@@ -82,7 +82,7 @@ def test_parquet_has_a_row_a_finding_and_is_gone_on_with(tftool, fleet, tmp_path
 
 @pytest.mark.parametrize("suffix", ["jsonl", "csv", "parquet"])
 def test_what_the_file_held_already_counts_for_the_status(tftool, fleet, tmp_path, suffix):
-    """A build that goes on with an interrupted sweep is as red as one that did all of it."""
+    """Check that findings in the existing file of an interrupted run also set the exit status."""
     if suffix == "parquet":
         pytest.importorskip("pyarrow.parquet", reason="the extra 'parquet'")
     output = tmp_path / f"found.{suffix}"
@@ -110,7 +110,7 @@ def test_what_could_not_be_read_before_counts_as_well(tftool, fleet, tmp_path, s
 @pytest.mark.parametrize("suffix", ["jsonl", "csv", "parquet"])
 @pytest.mark.parametrize(("first", "then"), [("info", "doctor"), ("doctor", "info")])
 def test_rows_of_another_command_are_not_gone_on_with(tftool, fleet, tmp_path, first, then, suffix):
-    """They say nothing of what is asked now: a build would be green without a look."""
+    """Check that rows of another command are refused: they lack the new results."""
     if suffix == "parquet":
         pytest.importorskip("pyarrow.parquet", reason="the extra 'parquet'")
     output = tmp_path / f"found.{suffix}"
@@ -144,7 +144,7 @@ def test_rows_of_a_process_that_was_killed_become_part_of_the_table(tftool, flee
     some = sorted(map(str, fleet.glob("day*/run*.mcap")))[:3]
     left = tmp_path / "left.jsonl"
     tftool("doctor", *some[:2], "-o", left)
-    # What it leaves behind: the rows so far, and half of one.
+    # The interrupted run leaves the rows so far, and half of a row.
     (tmp_path / "found.parquet.part").write_bytes(left.read_bytes() + b'{"source": "ha')
     result = tftool("doctor", *some, "-o", tmp_path / "found.parquet", "--resume")
     assert "(2 were in it already: " in result.out
@@ -246,7 +246,7 @@ def test_a_cluster_that_cannot_be_is_refused(tftool, fleet, tmp_path, monkeypatc
 
 
 class DaskCluster:
-    """A scheduler and two workers, in processes of their own."""
+    """Scheduler of Dask and two workers, in separate processes."""
 
     def __init__(self, folder):
         self.processes = []
@@ -256,7 +256,7 @@ class DaskCluster:
         found = []
 
         def written():
-            # The file is there before all of it is written.
+            # The file exists before its content is complete.
             with suppress(OSError, ValueError):
                 found.append(json.loads(file.read_text(encoding="utf-8"))["address"])
             return found
@@ -282,7 +282,7 @@ class DaskCluster:
 
 
 def wait_until(holds):
-    """Look at what another process does, by the clock of a world."""
+    """Wait for an effect of another process, polled on the clock of a world."""
     clock = WallClock()
 
     async def looked():
@@ -305,7 +305,7 @@ def cluster(tmp_path):
 def test_a_refused_scheduler_leaves_no_thread_behind(tftool, fleet, tmp_path):
     pytest.importorskip("distributed", reason="the extra 'fleet'")
     output = tmp_path / "found.jsonl"
-    # The collection of garbage would end the thread later: it must have ended before.
+    # The garbage collection would end the thread later, but it must have ended before.
     gc.disable()
     try:
         result = tftool("doctor", fleet, "-o", output, "--scheduler", "nothing")

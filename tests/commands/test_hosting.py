@@ -136,7 +136,7 @@ def test_an_unknown_source_is_told():
         open_session(Connection(), "orbti")
 
 
-# What FROM names
+# Kinds of FROM
 
 
 def test_a_built_in_name_wins_and_a_path_is_itself(tmp_path, monkeypatch):
@@ -175,12 +175,12 @@ def test_a_word_that_means_nothing_is_told_what_there_is(word, told, tmp_path, m
     assert len(str(refused.value)) < 300
 
 
-# What is recorded is read
+# Recordings as FROM
 
 
 @pytest.fixture
 def recording(outside, tmp_path):
-    """A recording of frame `a` in `world`: 0.1 m a sample at 10 Hz, from 50 s to 60 s."""
+    """Write a recording of frame `a` in `world`: 0.1 m per sample at 10 Hz, from 50 s to 60 s."""
     outside["providers"] = Simulated()
     buffer = Buffer(seconds(100))
     for step in range(101):
@@ -189,7 +189,7 @@ def recording(outside, tmp_path):
         buffer.set_transform(TransformStamped(stamp, "world", "a", pose), "robot")
     fixed = TransformStamped(0, "a", "laser", Transform((0.0, 0.0, 1.0)))
     buffer.set_transform_static(fixed, "description")
-    # What it is is decided by its content.
+    # The content decides the kind of the file, not its suffix.
     export(buffer, path=tmp_path / "run.mcap")
     return str((tmp_path / "run.mcap").rename(tmp_path / "run.yaml"))
 

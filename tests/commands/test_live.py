@@ -1,4 +1,4 @@
-"""The tutorial live: the learner's own files in real processes, on real time, in one session."""
+"""Tests of the tutorial's files in separate processes, on real time, in one session."""
 
 import re
 import shutil
@@ -20,8 +20,8 @@ TUTORIAL = Path(__file__).parent.parent / "tutorial"
 
 @pytest.fixture(scope="module")
 def launched():
-    """`tftool launch pkg_tf turtle_following.launch.py`, which all others join."""
-    # Not pytest's own folder: a unix socket's name has about a hundred letters.
+    """Start `tftool launch pkg_tf turtle_following.launch.py`, which hosts the session."""
+    # The folder is not pytest's, because the path of a unix socket is limited to about 100 letters.
     with (
         pytest.MonkeyPatch.context() as environment,
         tempfile.TemporaryDirectory(prefix="tf") as folder,
@@ -40,7 +40,7 @@ def launched():
 
 
 def told(process, pattern, condition):
-    """Wait until what a process says last in a pattern's brackets is as it should be."""
+    """Wait until the last match of a pattern in a process's output fulfils a condition."""
     seen = 0
     for _ in range(LOOKS):
         seen = process.says(pattern.partition("(")[0], after=seen)
@@ -52,8 +52,8 @@ def told(process, pattern, condition):
 
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux, a terminal to press keys in")
 def test_turtle2_follows_where_the_keys_drive_turtle1(launched, tmp_path):
-    # Looked at from the world, where a turtle that has been driven stays: between two looks of a
-    # busy machine it may be driven off and caught up with.
+    # The distance is measured from the world, where a driven turtle stays. On a busy machine,
+    # turtle2 may catch up between two looks.
     far = ["echo", "world", "turtle2", "--distance", "--rate", "5"]
     with (
         Process("echo", "turtle2", "turtle1", "--distance", "--rate", "5") as echo,
@@ -65,7 +65,7 @@ def test_turtle2_follows_where_the_keys_drive_turtle1(launched, tmp_path):
         try:
             teleop.shows("q quit")
             teleop.press("Up")
-            # It is followed there, by the learner's own listener.
+            # The learner's own listener follows turtle1 there.
             told(place, r"Distance: ([\d.]+)", lambda distance: distance > 8.5)
             teleop.press("q")
             teleop.shows("ended with 0")

@@ -1,4 +1,4 @@
-"""The server for agents, driven by the client of the package `mcp`, over stdio."""
+"""Tests of the server for agents, with the client of the package `mcp`, over stdio."""
 
 import asyncio
 import json
@@ -31,7 +31,7 @@ FAULTS = (
 
 
 class Drive:
-    """A recording of a robot that drives along x; everything that is asked about is known here."""
+    """Recording of a robot that drives along x, with known answers to all questions."""
 
     def __init__(self, number, fault):
         self.name, self.fault = f"runs/{number}-{fault}.mcap", fault
@@ -40,7 +40,7 @@ class Drive:
         self.base, self.greatest = [], 0.0
 
     def write(self, root):
-        """Write it, with its fault."""
+        """Write the recording, with its fault."""
         rows = list(self._rows())
         with library.write_recording(root / self.name) as recording:
             for at, parent, child, place, static in sorted(rows, key=lambda row: row[0]):
@@ -54,7 +54,7 @@ class Drive:
             (root / self.name).write_bytes(whole[: len(whole) * 3 // 4])
 
     def _rows(self):
-        """Yield second, parent, child, place and whether it is static."""
+        """Yield second, parent, child, position and whether the transform is static."""
         mount = "chassis" if self.fault == "split-tree" else "base_link"
         yield 0.0, "base_link", "laser_link", (0.3, 0.0, self.height), True
         yield 0.001, mount, "camera_link", (0.1, 0.0, 0.5), True
@@ -83,7 +83,7 @@ class Drive:
         }.get(self.fault, {"map"})
 
 
-# The plan: for each kind of question the calls that an agent makes, three at most.
+# A plan for each kind of question: at most three calls of an agent
 
 
 async def trees(ask, drive):
@@ -114,7 +114,7 @@ async def fault(ask, drive):
     found = await ask("doctor", source=drive.name, part="findings")
     ids = [one["id"] for one in found if isinstance(one, dict)]
     if drive.fault not in ids:
-        # The list was cut: ask for that check alone.
+        # The list was shortened, so request this check alone.
         ids = [
             one["id"]
             for one in await ask("doctor", source=drive.name, check=drive.fault, part="findings")
@@ -152,7 +152,7 @@ def root(tmp_path_factory):
 
 
 def served(root, work):
-    """Serve the root to a client, and return what `work(client)` does."""
+    """Serve the folder `root` to a client, and return the result of `work(client)`."""
 
     async def run():
         words = ["-m", "tftool", "mcp", str(root)]
@@ -192,7 +192,8 @@ def test_twenty_questions_about_broken_recordings_are_answered_by_the_plan(root)
                 except Exception as error:
                     wrong.append((question.__name__, drive.name, repr(error)))
 
-        # Each answer is a process: every fault meets two questions, every question three faults.
+        # Each answer takes a process. So every fault is used for two questions, and every question
+        # for three faults.
         asked = [
             (question, drive)
             for number, question in enumerate(PLAN)

@@ -68,7 +68,7 @@ def test_statics_from_before_are_known_and_have_no_rate(tftool, simulated):
 def test_tf2_monitors_own_figures_can_be_had(tftool, simulated):
     out = tftool("monitor", "turtles", "--for", "0.5", "--tf2").out
 
-    # One message more than there are gaps between them.
+    # There is one message more than there are gaps between messages.
     assert "Node: broadcaster1 64.5" in out
 
 
@@ -106,7 +106,7 @@ def test_a_terminal_gets_a_table_that_is_drawn_again(tftool, simulated, monkeypa
 
 
 def test_a_chain_that_breaks_does_not_end_it(tftool, simulated):
-    # In lost_leader the leader leaves, and its frame is forgotten after a while.
+    # In lost_leader the leader disappears, and after a while its frame is dropped.
     result = tftool("monitor", "turtle2", "turtle1", "lost_leader", "--for", "20")
 
     assert result.status == 0

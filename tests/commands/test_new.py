@@ -1,4 +1,4 @@
-"""`tftool new`: packages and scenarios to begin with, which hold what they promise."""
+"""Tests of `tftool new`: the created packages and scenarios fulfil their own tests."""
 
 import json
 import subprocess

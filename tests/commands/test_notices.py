@@ -55,7 +55,7 @@ def test_colors_are_for_terminals_unless_told_otherwise(environment, is_terminal
 
 
 def on_terminal(monkeypatch, width, told):
-    """The lines of a terminal so wide, on which `told` says something."""
+    """Return the lines that a terminal of some width shows for a notice."""
     import pty
     import termios
 

@@ -1,4 +1,4 @@
-"""Odometry and poses as transforms, where they are wished for."""
+"""Tests of odometry and poses that are read as transforms on request."""
 
 import pytest
 
@@ -42,7 +42,7 @@ def odometry(stamp, x):
 
 @pytest.fixture
 def bag(tmp_path):
-    """A bag without a transform: odometry, and where a camera sees a marker."""
+    """Write a bag without transforms: odometry, and poses of a marker that a camera sees."""
     path = tmp_path / "run.bag"
     with Writer(path) as writer:
         for topic, kind in (

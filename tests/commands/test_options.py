@@ -68,7 +68,7 @@ def test_a_moment_that_is_none_is_refused(text):
 
 
 def test_nanoseconds_are_refused_with_what_they_are_in_seconds():
-    """`--json` gives stamps in nanoseconds: they are handed back."""
+    """Check that a stamp in nanoseconds, as in `--json`, is refused with its seconds."""
     with pytest.raises(typer.BadParameter) as refused:
         moment("1750000002123456789")
 

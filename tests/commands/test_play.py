@@ -1,4 +1,4 @@
-"""`tftool play`, as it is typed."""
+"""Tests of `tftool play` as a user types it."""
 
 import shutil
 
@@ -24,7 +24,7 @@ def test_it_plays_to_the_end_without_a_word(tftool, simulated, run):
 
 
 def test_over_and_over_it_tells_of_every_jump_back(tftool, simulated, run):
-    # The recording lasts 0.4 s, too short for a fall that matters at less than three rounds.
+    # The recording lasts 0.4 s: a backward jump matters only from the third round on.
     result = tftool("play", run, "--loop", "--for", "1", "--rate", "0.1")
     assert (result.status, result.err) == (0, "")
 

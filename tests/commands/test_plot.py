@@ -1,4 +1,4 @@
-"""`tftool plot`: in the terminal, live, and as a picture."""
+"""Tests of `tftool plot`: on the terminal, live, and as a picture."""
 
 import json
 import re
@@ -112,7 +112,7 @@ def test_the_path_from_above_is_round(tftool, run):
     inked = [row for row in rows if row.strip()]
     across = max(map(len, inked)) - min(len(row) - len(row.lstrip()) for row in inked)
     assert "car in map begins at 1.618" in out
-    # A cell is twice as high as wide.
+    # A cell is twice as high as it is wide.
     assert 0.9 < across / (2 * len(inked)) < 1.1
 
 
@@ -123,7 +123,7 @@ def test_json_holds_the_values_of_each_curve(tftool, run):
     (curve,) = panel["curves"]
     assert (panel["unit"], curve["target"], curve["source"]) == ("m", "map", "car")
     assert curve["times_s"][:2] == pytest.approx([0.0, 0.05])
-    # It circles the origin at two metres, half a metre above it.
+    # The frame circles the origin at a radius of two metres, half a metre above it.
     assert curve["values"] == pytest.approx([np.hypot(2.0, 0.5)] * len(curve["times_s"]))
     assert tftool("plot", "map", "car", run, "--json", "--xy").status == 2
 
@@ -144,7 +144,7 @@ def test_a_scenario_is_drawn_whole(tftool, simulated):
 
 def test_a_live_plot_ends_with_for(monkeypatch, capsys):
     class Terminal(Simulated):
-        """A world of simulated time, so that a live plot takes no time."""
+        """Terminal of a world on simulated time, so that a live plot takes no time."""
 
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
     monkeypatch.setenv("TERM", "xterm")
@@ -156,7 +156,7 @@ def test_a_live_plot_ends_with_for(monkeypatch, capsys):
     out = capsys.readouterr().out
     assert status == 0
     assert "position, m" in out
-    assert "\x1b[?1049l" in out  # the screen is given back
+    assert "\x1b[?1049l" in out  # the terminal's main screen is restored
 
 
 @pytest.mark.parametrize("form", ["svg", "pdf", "png"])
@@ -295,7 +295,7 @@ def test_ticks_are_evenly_spaced_and_in_the_line_of_their_value(height, top):
     for row in labels[1:-1]:
         tick = float(lines()[row][0])
         drawn = lines(*[tick] * 4)
-        # In the middle of the line that rests on the tick.
+        # This is the middle of the line on which the tick is.
         assert [place for place, line in enumerate(drawn) if line[2][34:35].strip()] == [row]
 
 

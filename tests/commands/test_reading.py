@@ -1,4 +1,4 @@
-"""What a person sees while a recording is read, and how that ends."""
+"""Tests of the progress display while a recording is read, and of its end."""
 
 import io
 import re
@@ -110,11 +110,11 @@ def test_a_session_is_listened_to_with_a_bar_above_what_shows_so_far(monkeypatch
     assert "of 0.6 s" in shown
     assert ("world", "turtle1") in seen[-1]
     assert len(frames.log) >= len(seen[-1])
-    # A line that does not fit is cut, and what would scroll is counted.
+    # A line that is too long is cut, and lines that would scroll are counted.
     assert "number 1: long" in shown
     assert "number 2" not in shown
     assert "… and 7 more" in shown
-    # Nothing of it is left at the end.
+    # At the end, nothing of the display remains.
     assert screen.getvalue().endswith("\x1b[1A\x1b[2K")
 
 

@@ -1,4 +1,4 @@
-"""`tftool record`, `demo --record` and `check --record` as a user types them."""
+"""Tests of `tftool record`, `demo --record` and `check --record` as a user types them."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Commands take a real recording as FROM."""
+"""Tests of commands with a real recording as FROM."""
 
 import json
 
@@ -192,7 +192,7 @@ def test_info_tells_what_is_odd(tftool, tmp_path):
             narrow = as_text(recording, width).splitlines()
             told = narrow[narrow.index("Odd") + 1 :]
             assert max(map(len, told)) <= width
-            # No name is broken, in which there may be hyphens.
+            # Names may contain hyphens, and are never broken.
             assert odd.split() == " ".join(told).split()
     (row,) = (line for line in tftool("info", run).out.splitlines() if "base in map  " in line)
     assert "other clock" in row
@@ -334,7 +334,7 @@ def test_a_recording_that_goes_on_without_transforms_names_both_lengths(tftool, 
 @pytest.mark.parametrize("late", [(), (1_000_000_000,)], ids=["in order", "one sample late"])
 def test_a_monitored_chain_is_as_old_as_its_slowest_link(tftool, tmp_path, late):
     run, origin = tmp_path / "run.mcap", 1_000_000_000_000
-    # The link map -> odom arrives 20 ms late every 100 ms, and is missing from 4.1 to 7.9 s.
+    # The edge map -> odom arrives 20 ms late every 100 ms, and is missing from 4.1 to 7.9 s.
     slow = [
         (stamp, stamp + 20_000_000, "map", "odom") for stamp in range(0, 10 * SECOND, SECOND // 10)
     ]
@@ -348,8 +348,9 @@ def test_a_monitored_chain_is_as_old_as_its_slowest_link(tftool, tmp_path, late)
 
     result = tftool("monitor", "map", "base", run, "--cache-time", "1", "--json")
 
-    # Every half second from 20 ms on. From 5.52 to 7.52 s the cache of a second has no common time;
-    # at 5.02 s it has, as tf2 prunes by the stamp before the newest one, 5 s.
+    # Ages at every half second from 20 ms on. From 5.52 to 7.52 s the cache of one second has no
+    # common time. At 5.02 s it has the common time 5 s, as tf2 prunes by the stamp before the
+    # newest one.
     ages = [0.02] * 8 + [0.52, 1.02] + [0.02] * 4
     delay = json.loads(result.out)["net_delay"]
     assert delay["average"] == pytest.approx(sum(ages) / len(ages))

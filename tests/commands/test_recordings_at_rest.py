@@ -1,4 +1,4 @@
-"""A recording that is looked at: it stands still, and all of it is on the timeline."""
+"""Tests of views of a recording: the recording does not play, and the timeline shows all of it."""
 
 import json
 import re
@@ -51,7 +51,7 @@ def test_the_page_begins_there(file):
     with Process("view", file, "--port", "0", "--host") as view:
         view.says("The frames of recording")
         (line,) = [line for line in view.lines if "The frames of" in line]
-        # The page itself opens at the beginning: its address names no moment.
+        # The page itself opens at the beginning, because its address contains no moment.
         assert re.search(r"http://127\.0\.0\.1:\d+/\?token=[\w-]+$", line)
         assert view.interrupt() == 130
 
@@ -90,7 +90,7 @@ def test_monitor_reports_a_whole_recording_at_once(tftool, file):
     result = tftool("monitor", file, "--tf2")
 
     assert result.status == 0
-    # tf2 counts the messages of a sender: 9 of 10 ticks hold odom, at 50 Hz.
+    # tf2 counts the messages of a sender: odom is in 9 of 10 messages at 50 Hz.
     assert result.out.count("RESULTS: for all Frames") == 1
     assert re.search(r"Frame: odom, published by /tf, Average Delay: 0\.002", result.out)
 
@@ -113,7 +113,10 @@ def test_monitor_follows_a_chain_of_a_recording(tftool, file):
 
 
 def test_monitor_waits_in_silence_for_a_link_that_is_recorded_later(tftool, tmp_path):
-    """What is to come is there at once: a line that tells a cure would send people astray."""
+    """Check that `monitor` prints no remedy for an edge that is recorded later.
+
+    A recording has all of its data at once, so the remedy would be wrong.
+    """
     sent = content(500)
     late = [one for one in sent if one.log_time > sent[0].log_time + 3 * SECOND]
     early = [one for one in sent if one not in late and one.topic == "/tf_static"]

@@ -1,4 +1,4 @@
-"""What is told of frames that come from more nodes than they should."""
+"""Tests of messages about frames that too many nodes publish."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""`tftool run` and `tftool launch`, as people type them, in the tutorial's workspace."""
+"""Tests of `tftool run` and `tftool launch` as users type them, in the tutorial's workspace."""
 
 import json
 import os
@@ -246,7 +246,7 @@ def test_what_goes_wrong_in_a_node_is_told_with_its_own_line(tmp_path, capsys, c
 def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch):
     from tftool.ros.host import fibers
 
-    # Seconds all the same: what comes before the loop takes some on a busy machine.
+    # Still more than a second, because the code before the loop is slow on a busy machine.
     monkeypatch.setattr(fibers, "PATIENCE", 1.5)
     monkeypatch.setattr(fibers, "GIVE_UP", 3.0)
     file = tmp_path / "endless.py"
@@ -276,7 +276,8 @@ def test_a_busy_program_that_the_end_of_for_breaks_off_is_named_and_fails(
     assert main(["run", "--for", "0.5", str(file)]) == 1
 
     said = capsys.readouterr().err
-    # The second where the machine is too slow to break it off before the world gives it up.
+    # The second text occurs if the machine is too slow to interrupt the program before the world
+    # gives up.
     told = ("'busy' did not return when the run ended and was broken off: ", "has not returned 2 s")
     assert any(words in said for words in told)
 
@@ -300,7 +301,7 @@ LINES = [
 ]
 
 
-# These two stay until a person ends them; tests/commands/test_live.py runs them so.
+# These two commands run until a person ends them; tests/commands/test_live.py runs them.
 STAYING = {"tftool teleop", "tftool view"}
 
 
@@ -359,7 +360,7 @@ def test_a_node_can_be_put_into_a_scenario(tmp_path, capsys):
 
 
 def interrupted(folder, line, *words):
-    """Run a command that is interrupted once it has said a line; its status, what it said."""
+    """Interrupt a command once it has printed a line; return its status and output."""
     environment = {**os.environ, "TFTOOL_SESSION_DIR": str(folder / "session")}
     command = subprocess.Popen(
         [sys.executable, "-m", "tftool", *words],
@@ -373,7 +374,8 @@ def interrupted(folder, line, *words):
                 command.send_signal(signal.SIGINT)
                 break
         rest = command.stderr.readlines()
-    # On a busy machine an end may take longer than what is told of, and a timer be behind.
+    # On a busy machine, an end may take longer than the limit for a message, and a timer may be
+    # late.
     slow = ("has not returned", "behind its own timer")
     told = [said for said in rest if not any(words in said for words in slow)]
     return command.returncode, "".join(told)
@@ -397,7 +399,7 @@ def test_ctrl_c_ends_a_launch_as_ros2_launch_ends(tmp_path):
 
     assert status == 130
     lines = said.splitlines()
-    # Another process ends when the system lets it.
+    # The operating system decides when another process ends.
     lines.remove("[INFO] [sh-2]: process has finished cleanly")
     assert lines == [
         "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)",

@@ -1,4 +1,4 @@
-"""Slips of people who learn: each is named where it happens."""
+"""Tests that learners' mistakes are reported at the right place."""
 
 import linecache
 
@@ -152,7 +152,7 @@ class Slip(Node):
 
 @pytest.fixture
 def slip(program):
-    """A file whose node does in `begin` and on each tick what the text says."""
+    """Return a function that writes a node with some code in `begin` and in each tick."""
 
     def write(tick="pass", begin="pass"):
         return program(
@@ -164,7 +164,7 @@ def slip(program):
 
 
 def said(result, text):
-    """How many warnings of the log say a text."""
+    """Return how many warnings of the log contain a text."""
     return sum(text in line for line in result.err.splitlines() if line.startswith("[WARN]"))
 
 
@@ -280,7 +280,7 @@ def test_check_hides_no_line_of_another_name(tftool, slip):
 
 @pytest.fixture
 def chase(tftool, tmp_path, monkeypatch):
-    """A package as `tftool new` makes it."""
+    """Create a package with `tftool new`."""
     monkeypatch.chdir(tmp_path)
     tftool("new", "chase")
     return tmp_path / "chase"

@@ -78,7 +78,7 @@ def test_a_turtle_that_is_not_in_the_joined_session_is_told_with_those_that_are(
 
 @pytest.fixture
 def pressing(monkeypatch):
-    """A terminal on which somebody presses some keys and then q."""
+    """Return a function that replaces the terminal by one that sends some keys and q."""
     apps = []
 
     def press(*keys):

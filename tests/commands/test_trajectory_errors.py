@@ -1,4 +1,4 @@
-"""`tftool diff A B --ape --rpe`: errors of one trajectory against another."""
+"""Tests of `tftool diff A B --ape --rpe`: errors of one trajectory compared with another."""
 
 import json
 import math
@@ -17,7 +17,7 @@ EVO = shutil.which("evo_ape")
 
 
 def circle(count=50, radius=2.0, rate=10.0):
-    """Return stamps, positions and yaw of a body on a circle, its nose forward."""
+    """Return stamps, positions and yaw of a body that moves forward on a circle."""
     poses = []
     for step in range(count):
         angle = 2 * math.pi * step / count
@@ -86,7 +86,8 @@ def test_sim3_names_the_scale(tftool, truth, tmp_path):
 
 
 def test_nearest_leaves_out_what_interpolation_answers(tftool, truth, tmp_path):
-    # Poses half a period off: no stamp of A within 10 ms, and every one between two of A's.
+    # The poses are half a period late: A has no stamp within 10 ms, but each one is between two
+    # stamps of A.
     late = write(tmp_path / "late.tum", moved(circle()[:-1], later=0.05), 15)
 
     refused = tftool("diff", truth, late, "--ape")
@@ -95,8 +96,8 @@ def test_nearest_leaves_out_what_interpolation_answers(tftool, truth, tmp_path):
     assert refused.status == 3
     assert "0 of 49 poses of B have a pose of A at its time" in refused.err
     assert found["matched"] == 49
-    # The middle of a chord of 7.2° is r (1 - cos 3.6°) from its arc; here it is seen from the
-    # start of that arc: half the chord away.
+    # The middle of a chord of 7.2° is r (1 - cos 3.6°) from its arc. Seen from the start of the
+    # arc, it is half a chord away.
     chord = math.hypot(2 * 2.0 * math.sin(math.pi / 50), 0.1)
     assert found["ape"]["m"]["mean"] == pytest.approx(chord / 2, rel=1e-6)
 
@@ -109,10 +110,11 @@ def test_relative_errors_are_taken_per_frames_metres_and_degrees(tftool, truth, 
         return measured(tftool, truth, estimate, "--rpe", "--per", per)["rpe"]["m"]["mean"]
 
     assert mean("1") == pytest.approx(0.1 * chord, rel=1e-6)
-    # Twelve chords turn by 86.4°, the thirteenth passes 90°: a sine less than the path.
+    # Twelve chords turn by 86.4°, so the thirteenth passes 90°. The straight distance is a sine
+    # shorter than the path.
     turned = math.hypot(2 * 2.0 * math.sin(13 * math.pi / 50), 1.3)
     assert mean("90deg") == pytest.approx(0.1 * turned, rel=1e-6)
-    # B travels 1.1 chords a frame: four of them are the first to pass one metre.
+    # B travels 1.1 chords per frame, and passes one metre with the fourth.
     four = math.hypot(2 * 2.0 * math.sin(4 * math.pi / 50), 0.4)
     assert 1.1 * chord * 3 < 1.0 < 1.1 * chord * 4
     assert mean("1m") == pytest.approx(0.1 * four, rel=1e-6)
@@ -192,11 +194,11 @@ def test_a_picture_is_drawn_and_never_overwritten_unasked(tftool, truth, tmp_pat
     assert "--force" in again.err
 
 
-# evo as a foreign judge
+# Comparison with evo
 
 
 def made_pair(number):
-    """Return two made trajectories: other rates, gaps, noise, a drift, a moved frame."""
+    """Return two simulated trajectories with different rates, gaps, noise, drift and frames."""
     dice = random.Random(number)
     count = dice.randrange(80, 200)
     truth, estimate = [], []
@@ -216,7 +218,7 @@ def made_pair(number):
 
 
 def judged(folder, tool, *words):
-    """Return the statistics of evo's own process."""
+    """Return the statistics that evo computes in a separate process."""
     (folder / "result.zip").unlink(missing_ok=True)
     home = {**os.environ, "HOME": str(folder), "MPLBACKEND": "Agg"}
     command = [tool, "tum", "truth.tum", "estimate.tum", *words]

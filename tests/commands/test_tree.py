@@ -186,7 +186,7 @@ def test_it_is_drawn_again_and_again_on_the_worlds_own_ticks(tftool, simulated, 
     result = tftool("tree", "turtles", "--watch", "--for", "1")
 
     assert result.status == 0
-    # Both turtles are there after the head start of three seconds.
+    # After the head start of three seconds, both turtles exist.
     for moment in ("1003.000", "1003.500", "1004.000"):
         assert f"at {moment}" in result.out
     assert "at 1004.500" not in result.out
@@ -224,7 +224,7 @@ def test_what_is_wrong_stands_beside_the_frame(tftool, tmp_path):
     assert {one["frame"]: one["marks"] for one in told if one["marks"]} == {
         "lamp": ["edge-stopped"], "cup": ["two-parents"],
     }  # fmt: skip
-    # Three seconds in, the lamp is still there.
+    # After three seconds, the lamp is still published.
     assert "edge-stopped" not in tftool("tree", file, "--at", "3").out
 
 

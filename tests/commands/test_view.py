@@ -50,7 +50,7 @@ def test_view_opens_the_page_on_request(simulated, tftool, monkeypatch, opens, t
 
     def browser(url):
         file = Path(urllib.request.url2pathname(urllib.parse.urlsplit(url).path))
-        # Every user of the machine may read a command line, and none but us that file.
+        # Every user of the machine can read a command line, but only we can read this file.
         assert "token" not in url
         assert file.parent.stat().st_mode & 0o077 == 0
         opened.append(html.unescape(file.read_text()))

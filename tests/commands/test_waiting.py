@@ -1,4 +1,4 @@
-"""What echo does over time, on a world of its own and simulated time."""
+"""Tests of `echo` over time, in a world on simulated time."""
 
 import json
 
@@ -19,7 +19,7 @@ from tftool.world.world import World
 
 
 class Mover(Node):
-    """Moves a frame along x by a metre a second, from one moment to another."""
+    """Node that moves a frame along x by a metre per second, from one moment to another."""
 
     def __init__(self, world, child, parent="world", *, start=0.0, end=1e6, name="mover"):
         super().__init__(world, f"{name} of {child}")
@@ -40,7 +40,7 @@ def world():
 
 
 def echoed(world, capsys, target="world", source="a", *, printer=None, **options):
-    """Run an echo; give what it wrote, and what it raised."""
+    """Run an echo; return its output and its exception."""
 
     async def alive(until):
         await live(world, until=until)
@@ -124,7 +124,7 @@ def test_what_comes_at_once_is_waited_for_in_silence(world, capsys):
 
 
 class Departures:
-    """Counts who has left, by a timetable."""
+    """Stand-in for a session, with a list of times at which nodes leave."""
 
     def __init__(self, clock, *moments):
         self.clock, self.moments = clock, [seconds(moment) for moment in moments]
@@ -144,7 +144,7 @@ def test_what_nobody_sends_any_more_is_waited_for_anew(world, capsys):
 
 
 class Shown(list):
-    """Stands in for a screen: keeps the first line of each picture."""
+    """Stand-in for a screen that stores the first line of each picture."""
 
     def show(self, picture):
         self.append(picture.plain.partition("\n")[0])
@@ -329,7 +329,7 @@ def test_a_wait_for_a_join_says_the_cause_and_what_to_look_at(world, capsys):
     (line,) = [line for line in err.split("\n") if line.startswith("Waiting")]
     assert "not part of the same tree" in line
     assert " Cause: camera_link has no parent" in line
-    # Nothing here says where the camera is mounted: no transform is made up.
+    # No data shows where the camera is mounted, so no transform is proposed.
     assert "check the node that should publish that" in line
     assert "static_transform_publisher" not in line
 

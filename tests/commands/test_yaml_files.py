@@ -1,4 +1,4 @@
-"""YAML files that stand for too much, given to every command that reads some."""
+"""Tests of YAML files that expand to too much data, with every command that reads YAML."""
 
 import pytest
 
