@@ -53,7 +53,7 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
 
     Raises:
         UsageError: If there is no such command.
-        TftoolError: If the command raises one.
+        TftoolError: Any error that the command raises.
     """
     name, *rest = words
     if name not in COMMANDS:
@@ -269,5 +269,5 @@ class HelpOptions(Command, shares=False):
 
 
 def run(options: HelpOptions) -> ExitStatus:
-    """Run `tftool help`: print the list of commands, or the help of one."""
+    """Run `tftool help`: print the list of commands, or the help of one command."""
     return ExitStatus(main(["--help"] if options.name is None else [options.name, "--help"]))

@@ -54,8 +54,8 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
     Args:
         argv: Words after `tftool`; None for this process's arguments.
-        providers: Functions that create clocks and connections to other processes; None for the
-            real ones.
+        providers: Functions that create clocks and connections to other processes; only tests pass
+            them.
 
     Returns:
         An `ExitStatus`, or the exit status of the program that `tftool run` ran.
@@ -170,7 +170,7 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
 
 
 def _own_options(words: list[str]) -> list[str] | None:
-    """Process the options of `tftool` itself; return the words of a command, if one is named.
+    """Process the options of `tftool` itself; return the command and its words, or None.
 
     Raises:
         UsageError: If there is no such option.

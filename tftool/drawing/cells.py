@@ -116,7 +116,7 @@ def dots_of(ends: Points, width: int, height: int) -> tuple[Numbers, Numbers, Po
         height: Height of the picture in dots.
 
     Returns:
-        Column, row, position, and index of the line, of each dot.
+        For each dot: its column, its row, its exact position, and the index of its line.
 
     Source:
         Liang and Barsky, "A New Concept and Method for Line Clipping", 1984.
@@ -178,7 +178,7 @@ class Dots:
         self.colors[cells] = colors
 
     def cover(self, above: "Dots") -> None:
-        """Lay other dots above these; a cell with dots of both shows only the upper ones."""
+        """Lay other dots above these; in a cell with dots of both, only the upper dots show."""
         marked = above.masks > 0
         self.masks[marked], self.colors[marked] = above.masks[marked], above.colors[marked]
 

@@ -97,7 +97,7 @@ def over_time(
         start: Time in nanoseconds that is 0 on the axis.
         quantities: Quantities to draw, of `pair_series.QUANTITIES`.
         look: Size and style of the plot.
-        span: First and last second of the axis; None for those of the data.
+        span: First and last second of the axis; None for the first and last second of the data.
     """
     drawn = panels(found, start, quantities)
     shaded = shades(found, start)
@@ -314,7 +314,7 @@ class PlotSpan:
         first: First time.
         last: Last time.
         start: Time that is 0 on the axis.
-        cursor: Time to mark; None for the last.
+        cursor: Time to mark; None for the last time.
     """
 
     first: Stamp

@@ -66,7 +66,7 @@ def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
 def lines(
     transform: Transform, *, with_translation: bool, precision: int = 6, all_orders: bool = False
 ) -> str:
-    """Return a transform in every notation, each with one or a few lines.
+    """Return a transform in every notation; a notation takes one or a few lines.
 
     Args:
         transform: Transform to write.

@@ -149,7 +149,7 @@ class _Writer:
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
-        """Return a row for each name with its columns; its list follows, or is in a line below."""
+        """Return a row for each name: its columns, then its list at the end or in a line below."""
         if not names:
             return []
         longest = max(map(cell_len, names))
@@ -181,6 +181,6 @@ def _names(nodes: Iterable[str], none: str) -> str:
 
 
 def _goes_without_saying(name: str, ros_type: str) -> bool:
-    """Return whether a service is one that every node has, or one that ROS 2 hides."""
+    """Return whether to omit a service, because every node has it or ROS 2 hides it."""
     hidden = any(part.startswith("_") for part in name.split("/"))
     return hidden or ros_type.startswith(_EVERY_NODES)

@@ -79,7 +79,7 @@ def solids_of(
     """Convert the visual shapes of links to triangles.
 
     Args:
-        links: The links; those without a visual shape show their collision shapes.
+        links: The links; if a link has no visual shape, its collision shapes are used.
         folders: Folders from which meshes may be read.
         prefix: Prefix of a frame's name before the link's name.
         most: Approximate limit on the number of triangles.

@@ -146,7 +146,7 @@ class OrbitCamera:
         """Return the view for a picture of columns × rows of cells.
 
         Args:
-            picture: Values of the picture.
+            picture: Data of the picture.
             corners: All points that should be visible, shape (n, 3).
             columns: Width of the picture in cells.
             rows: Height of the picture in cells.

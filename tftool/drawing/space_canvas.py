@@ -170,7 +170,7 @@ def drawn(
     """Draw a picture in columns × rows of cells.
 
     Args:
-        picture: Values of the picture.
+        picture: Data of the picture.
         view: Direction, centre and scale of the view.
         columns: Width in cells of two dots.
         rows: Height in cells of four dots.
@@ -480,7 +480,7 @@ class SpaceCanvas:
         marked: npt.NDArray[np.bool_],
         solid: npt.NDArray[np.bool_],
     ) -> None:
-        """Write the names of frames into a sheet, where they cover no other name."""
+        """Write the names of frames into a sheet; omit a name that would cover another name."""
         named: dict[str, tuple[SpaceFrame, int]] = {}
         labels: list[Label] = []
         most = max(3, min(MOST_NAMED, self.columns * self.rows // CELLS_PER_NAME))

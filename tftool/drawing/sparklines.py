@@ -23,7 +23,7 @@ def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = 
     """Draw values from zero to their maximum in one line, the newest at the right.
 
     Args:
-        values: Values, oldest first; None for unknown ones.
+        values: Values, oldest first; None for an unknown value.
         width: Width in cells; a cell with several values shows the largest.
         ascii_only: Whether to draw with ASCII characters only.
     """
@@ -60,13 +60,13 @@ class TrafficHistory:
         self._looks: dict[str, deque[TrafficLook]] = {}
 
     def look(self, now: Stamp, traffic: Traffic, *, over: int = 4) -> None:
-        """Store every frame's rate, from the messages since earlier calls, and its newest delay.
+        """Store every frame's present rate and newest delay, as new entries of the history.
 
         Args:
             now: Current time of the clock in nanoseconds.
             traffic: Statistics of the received messages.
-            over: Number of calls over which a rate is counted; over a single call, a rate would
-                jump with each message.
+            over: Number of the last calls over which messages are counted for a rate. Over a single
+                call, the rate would jump with each message.
         """
         for name, link in traffic.links.items():
             if link.is_static:
@@ -87,7 +87,7 @@ class TrafficHistory:
     def columns(
         self, frames: Iterable[str], room: int, *, ascii_only: bool = False
     ) -> list[TableColumn]:
-        """Return a column of rates and one of delays that take the room beside a table.
+        """Return two columns, of rates and of delays, that fit beside a table.
 
         Args:
             frames: The frame of each row.

@@ -109,7 +109,7 @@ def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
 def badge(
     x: float, y: float, theta: float, color: Color, per_metre: float, *, blocks: bool = True
 ) -> Iterator[tuple[int, int, Cell]]:
-    """Draw a turtle as an arrow; if a metre has enough rows, on a coloured badge.
+    """Draw a turtle as an arrow, or, if there are enough rows per metre, on a coloured badge.
 
     Arguments and results are those of `body`; without `blocks` the arrow is in ASCII.
     """

@@ -93,7 +93,7 @@ def fit(
     """Return as many columns as leave `wanted` cells for the first column.
 
     Args:
-        columns: Columns from left to right; empty ones are left out.
+        columns: Columns from left to right; a column without text is left out.
         width: Width of the table in cells.
         wanted: Cells wanted for the first column.
         longest: Most cells that the first column can use.

@@ -75,7 +75,7 @@ class TrafficLayout:
 
     @property
     def curve(self) -> int:
-        """Width in cells of one of the two curves, with its scale; 0 without room."""
+        """Width in cells of the rate curve, equal to the delay curve's; 0 if there is no room."""
         left = self.width - self.names - 2 * NUMBER - 4
         return left // 2 if left >= 2 * (GUTTER + 6) else 0
 

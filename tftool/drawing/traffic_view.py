@@ -92,7 +92,7 @@ def table(
     height: int,
     ascii_only: bool = False,
 ) -> Text:
-    """Return a table of frames, in the chain's order if there is one, and of publishers.
+    """Return a table of frames (of the chain, if one is given) and a table of publishers.
 
     An edge is amber if its transforms are stamped long before they arrive, or if it has been silent
     for many periods. After a longer silence it is red. The limits are the doctor's.

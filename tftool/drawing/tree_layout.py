@@ -20,7 +20,7 @@ class Item:
     Attributes:
         breadth: Extent across the direction of growth.
         children: Indices of the item's children, in order.
-        levels: Number of levels that the item fills; an item with children fills one.
+        levels: Number of levels that the item fills; 1 for an item with children.
     """
 
     breadth: float

@@ -36,7 +36,7 @@ class Judged:
 
 
 def _meant(error: TransformException) -> str:
-    """Return the hint "did you mean …" of an error about an unknown frame; "" without one."""
+    """Return the hint "did you mean …" in an error about an unknown frame; "" without a hint."""
     remedy = error.remedy if isinstance(error, LookupException) else ""
     return remedy if "did you mean" in remedy else ""
 
@@ -46,7 +46,7 @@ class AnswerCheck(ABC):
 
     @abstractmethod
     def judge(self, answer: Any) -> Judged:
-        """Compare an answer with the expected one."""
+        """Compare an answer with the expected answer."""
 
     def refused(self, error: TransformException) -> Judged:
         """Return the result for a question whose answer failed with an exception."""
@@ -190,7 +190,7 @@ class FrameCheck(AnswerCheck):
     wanted: FrameFacts
 
     def judge(self, answer: FrameFacts) -> Judged:
-        """Compare a frame's facts with the expected ones."""
+        """Compare a frame's facts with the expected facts."""
         if not answer.exists:
             hint = _nearest([self.name], answer.known)
             return Judged(not self.wanted.exists, f"no such frame{hint}")
@@ -245,7 +245,7 @@ class NamesCheck(AnswerCheck):
     wanted: frozenset[str]
 
     def judge(self, answer: Iterable[str]) -> Judged:
-        """Compare names with the expected ones."""
+        """Compare names with the expected names."""
         found = frozenset(answer)
         # Names that matched are no candidates for "did you mean".
         hint = _nearest(sorted(self.wanted - found), found - self.wanted)
@@ -343,7 +343,7 @@ class RefusalCheck(AnswerCheck):
         return Judged(False, f"no exception: {_pose_text(answer)}")
 
     def refused(self, error: TransformException) -> Judged:
-        """Compare the lookup's exception with the expected one."""
+        """Compare the lookup's exception with the expected exception."""
         ok = isinstance(error, getattr(errors, self.raises))
         ok = ok and (self.says is None or self.says in str(error))
         return Judged(ok, f"{type(error).__name__}: {error}")

@@ -190,7 +190,7 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
 
     Args:
         read: Reader of the value.
-        default: Default value; without one, the key is required.
+        default: Default value; without a default, the key is required.
         key: Key in the scenario, if it is not a valid name in Python.
         beside: Whether the key is written next to the key that names the class, not inside that
             key's value.

@@ -219,7 +219,7 @@ class Distance(Between):
 
 @declare(SUBJECTS, "bearing", form=range_form(ANGLE))
 class Bearing(Between):
-    """Question for the direction of a frame seen from another."""
+    """Question for the direction of a frame seen from another frame."""
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the direction in radians, counter-clockwise from straight ahead."""
@@ -251,7 +251,7 @@ class PointOf(Subject):
 
 
 class Motion(Subject):
-    """Base of questions about one frame's motion in another, averaged over a duration."""
+    """Base of questions about one frame's motion in another frame, averaged over a duration."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -448,7 +448,7 @@ class Diagnosed(Subject):
     ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
-        """Return the findings as text, without those of ignored checks."""
+        """Return the findings as text, without findings of ignored checks."""
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
         from tftool.doctor.judge import judge

@@ -21,8 +21,8 @@ class NodeEntry:
 
     Attributes:
         kind: Kind, a key of `node_kinds.KINDS`.
-        name: Name in the file; without one, the kind, with a number if several nodes have that
-            kind.
+        name: Name in the file; if the file gives no name, the kind, with a number if several nodes
+            have that kind.
         parameters: Values of all parameters of the node's kind.
     """
 

@@ -45,7 +45,7 @@ class Tasks:
 
 
 def message(ros_type: str, **fields: Any) -> Any:
-    """Return a message of the type with this full name, also a part of a service or action."""
+    """Return a message by the full name of its type, which may be a part of an action."""
     return INTERFACES.part(ros_type)(**fields)
 
 
@@ -89,7 +89,8 @@ class ActionParts:
             name: Name of the action.
             interface: Type of the action, "package/action/Name".
             on_feedback: Function called with each FeedbackMessage.
-            on_status: Function called with the states of all goals when one of them changes.
+            on_status: Function called with the states of all goals when the state of a goal
+                changes.
             warn: Function called with a sentence for the log.
         """
         self._world = world

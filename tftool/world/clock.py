@@ -142,7 +142,7 @@ class Clock(ABC):
         await self.timer(self.now() + duration, phase, rank)
 
     def _next_due(self) -> Stamp | None:
-        """Return the time of the next waiter, and drop cancelled ones; None without waiters."""
+        """Return the time of the next waiter; None without waiters. Drop cancelled waiters."""
         while self._waiters:
             if not self._waiters[0][4].done():
                 return self._waiters[0][0]
@@ -190,7 +190,7 @@ class SimClock(Clock):
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that blocks simulated time too long (`STANDSTILL`), unless `until` is None."""
+        """Limit how long a node may block simulated time; no limit if `until` is None."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
@@ -223,7 +223,7 @@ class SimClock(Clock):
         """Wait in real time until the next timer is due or an event comes from outside.
 
         Args:
-            loop_timer: Seconds until asyncio's own next timer; None without one.
+            loop_timer: Seconds until asyncio's own next timer; None if asyncio has no timer.
             select: Function that waits for events from outside, at most for a number of seconds.
 
         Returns:
@@ -246,7 +246,7 @@ class SimClock(Clock):
         The clock's own event loop calls this when every task waits.
 
         Args:
-            loop_timer: Seconds until asyncio's own next timer; None without one.
+            loop_timer: Seconds until asyncio's own next timer; None if asyncio has no timer.
         """
         due = self._next_due()
         # Rounded up: if woken a nanosecond early, asyncio would ask again, forever.
@@ -525,7 +525,8 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
         Result of the coroutine.
 
     Raises:
-        KeyboardInterrupt: If a signal ended the run; its `__cause__` is an error during the stop.
+        KeyboardInterrupt: If a signal ended the run; its `__cause__` is an error that occurred
+            while the run was being ended, or None.
         Exception: Any exception of the coroutine, or of a task that the coroutine started.
     """
     loop = clock.new_loop()

@@ -76,7 +76,7 @@ class Repeats:
 
 
 class Log:
-    """Store of the last log messages, which passes each new one to listeners."""
+    """Store of the last log messages, which passes each new message to listeners."""
 
     def __init__(
         self, now: Callable[[], Stamp], keep: int = 1000, report: Report | None = None

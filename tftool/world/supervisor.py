@@ -46,11 +46,12 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
     `finally` blocks awaited.
 
     Args:
-        world: World whose nodes run, including those that join later.
+        world: World whose nodes run, including nodes that join later.
         until: Last time of the run, nanoseconds.
 
     Raises:
-        NodeFailed: If a node raised an exception; it names the first one, with the cause.
+        NodeFailed: If a node raised an exception; the error names the first such node, and has the
+            exception as its cause.
         BrokenPipeError: If the reader of a listener's output is gone.
         ValueError: If `until` has passed: it is a stamp, not a duration.
     """
@@ -197,7 +198,7 @@ class Supervisor:
         self.fail(resident, error, what)
 
     def end_by(self, error: Exception) -> None:
-        """End the run because of an error that belongs to no resident."""
+        """End the run because of an error that belongs to no node or program."""
         self.error = self.error or error
         self.stop()
 

@@ -28,7 +28,7 @@ class Topic(Generic[T]):
         name: Name of the topic, without a leading slash.
         kind: Type of the values.
         count: Number of values that were published.
-        latest: Value that was published last; None before the first.
+        latest: Value that was published last; None before the first value.
         on_demand: Function called when a subscriber is added or removed; None without other
             processes.
         sender: Publisher of the value that is being delivered; None if unknown.
@@ -112,7 +112,7 @@ class Topic(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """Number of subscribers, including those in other processes."""
+        """Number of subscribers, including subscribers in other processes."""
         return len(self._subscribers.registered) + self.far_subscribers
 
     @property
@@ -178,11 +178,11 @@ class GoalHandle:
     Attributes:
         request: Goal message.
         cancel_requested: Whether the client requested cancellation and the server agreed.
-        feedback: Last feedback; None before the first.
+        feedback: Last feedback; None before the first feedback.
         on_cancel: Function called when the client requests cancellation, for a server that decides
             by `decide_cancel`; None for a server that always agrees.
-        decided: Future of whether the server accepts the goal; None for a server that accepts
-            every goal.
+        decided: Future of whether the server accepts the goal; None for a server that accepts every
+            goal.
         patience: Seconds to wait until a server in another process accepts the goal or a
             cancellation; None for no limit.
         goal_id: Id of 16 bytes.

@@ -57,8 +57,8 @@ async def wait_for_transform_full(
 ) -> TransformStamped:
     """Return the transform between two times through a fixed frame, as soon as it is available.
 
-    Raises the errors of `wait_for_transform`, and LookupException at once if all three frames are
-    the same unknown one.
+    Raises the errors of `wait_for_transform`. If all three frames have the same name, and no such
+    frame exists, LookupException is raised at once.
     """
     deadline = None if timeout is None else clock.now() + whole(timeout)
     while True:

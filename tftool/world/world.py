@@ -80,7 +80,7 @@ class TopicPublisher(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """Number of subscribers of the topic, including those in other processes."""
+        """Number of subscribers of the topic, including subscribers in other processes."""
         topic = self._topic
         if topic is None or topic.is_removed:
             topic = self._topic = self._world.topic(self.name, self.kind)
@@ -117,7 +117,7 @@ class World:
 
         Args:
             clock: Clock of the world.
-            buffer: Transform buffer to use; None for a new one.
+            buffer: Transform buffer to use; None for a new buffer.
             cache_time: Cache time of a new buffer, nanoseconds.
             max_bytes: Largest number of bytes for samples; None for the usual limit.
         """
@@ -315,7 +315,7 @@ class World:
         return self._services.get(name) is not None
 
     def count_services(self, name: str) -> int:
-        """Return the number of servers of a service; those in other processes count as 1."""
+        """Return the number of servers of a service; all servers in other processes count as 1."""
         return self._services.count(name)
 
     def services(self) -> Mapping[str, Offer[Handler]]:
@@ -403,7 +403,7 @@ class World:
             on_feedback: Function called with each feedback.
             patience: Seconds to wait until a server in another process accepts the goal; None for
                 no limit.
-            goal_id: Id of 16 bytes for the goal; None for a new one.
+            goal_id: Id of 16 bytes for the goal; None for a new id.
 
         Raises:
             TftoolError: If no node serves that action, or the goal is of another type.

@@ -160,7 +160,7 @@ def _measure_errors(
 
 
 def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
-    """Open the frames of one of the two sources.
+    """Open the frames of one source, A or B.
 
     Raises:
         InputError: If the word names nothing, or the file cannot be read.

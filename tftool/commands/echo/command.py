@@ -173,7 +173,8 @@ def _check_names(*frames: str) -> None:
 def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
     """Print a pair's transforms at many times; report on stderr how many lookups failed.
 
-    The times are those of --at-stamps-of, or else evenly spaced by --rate from the first stamp on.
+    The times are the stamps of the topic in --at-stamps-of, or evenly spaced by --rate from the
+    first stamp on.
 
     Raises:
         InputError: If the recording has no such topic.

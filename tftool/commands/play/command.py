@@ -70,7 +70,7 @@ def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> Non
     Args:
         player: Player to control.
         key: Name of the key.
-        marks: Findings to seek to: "n" the next one, "N" the previous one.
+        marks: Findings to seek to with the keys "n" (next finding) and "N" (previous finding).
     """
     if key == "space":
         if player.is_paused:

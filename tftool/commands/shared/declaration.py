@@ -207,8 +207,8 @@ class Invocation(NamedTuple):
     """Data passed from `main` to a command, as the `obj` of click's context.
 
     Attributes:
-        providers: Functions that create clocks and connections to other processes; None for the
-            real ones.
+        providers: Functions that create clocks and connections to other processes; None except in
+            tests.
         run: Function that runs another command line of tftool, and returns its exit status.
     """
 
@@ -272,7 +272,7 @@ def typer_function(command: type[Command]) -> Callable[..., Any]:
 
 
 def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> str | None:
-    """Remove a session's address from a command's words, and return it; None without one.
+    """Remove a session's address from a command's words, and return it; None if there is none.
 
     Raises:
         UsageError: If the command does not read sessions, or the address is not given as FROM.

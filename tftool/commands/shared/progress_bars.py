@@ -127,7 +127,7 @@ _SHARE = 4
 class ListeningBar:
     """Progress bar for listening to a session, with lines of text below; erased at the end.
 
-    The bar is called in another thread than the one that waits for the end of listening.
+    The thread that calls the bar is not the thread that waits for the end of listening.
     """
 
     def __init__(self, lasting: float, look: "Look | None") -> None:

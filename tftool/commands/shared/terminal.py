@@ -183,7 +183,7 @@ class Redrawing:
         self._stopping = left_while_stopped(self._leave, lambda: None)
 
     def show(self, picture: RenderableType) -> None:
-        """Draw a picture in place of the last one."""
+        """Draw a picture in place of the last picture."""
         if self._live is None:
             # If stderr is a file, its lines still go to the file.
             self._live = Live(
@@ -202,7 +202,7 @@ class Redrawing:
         self._undo()
 
     def _leave(self) -> None:
-        """Keep the last picture on the terminal; the next one is drawn below it."""
+        """Keep the last picture on the terminal; the next picture is drawn below it."""
         if self._live is not None:
             self._live.stop()
             self._live = None

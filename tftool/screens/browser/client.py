@@ -126,7 +126,7 @@ class PageClient:
         return asked or self.at is None
 
     def offer(self, tree: TreeMessage, pair: str | None, poses: Poses) -> None:
-        """Set the next picture to send; an earlier one that is not sent yet is dropped."""
+        """Set the next picture to send; if the picture before it is not sent yet, drop that."""
         if self._next:
             self.skipped += 1
         self._next = [] if self._revision == tree.revision else [tree.text]
@@ -137,17 +137,17 @@ class PageClient:
         self._wake.set()
 
     def tell(self, text: str) -> None:
-        """Set the next text message to send; an earlier one that is not sent yet is dropped."""
+        """Set the next text message to send, in place of a text message that is not sent yet."""
         self._word = text
         self._wake.set()
 
     def show_robot(self, text: str) -> None:
-        """Set the robot message to send; an earlier one that is not sent yet is dropped."""
+        """Set the robot message to send, in place of a robot message that is not sent yet."""
         self._robot = text
         self._wake.set()
 
     def show_displays(self, blocks: Mapping[str, bytes]) -> None:
-        """Set messages to draw, by topic; of each topic, only the last one is sent."""
+        """Set messages to draw, by topic; of each topic, only the last message is sent."""
         self._displays.update(blocks)
         self._wake.set()
 

@@ -81,7 +81,7 @@ class DrawnTopic:
     faults: dict[str, int] = field(default_factory=dict)
 
     def note(self, fault: str) -> None:
-        """Count a fault; of many different faults, only the first are stored."""
+        """Count a fault; if there are many different faults, only the first faults are stored."""
         if fault in self.faults or len(self.faults) < _MOST_FAULTS:
             self.faults[fault] = self.faults.get(fault, 0) + 1
 

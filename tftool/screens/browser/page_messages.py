@@ -56,7 +56,7 @@ class FieldType:
     Attributes:
         javascript: The type in TypeScript.
         words: End of a sentence that says which values are valid.
-        read: Function that returns the value for Python; raises ValueError for an invalid one.
+        read: Function that returns the value for Python; raises ValueError for an invalid value.
     """
 
     javascript: str

@@ -120,7 +120,7 @@ class PageServer:
             rate: Pictures per second.
             tell: Function called with sentences for the user.
             name: Name of the source, for a saved page.
-            secret: Token that requests for frames must contain; None for a new one.
+            secret: Token that requests for frames must contain; None for a new token.
             begin: Time that a page shows first, if the frames were recorded; None for the present.
         """
         self.source = source
@@ -198,7 +198,7 @@ class PageServer:
         """Start to listen.
 
         Raises:
-            TftoolError: If no port near the requested one is free.
+            TftoolError: If no port near the requested port is free.
         """
         for port in _candidates(self.asked_port):
             try:

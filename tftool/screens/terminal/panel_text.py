@@ -291,7 +291,7 @@ class Hint(NamedTuple):
 
 
 def footer(hints: Sequence[Hint], width: int, look: Look) -> Text:
-    """Return the line of key help: the first hints that fit, and always the last."""
+    """Return the line of key help: as many hints as fit, always with the last hint."""
     strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
 
     def written(hint: Hint) -> Text:

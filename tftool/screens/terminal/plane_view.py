@@ -175,7 +175,7 @@ class PlaneView:
     def _insets(
         self, picture: PlanePicture, width: int, height: int, look: Look, colors: bool
     ) -> list[Line]:
-        """Draw the first of the other trees side by side, each below its heading."""
+        """Draw as many of the other trees as fit, side by side, each below its heading."""
         count = min(len(picture.apart), max(1, width // INSET_WIDTH))
         wide = width // count
         warning = look.ink(look.palette.warning)

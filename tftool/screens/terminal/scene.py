@@ -220,7 +220,7 @@ class Scene:
             return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return a past state with another pair and the same frames; the buffer may lack these."""
+        """Return a past state with another pair; the frames are not looked up again."""
         snapshot, pair = moment.snapshot, (target, source)
         wanted = self._fixed(snapshot, pair, fixed)
         if moment.picture.fixed != wanted:

@@ -1,4 +1,4 @@
-"""Sliders for a robot's joints: which one is chosen, positions, changes by keys."""
+"""Sliders for a robot's joints: positions, the chosen slider, and changes by keys."""
 
 import math
 import random
@@ -136,7 +136,7 @@ class Sliders:
         self._move(joint, min(upper, max(lower, position)))
 
     def type(self, sign: str) -> None:
-        """Add a typed character: a digit, ".", "-", or a backspace, which removes one."""
+        """Add a typed digit, "." or "-" to `entry`; a backspace removes the last character."""
         self.refusal = ""
         if sign == "\b":
             self.entry = self.entry[:-1]
@@ -161,19 +161,19 @@ class Sliders:
         self._move(joint, position)
 
     def zero(self, *, all_of_them: bool = True) -> None:
-        """Set all joints, or the chosen one, to zero or the nearest position within limits."""
+        """Set all joints, or the chosen joint, to zero or the nearest position within limits."""
         for joint in self._meant(all_of_them):
             lower, upper = joint.limits or (0.0, 0.0)
             self._move(joint, min(upper, max(lower, 0.0)))
 
     def centre(self, *, all_of_them: bool = True) -> None:
-        """Set all joints, or the chosen one, to the middle of their limits."""
+        """Set all joints, or the chosen joint, to the middle of their limits."""
         for joint in self._meant(all_of_them):
             lower, upper = slide_range(joint)
             self._move(joint, (lower + upper) / 2.0)
 
     def scatter(self, *, all_of_them: bool = True) -> None:
-        """Set all joints, or the chosen one, to random positions within their limits."""
+        """Set all joints, or the chosen joint, to random positions within their limits."""
         for joint in self._meant(all_of_them):
             lower, upper = slide_range(joint)
             self._move(joint, self._random.uniform(lower, max(lower, upper)))
@@ -203,7 +203,7 @@ def slide_range(joint: RobotJoint) -> tuple[float, float]:
 
 
 def tip_of(robot: Robot) -> str:
-    """Return the link farthest from the root, usually a hand; the first of several.
+    """Return the link farthest from the root, usually a hand; if several are, the first.
 
     Links below a floating joint are left out, because no frame is published for them.
     """

@@ -142,7 +142,7 @@ class SpacePanel(Panel):
             self._dragged = event.screen_x, event.screen_y
 
     def on_mouse_move(self, event: events.MouseMove) -> None:
-        """Orbit while the left button is pressed, pan while another one is."""
+        """Orbit while the left mouse button is pressed, pan while another button is pressed."""
         if self._dragged is None or not self.in_space:
             return
         event.stop()

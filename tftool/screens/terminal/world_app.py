@@ -291,7 +291,7 @@ class PanelApp(WorldApp):
 
 
 async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
-    """Run a screen on the terminal beside its world, until one of them ends.
+    """Run a screen on the terminal while its world runs, until the screen or the world ends.
 
     The terminal is always restored before this function returns or raises.
 

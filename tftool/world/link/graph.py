@@ -23,7 +23,7 @@ MOST_DOMAINS: Final = 100
 
 @dataclass(frozen=True, slots=True)
 class GraphEntity:
-    """Node of another process, or one of its publishers, subscriptions, servers or clients.
+    """Node of another process, or a publisher, subscription, server or client of such a node.
 
     Attributes:
         kind: One of `KINDS`.

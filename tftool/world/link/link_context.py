@@ -126,7 +126,7 @@ class LinkContext:
         return self._senders[key]
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
-        """Count a malformed message, and log the first of each topic."""
+        """Count a malformed message; log the first malformed message of each topic."""
         self.refused += 1
         self.say_once(f"refused {name}", f"On '{name}': {refusal}. Others like it are counted.")
 

@@ -55,7 +55,7 @@ class Inbox:
             callback(argument)
 
     def close(self) -> None:
-        """Drop the queued calls, and make no further one."""
+        """Drop the queued calls; no further call is made."""
         with self._lock:
             self._closed = True
             self._waiting.clear()

@@ -33,7 +33,7 @@ class WirePublisher(Protocol):
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a subscription, or be stored for late ones."""
+        """Whether a message would reach a subscription, or be stored for late subscribers."""
 
     def put(self, payload: bytes, stamp: Stamp) -> None:
         """Send one message; `stamp` is the time of sending on this process's clock.
@@ -54,7 +54,7 @@ class WireRequest(Protocol):
         """Request in CDR (ROS 2's serialised form)."""
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response; called once."""
+        """Send the response; call this only once."""
 
     def refuse(self, reason: str) -> None:
         """Send the client an error with the reason, instead of a response."""

@@ -1,8 +1,8 @@
 """Connection between a world and the other processes of its session: topics and services.
 
-Messages of this process's nodes are sent, messages of others are received, and a received message
-is never sent again. For the world there is no difference: a service of another process is a service
-of the world.
+Messages of this process's nodes are sent, messages of other processes are received, and a received
+message is never sent again. For the world there is no difference: a service of another process is a
+service of the world.
 """
 
 import asyncio
@@ -48,15 +48,15 @@ class Link(LinkContext):
     """
 
     def __init__(self, options: Options) -> None:
-        """Join the processes of this machine, and those in the reach of `options`.
+        """Join the processes of this machine, and processes on the networks that `options` names.
 
         This returns at once if there is no other process. No other process of this machine can join
         until `attach`, `settle` or `close` is called, so that no two of them decide at once whether
         to host.
 
         Raises:
-            LinkError: If the session's folder cannot be used, or the middleware is missing
-                or refuses.
+            LinkError: If the session's folder cannot be used, or the middleware is missing or
+                refuses.
         """
         super().__init__(options, options.reach.join(options))
         self._nodes: dict[str, Callable[[], None]] = {}
@@ -282,7 +282,7 @@ class Link(LinkContext):
             self._clients[name] = made(self, name, entity)
 
     def _is_offered(self, name: str, *, remote: bool) -> bool:
-        """Return whether a service or action is served in this process, or in another."""
+        """Return whether a service or action has a server here, or, if `remote`, elsewhere."""
         offers = (self.world.services().get(name), self.world.actions().get(name))
         return any(offer is not None and offer.is_remote is remote for offer in offers)
 

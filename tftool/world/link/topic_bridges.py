@@ -24,8 +24,9 @@ class TopicBridge:
     """Bridge of an ordinary topic between the world and other processes.
 
     Nodes that declare their publishers and subscriptions, with their quality of service, are
-    announced one by one; all others are announced together as the first node of the world. One
-    receiver serves all subscriptions, but each latched subscription gets earlier messages itself.
+    announced one by one. All other nodes are announced together, under the name of the world's
+    first node. One receiver serves all subscriptions, but each latched subscription gets earlier
+    messages itself.
     """
 
     def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
@@ -362,7 +363,7 @@ class ClockFollower:
     """Subscriber that sets a world's clock from `/clock` of another process."""
 
     def __init__(self, world: World, clock: FollowedClock) -> None:
-        """Watch for a publisher of `/clock`, and follow it as soon as there is one.
+        """Watch for a publisher of `/clock`, and follow it as soon as it appears.
 
         Args:
             world: World of the topics.

@@ -82,7 +82,7 @@ class StaticBroadcaster(Node):
 
 
 class FixedCarrot(Node):
-    """Node that broadcasts a frame ("carrot") at a fixed offset from another, at 10 Hz."""
+    """Node that broadcasts a frame ("carrot") at a fixed offset from another frame, at 10 Hz."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -109,7 +109,7 @@ class FixedCarrot(Node):
 
 
 class DynamicCarrot(Node):
-    """Node that broadcasts a frame ("carrot") circling another clockwise, once in two seconds."""
+    """Node that broadcasts a frame ("carrot") which circles another frame, clockwise, in 2 s."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -211,7 +211,7 @@ def _number(text: str) -> float:
 
 
 class Noise(Node):
-    """Node that broadcasts a frame near another one, with noise and accumulating drift.
+    """Node that broadcasts a frame near another frame, with noise and accumulating drift.
 
     Each broadcast has its own error, normally distributed in each coordinate and about each axis.
     The drift is a random walk in the plane: after t seconds it is normally distributed, with the

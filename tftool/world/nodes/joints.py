@@ -113,7 +113,7 @@ class RobotStatePublisher(Node):
         self._is_running = False
 
     async def run(self) -> None:
-        """Broadcast the fixed joints, and subscribe to joint states for the others."""
+        """Broadcast the fixed joints, and subscribe to joint states for the other joints."""
         self._is_running = True
         self._begin()
         self.subscribe(self.topics[0], joint_state_type(), self._on_joint_state)
@@ -363,7 +363,7 @@ class MovingRobot(RobotStatePublisher):
         return (middle, upper, middle, lower)[math.floor(4.0 * share) % 4]
 
     async def _replay(self) -> None:
-        """Publish recorded joint states, each at its recorded time after the first."""
+        """Publish recorded joint states, with the recorded time between them."""
         rows = sorted(
             (int(stamp), place, row)
             for place, states in enumerate(self.recording)

@@ -75,7 +75,7 @@ class Player(Node):
             is_silent: Whether to publish no `/clock` although the recording's stamps are kept.
             names_topics: Whether to name the topic as the sender of a transform if the sending node
                 was not recorded. If false, this node is named.
-            feed: Player of the recording's other topics.
+            feed: Player of the recording's topics other than tf.
         """
         super().__init__(world, name)
         self._timeline = timeline
@@ -140,7 +140,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Jump to a time: send the latest frames, and the transforms of the second before."""
+        """Jump to a time: send the frames at that time, and the transforms of the last second."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()
@@ -185,7 +185,7 @@ class Player(Node):
         self._place = self._timeline.place(self.start)
 
     def _send_due(self) -> bool:
-        """Send everything that is due, up to a limit; return whether some of it is left."""
+        """Send the messages that are due, up to a limit; return whether more messages are due."""
         position = self.position
         last = min(self._timeline.place(position, after=True), self._place + AT_ONCE)
         while self._place < last:

@@ -55,7 +55,7 @@ class FarTurtle:
 
 
 class FarTurtles(Node):
-    """Node that collects a remote simulator's turtles, to be drawn like local ones.
+    """Node that collects the turtles of a simulator in another process, in order to draw them.
 
     The background is read from the parameters of the node that sends the poses. The strokes of the
     pens are read by a service if that node is tftool's simulator. ROS 2's own turtlesim does not

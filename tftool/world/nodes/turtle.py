@@ -131,7 +131,7 @@ class Turtle:
     # Commands and requests from the simulator, at the start of a tick
 
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
-        """Set the velocities of a command, which replace all previous ones, with one exception.
+        """Set the velocities of a command; they replace all previous velocities, with an exception.
 
         A simulator that is not holonomic, like turtlesim, keeps the previous sideways speed until
         the timeout or the rotate action clears it.
@@ -146,7 +146,7 @@ class Turtle:
             self._end_goal("aborted")
 
     def teleport(self, where: Callable[[Placement], Placement]) -> None:
-        """Queue a teleport for the next update, after earlier ones."""
+        """Queue a teleport for the next update, after earlier teleports."""
         self._settled = False
         self._teleports.append(where)
 
@@ -276,7 +276,7 @@ MOST_WAITING = 10_000
 class TickQueue:
     """Queue of work between two ticks of the simulator, run in order at the next tick.
 
-    Work that arrives in the instant of a tick waits for the next one, so that the order within an
+    Work that arrives in the instant of a tick waits for the next tick, so that the order within an
     instant does not matter.
     """
 

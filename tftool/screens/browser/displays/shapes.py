@@ -97,7 +97,7 @@ class Arrival:
     Attributes:
         stamp: Time at which the message arrived, nanoseconds.
         most: Most positions of a cloud of points that are drawn.
-        before: Message that the topic has shown so far; None before the first.
+        before: Shapes that the topic has shown so far; None before the first message.
     """
 
     stamp: Stamp

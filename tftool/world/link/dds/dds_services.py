@@ -119,7 +119,7 @@ class CycloneRequest:
         self._reply = reply
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response; called once."""
+        """Send the response; call this only once."""
         self._reply(payload[:_HEAD] + self._number + payload[_HEAD:])
 
     def refuse(self, reason: str) -> None:

@@ -156,7 +156,7 @@ class Domains:
         self._lock = threading.Lock()
 
     def enter(self, number: int, network: Network) -> None:
-        """Count one more use of a domain, opening it at the first; `leave` ends a use.
+        """Count a use of a domain; the first use opens the domain, and `leave` ends a use.
 
         Raises:
             LinkError: If the domain is open with another configuration, or cannot be opened.
@@ -181,7 +181,7 @@ class Domains:
             self._held[number] = made, config, count + 1
 
     def leave(self, number: int) -> None:
-        """Count one use of a domain less; close the domain after the last."""
+        """Count the end of a use of a domain; close the domain after the last use."""
         with self._lock:
             made, config, count = self._held.pop(number)
             if count > 1:
@@ -401,7 +401,7 @@ class TopicWriter:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a reader, or be stored for late ones."""
+        """Whether a message would reach a reader, or be stored for late readers."""
         return self._made is not None and (self._keeps or self.readers > 0)
 
     @property

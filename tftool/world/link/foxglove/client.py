@@ -344,7 +344,7 @@ class FoxgloveClient:
         return ros_topic(self._heard[self._subscriptions[channel]])
 
     def _subscribe(self) -> None:
-        """Subscribe to wanted channels, and unsubscribe from those that are gone or changed."""
+        """Subscribe to wanted channels, and unsubscribe from channels that are gone or changed."""
         channels = self._state.channels
         gone = [
             number

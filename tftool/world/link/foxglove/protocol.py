@@ -1,7 +1,7 @@
 """Messages of the Foxglove WebSocket protocol that a reader needs.
 
-A server sends JSON about its channels, and binary messages of subscribed channels. All of it is
-untrusted: every field is checked, and every store has a limit.
+A server sends JSON about its channels, and binary messages of subscribed channels. All of this data
+is untrusted, so every field is checked, and every store has a limit.
 
 Source: the protocol's description in foxglove/ws-protocol, and foxglove-sdk.
 """
@@ -106,7 +106,7 @@ class ServerState:
     _warned: int = 0
 
     def take(self, text: str) -> str:
-        """Process one JSON message; return its operation, or "" for one that is not used.
+        """Process one JSON message; return its operation, or "" for an operation that is not used.
 
         Raises:
             ProtocolError: If the message violates the protocol.

@@ -301,7 +301,7 @@ class ZenohPublisher:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a subscription, or be stored for late ones."""
+        """Whether a message would reach a subscription, or be stored for late subscribers."""
         return self._outlet.is_wanted
 
     def put(self, payload: bytes, stamp: Stamp) -> None:
@@ -328,7 +328,7 @@ class ZenohRequest:
         return self._query.payload
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response; called once."""
+        """Send the response; call this only once."""
         # The reply repeats the request's number and client, so that the client can assign it.
         beside = Attachment(self._beside.sequence, stamp, self._beside.gid)
         self._query.answer(payload, beside.encode())

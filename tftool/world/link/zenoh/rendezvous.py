@@ -1,9 +1,9 @@
 """Meeting place of this machine's processes: a folder that only its owner may enter.
 
 Every member of a session has a socket in the folder, named after the member. A later process
-connects to all members that respond, and removes the sockets of ended ones. So there is no daemon,
-and no process whose end matters. A lock held while a process joins prevents two of them from both
-believing they are the first.
+connects to all members that respond, and removes the sockets of processes that have ended. So there
+is no daemon, and every process may end at any time. A process holds a lock while it joins, so that
+two processes cannot both believe to be the first.
 
 Other users of the machine are kept out: sockets are in folders of mode 700. If a path is too long
 for a socket, a short folder of the user is used instead, never a port. On platforms without such
@@ -215,7 +215,7 @@ class Rendezvous:
 
 
 def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
-    """Yield endpoint and process id of members that respond; `sweep` removes files of others."""
+    """Yield endpoint and process id of members that respond; `sweep` removes files of the rest."""
     for path in sorted(folder.iterdir()):
         if path.suffix == ".sock":
             if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):

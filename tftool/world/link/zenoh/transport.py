@@ -34,7 +34,7 @@ class Query:
         self._query = query
 
     def answer(self, payload: bytes, attachment: bytes) -> None:
-        """Send the response; called once."""
+        """Send the response; call this only once."""
         # The client may have left.
         with contextlib.suppress(Exception):
             self._query.reply(self._query.key_expr, payload, attachment=attachment)
@@ -57,7 +57,7 @@ class KeyPublisher:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a message would reach a subscriber, or be stored for late ones."""
+        """Whether a message would reach a subscriber, or be stored for late subscribers."""
         return self._keeps or bool(self._publisher.matching_status.matching)
 
     def put(self, payload: bytes, attachment: bytes) -> None:
