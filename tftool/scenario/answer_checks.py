@@ -240,7 +240,7 @@ FRAME_FORM = Form(_FRAME_FACTS, _frame_check)
 
 @dataclass(frozen=True, slots=True)
 class NamesCheck(AnswerCheck):
-    """Check that an answer contains exactly some names, in any order."""
+    """Check that an answer contains exactly the expected names, in any order."""
 
     wanted: frozenset[str]
 

@@ -150,7 +150,7 @@ class Reading:
         known: Mapping[str, Key],
         what: str,
     ) -> dict[str, Any]:
-        """Read a mapping's entries, given by key, as `record` does."""
+        """Read entries of a mapping by the readers of the known keys, as `record` does."""
         whole = True
         meant = set()
         for name, (key, _) in entries.items():

@@ -1,4 +1,4 @@
-"""Values of a scenario after reading, and the verdict on one run of a scenario."""
+"""Data of a scenario that was read, and of the verdict on one run of a scenario."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -95,7 +95,7 @@ class Clock(ABC):
     async def wait_for_end(
         self, tasks: "Collection[asyncio.Task[Any]]"
     ) -> "set[asyncio.Task[Any]]":
-        """Wait for cancelled tasks to end, for `PATIENCE` real seconds; unlimited after a signal.
+        """Wait for cancelled tasks to end: for `PATIENCE` real seconds, or any time after a signal.
 
         Returns:
             The tasks that have not ended.
@@ -158,8 +158,8 @@ class SimClock(Clock):
 
     Attributes:
         alarms: Number of timers of real time that are set.
-        paced: Number of real processes that run beside the world: while there are any, simulated
-            time passes no faster than real time, so that they keep up with it.
+        paced: Number of real processes that run beside the world. While there are any, simulated
+            time passes no faster than real time, so that these processes keep up.
     """
 
     def __init__(self, epoch: Stamp = seconds(1000)) -> None:
@@ -412,7 +412,7 @@ class FollowedClock(WallClock):
 
         Args:
             told: Time in nanoseconds to stand still at; None for real time.
-            epoch: Time at which the clock began, if earlier.
+            epoch: Time at which the clock began; None for `told`, or for the present.
         """
         super().__init__(epoch=told if epoch is None else epoch)
         self.fell_back: Listeners[Duration] = Listeners()
@@ -468,7 +468,7 @@ class FollowedClock(WallClock):
             self._set_alarm()
 
     def limit(self, until: Stamp | None) -> None:
-        """Set the time after which a node that blocks the loop is ended, if this is real time."""
+        """Set the time after which a blocking node is ended, while the clock shows real time."""
         super().limit(None if self.is_told else until)
 
     def _shift(self, change: Duration) -> None:

@@ -21,7 +21,7 @@ T = TypeVar("T")
 
 @contextmanager
 def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer, TransformLog]]:
-    """Record every transform of a world in a second buffer, and in a list by arrival.
+    """Record a world's transforms in a second buffer, and in a list in order of arrival.
 
     Args:
         world: World whose transforms are recorded.

@@ -25,7 +25,7 @@ class LogRecord:
     Attributes:
         stamp: Time of the message on the world's clock, nanoseconds.
         level: Severity.
-        node: Name of the node that logged it.
+        node: Name of the node that logged the message.
         text: Text, which may contain names from other processes: escape it for display.
         program: Name of the node's program; two programs may have nodes of the same name.
     """

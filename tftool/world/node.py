@@ -44,8 +44,8 @@ class Node(Resident):
 
         Raises:
             TftoolError: If the world has a node of that name already.
-            TypeError: If the class has no coroutine `run`. A plain `Node` needs none: code
-                outside publishes and subscribes under its name.
+            TypeError: If the class has no coroutine `run`. `Node` itself needs no `run`: other code
+                may publish and subscribe under its name.
         """
         kind = type(self)
         if kind is not Node and not self._is_passive:
@@ -95,8 +95,8 @@ class Node(Resident):
         """Yield the times of a timer, at exact multiples of the period from now on.
 
         The first time is one period from now, as for a ROS timer. On the wall clock, a late node
-        catches up on a few missed times, then the schedule shifts; a delay of a second is logged,
-        once.
+        gets a few missed times at once. If it missed more, later times are shifted. A delay of a
+        second is logged once.
 
         Args:
             period: Nanoseconds between two times.

@@ -215,7 +215,7 @@ class Stopper:
             self._loop.call_soon_threadsafe(callback)
 
     def _not_returned(self) -> list[str]:
-        """Return the running nodes with their lines of code: the one blocking the loop, or all."""
+        """Return the node that blocks the loop, or else all running nodes, with lines of code."""
         current = asyncio.current_task(self._loop)
         if current is not None:
             frame = sys._current_frames().get(self._loop_thread)

@@ -39,7 +39,7 @@ class Resident:
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:
-    """Run a world's nodes until an end is reached.
+    """Run a world's nodes until the run ends.
 
     The run ends at `until` (everything due in that instant still happens), at `world.stop()`, or,
     without `until`, with the last node. Nodes that still run are then cancelled, and their
@@ -52,7 +52,7 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
     Raises:
         NodeFailed: If a node raised an exception; the error names the first such node, and has the
             exception as its cause.
-        BrokenPipeError: If the reader of a listener's output is gone.
+        BrokenPipeError: If a listener writes to a pipe that nobody reads any more.
         ValueError: If `until` has passed: it is a stamp, not a duration.
     """
     clock = world.clock

@@ -35,8 +35,8 @@ class Topic(Generic[T]):
         relay: Function that sends values to other processes, called last; None without other
             processes.
         far_subscribers: Number of subscribers in other processes.
-        is_far: Whether the topic exists only to be listed: it is used in other processes, and
-            nothing in this process has asked for it.
+        is_far: Whether the topic is only listed, because other processes use it and this process
+            does not.
         is_removed: Whether the world has removed the topic; another topic may have its name by now.
     """
 
@@ -168,7 +168,7 @@ _NUMBERS = itertools.count(1)
 
 
 def new_goal_id() -> bytes:
-    """Return a new goal id of 16 bytes, counted up so that equal runs have equal ids."""
+    """Return a new goal id of 16 bytes, counted up so that two equal runs have the same ids."""
     return next(_NUMBERS).to_bytes(16, "big")
 
 

@@ -38,7 +38,7 @@ async def wait_for_transform(
     Raises:
         TimeoutException: If the transform was not available in time; the cause is the last error.
         InvalidArgumentException: If a frame's name is invalid.
-        TransformException: If the time was pruned from the buffer and cannot come back.
+        TransformException: If the buffer has pruned that time, so that waiting is in vain.
         TypeError: If the time or the timeout is not a whole number.
     """
     deadline = None if timeout is None else clock.now() + whole(timeout)

@@ -552,7 +552,7 @@ class World:
         return self._supervisor.start_soon(node, work)
 
     def free_name(self, wanted: str) -> str:
-        """Return the wanted name if no node has it, else the name with a number appended."""
+        """Return the wanted name if no node has the name, else with a number appended."""
         taken = {node.name for node in self.nodes}
         name, number = wanted, 1
         while name in taken:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def workspace_here(*, verbose: bool) -> Workspace:
-    """Return the packages below this folder, or of the workspace whose src contains this folder.
+    """Return the packages below this folder, or of the workspace whose src folder contains it.
 
     Args:
         verbose: Whether to print which folders are skipped, and why.

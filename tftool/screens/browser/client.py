@@ -121,7 +121,7 @@ class PageClient:
         self._asked = True
 
     def wants(self) -> bool:
-        """Return whether to send poses: for the present always, for a past time once a request."""
+        """Return whether to send poses: always for the present, once per request for the past."""
         asked, self._asked = self._asked, False
         return asked or self.at is None
 

@@ -384,11 +384,11 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_everything(self, what: str) -> None:
-        """Set all joints to zero, to the middle of their limits, or at random."""
+        """Set all joints to zero, to the middle of their limits, or to random positions."""
         self._put(what, all_of_them=True)
 
     def action_one(self, what: str) -> None:
-        """Set the chosen joint to zero, to the middle of its limits, or at random."""
+        """Set the chosen joint to zero, to the middle of its limits, or to a random position."""
         self._put(what, all_of_them=False)
 
     def _put(self, what: str, *, all_of_them: bool) -> None:

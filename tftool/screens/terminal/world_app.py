@@ -83,7 +83,7 @@ class Panel(Widget):
             self.border_title = self._title
 
     def show(self, lines: list[Text] | list[list[Segment]]) -> None:
-        """Show some lines from now on."""
+        """Show these lines in place of the panel's present lines."""
         self._lines = lines
         width, height = self.size
         strips = [

@@ -154,8 +154,8 @@ class Outbox:
     def put(self, send: Callable[[], object], size: int = 0) -> None:
         """Queue a call after all earlier calls; exceptions of the call are ignored.
 
-        If the queue is full and nothing was sent for `LONGEST_WAIT` seconds, the call is dropped: a
-        send that never returns must not block the event loop for ever.
+        If the queue is full and nothing was sent for `LONGEST_WAIT` seconds, the call is dropped,
+        because a send that never returns must not block the event loop for ever.
 
         Args:
             send: Function that sends a message.

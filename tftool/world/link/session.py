@@ -50,9 +50,9 @@ class Link(LinkContext):
     def __init__(self, options: Options) -> None:
         """Join the processes of this machine, and processes on the networks that `options` names.
 
-        This returns at once if there is no other process. No other process of this machine can join
-        until `attach`, `settle` or `close` is called, so that no two of them decide at once whether
-        to host.
+        The constructor returns at once if there is no other process. No other process of this
+        machine can join until `attach`, `settle` or `close` is called, so that no two processes
+        decide at the same time whether to host.
 
         Raises:
             LinkError: If the session's folder cannot be used, or the middleware is missing or

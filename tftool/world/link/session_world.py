@@ -280,7 +280,7 @@ async def _glances(
     log: TransformLog,
     glance: Callable[[Frames, Duration], object],
 ) -> None:
-    """Call `glance` repeatedly with the frames recorded so far, and the duration."""
+    """Call `glance` repeatedly with the frames recorded so far and the elapsed duration."""
     pace = pace_of(session.world.clock)
     began = pace.now()
     while True:

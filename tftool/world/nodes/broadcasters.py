@@ -19,7 +19,7 @@ CARROT_PERIOD: Duration = seconds(0.1)
 
 
 class Broadcaster(Node):
-    """Node that broadcasts a turtle's frame at every pose the turtle publishes.
+    """Node that broadcasts a turtle's frame for every pose that the turtle publishes.
 
     A pose has no stamp. The frame's stamp is the time at which the pose was received.
     """

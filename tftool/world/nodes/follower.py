@@ -22,7 +22,7 @@ class Follower(Node):
     """Node that spawns a turtle and steers it towards a frame by transform lookups.
 
     With a delay, the turtle goes to the position where the leader was before. The lookup then uses
-    two times, joined by a fixed frame: the present for the turtle, an earlier time for the leader.
+    the present for the turtle and an earlier time for the leader, connected through a fixed frame.
     """
 
     def __init__(
@@ -58,8 +58,8 @@ class Follower(Node):
             bearing_gains: Gains from an angle in radians to a turn rate in rad/s.
             dead_band: Distance in metres at which the leader counts as reached.
             speed_limit: Largest speed in m/s; None for no limit.
-            stale_after: Age in nanoseconds of the newest common data at which the turtle stops;
-                None follows old data, as tf2's tutorial does.
+            stale_after: Age in nanoseconds of the newest common data at which the turtle stops; if
+                None, the turtle follows old data, as in tf2's tutorial.
             spawn: x, y and heading at which to spawn the follower; None if it exists already.
 
         Raises:

@@ -60,7 +60,7 @@ def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
 
 
 class RobotStatePublisher(Node):
-    """Node that broadcasts a robot's frames: fixed joints at once, others from joint states.
+    """Node that broadcasts a robot's frames: fixed joints at once, other joints from joint states.
 
     As in ROS 2's node of that name, a message with different numbers of names and positions is
     ignored, only the named joints move, a mimic joint follows unless the message names it too, and

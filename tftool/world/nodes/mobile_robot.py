@@ -27,7 +27,7 @@ TRUTH = "ground_truth"
 class RobotOdometry(Node):
     """Node that drives a robot, and broadcasts its wheel odometry: odom to base_link.
 
-    It publishes the true pose on `ground_truth`, and subscribes to `<base>/cmd_vel`.
+    The node publishes the true pose on `ground_truth`, and subscribes to `<base>/cmd_vel`.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE

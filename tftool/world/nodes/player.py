@@ -116,7 +116,7 @@ class Player(Node):
         self._anchor, self.is_paused = self.position, True
 
     def resume(self) -> None:
-        """Resume the playback, from the start again if it is at the end."""
+        """Resume the playback; at the end of the recording, start again."""
         if self.is_paused:
             if self._anchor >= self.end:
                 self.seek(self.start)

@@ -31,7 +31,7 @@ class MessageBroadcaster(Node):
         spawn: tuple[float, float, float] = (4.0, 2.0, 0.0),
         period: Duration = seconds(1),
     ) -> None:
-        """Add the node to a world; `period` is that of the state machine that spawns the turtle."""
+        """Add the node to a world; `period` is the time between two steps of the spawning."""
         require_turtle_name(turtle)
         super().__init__(world, name)
         self.turtle, self.frame_id = turtle, frame_id

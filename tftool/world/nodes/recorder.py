@@ -35,7 +35,7 @@ class Taker(Protocol):
 
 
 class Recorder:
-    """Recorder of a world's topics, which stores the original bytes in a joined session.
+    """Recorder of a world's topics; in a joined session, received bytes are stored unchanged.
 
     Attributes:
         topics: Names of the topics that are recorded so far.
@@ -61,7 +61,7 @@ class Recorder:
                 process only.
             names: Further topics to record, without a leading slash.
             everything: Whether to record all topics.
-            clock: Clock for the time of reception; None for `pace_of` the world's clock.
+            clock: Clock for the time of reception; None for `pace_of(world.clock)`.
         """
         self._world = world
         self._taker = taker

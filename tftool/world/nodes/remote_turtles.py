@@ -59,7 +59,7 @@ class FarTurtles(Node):
 
     The background is read from the parameters of the node that sends the poses. The strokes of the
     pens are read by a service if that node is tftool's simulator. ROS 2's own turtlesim does not
-    publish its pens: for it, the trail is the path of the turtles from now on, if all pens have
+    publish its pens. Then the trail is the path of the turtles from now on, as if all pens had
     their initial settings.
 
     Attributes:

@@ -95,7 +95,7 @@ class _Pixels:
         """Set every pixel whose centre is on a stroke, which has square ends.
 
         A stroke is a rectangle of its width that exceeds both ends by half a width. The pixels
-        nearest to the ends belong to it, however thin it is.
+        nearest to the ends belong to the stroke, however thin it is.
         """
         number = self._number(segment.color)
         x0, y0 = segment.x0 * PIXELS_PER_METRE, (FIELD - segment.y0) * PIXELS_PER_METRE

@@ -131,7 +131,7 @@ class Turtle:
     # Commands and requests from the simulator, at the start of a tick
 
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
-        """Set the velocities of a command; they replace all previous velocities, with an exception.
+        """Set the velocities of a command, in place of all previous velocities except one.
 
         A simulator that is not holonomic, like turtlesim, keeps the previous sideways speed until
         the timeout or the rotate action clears it.
@@ -157,7 +157,7 @@ class Turtle:
             self.color, self.width = color, max(width, 1)
 
     def rotate(self, goal: GoalHandle, theta: float, say: Say) -> None:
-        """Accept a goal of the rotate action, a heading; a goal that is active is aborted."""
+        """Accept a heading as goal of the rotate action, and abort a goal that is active."""
         if self._goal is not None:
             say(
                 "WARN",
@@ -393,7 +393,7 @@ class TurtlePorts:
         self._turtle.leave()
 
     def remove_topics(self) -> None:
-        """Remove topics without a subscriber; the next turtle of that name uses those that stay."""
+        """Remove topics without a subscriber; a later turtle of that name uses the other topics."""
         for what in ("pose", "color_sensor", "cmd_vel"):
             topic = self._world.topics().get(self._prefix + what)
             if topic is not None and not topic.subscribers:

@@ -139,7 +139,7 @@ class DrawSquare(Node):
 
 
 class Mimic(Node):
-    """Node that makes one turtle copy another's motion.
+    """Node that makes one turtle copy the motion of another turtle.
 
     The speed in a pose has no sign: if the leader reverses, the copy drives forward.
     """
@@ -157,7 +157,7 @@ class Mimic(Node):
         self.leader, self.copy = leader, copy
 
     async def run(self) -> None:
-        """Subscribe to the leader's poses, and send the copy a command for each."""
+        """Subscribe to the leader's poses, and send the copy a command for each pose."""
         self.publisher(f"{self.copy}/cmd_vel", Twist)
         self.subscribe(f"{self.leader}/pose", Pose, self._on_pose)
 
@@ -182,8 +182,8 @@ _STEPS: Final = 360
 class IdleDrawing(Node):
     """Node that makes an idle turtle draw a rose curve of four petals repeatedly.
 
-    It begins after `PATIENCE` without a command. It ends with the next command of another node,
-    with `touch`, and while `is_alone` returns False.
+    Drawing begins after `PATIENCE` without a command. Drawing ends with the next command of another
+    node, with `touch`, and while `is_alone` returns False.
 
     Attributes:
         is_drawing: Whether the turtle is drawing now.
@@ -321,8 +321,8 @@ class KeyMeaning:
 
     Attributes:
         action: Kind of action: drive, turn to a heading, cancel the turn, or quit.
-        linear: For `cmd_vel`: share of scale_linear, from -1 to 1.
-        angular: For `cmd_vel`: share of scale_angular, from -1 to 1.
+        linear: For `cmd_vel`: fraction of scale_linear, from -1 to 1.
+        angular: For `cmd_vel`: fraction of scale_angular, from -1 to 1.
         theta: For `rotate`: heading in radians.
         meaning: A word or two for a help line.
     """
@@ -358,8 +358,8 @@ KEYS: Mapping[str, KeyMeaning] = MappingProxyType(
 class Teleop(Node):
     """Node that converts keys to commands for a turtle; one press is one message.
 
-    Keys come from `press` and from the topic `keys`. The turtle stops by the simulator's timeout.
-    The parameters scale_linear and scale_angular are read at every press.
+    Keys come from `press` and from the topic `keys`. The turtle stops when the simulator receives
+    no command for a while. The parameters scale_linear and scale_angular are read at every press.
     """
 
     def __init__(

@@ -22,7 +22,7 @@ _NAMES: Final = {
 
 
 class Raw:
-    """Message of any type as bytes, in the form of a class that the library needs."""
+    """Message of any type as bytes; the library requires a class with these methods."""
 
     __slots__ = ("payload", "sample_info")
 

@@ -96,7 +96,8 @@ class Information:
         """Read a message that announces a participant's nodes.
 
         Returns:
-            GUID of the participant, node by the GUID of its endpoints, all nodes.
+            GUID of the participant; name of the node of each endpoint, by the endpoint's GUID;
+            names of all nodes.
 
         Raises:
             MalformedMessage: If the bytes have another format.

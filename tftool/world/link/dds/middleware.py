@@ -121,7 +121,7 @@ class DdsMiddleware(Middleware):
 
     @property
     def lost(self) -> int:
-        """Number of messages dropped because the inbox was full or they were too large."""
+        """Number of messages dropped because the inbox was full or the messages were too large."""
         return self._participant.inbox.lost + self._participant.oversized
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:

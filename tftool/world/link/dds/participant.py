@@ -46,8 +46,8 @@ class LibraryLog:
     The library has no function that redirects its errors: a domain writes to C's `stderr` as it was
     when the domain was created. While a domain is created, the variable `stderr` refers to our
     pipe. The library's end of the pipe never blocks, and text that does not fit is dropped: the
-    library holds locks while it writes, so neither a full pipe nor Python's own lock, as in a
-    callback from C, may stop it.
+    library holds locks while it writes, so it must wait neither for space in the pipe nor for
+    Python's own lock.
     """
 
     def __init__(self) -> None:
@@ -388,7 +388,7 @@ class TopicWriter:
 
     Attributes:
         gid: GUID of 16 bytes.
-        hide: Function that ends the announcement of this writer as its node's.
+        hide: Function that withdraws the announcement of this writer as a writer of its node.
     """
 
     def __init__(self, made: Any, kind: type[Raw], outbox: Outbox, *, keeps: bool) -> None:
@@ -410,7 +410,7 @@ class TopicWriter:
         return int(self._made.get_publication_matched_status().current_count)
 
     def put(self, payload: bytes, stamp: Stamp = 0) -> None:
-        """Queue a message for sending; DDS stamps it by its own clock.
+        """Queue a message for sending; `stamp` is ignored, because DDS stamps messages itself.
 
         Raises:
             LinkError: If the participant is closed.

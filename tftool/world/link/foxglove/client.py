@@ -159,7 +159,7 @@ class FoxgloveClient:
 
     @contextlib.contextmanager
     def state(self) -> Iterator[ServerState]:
-        """Yield what the server has announced, locked against changes."""
+        """Yield the server's announcements; a lock prevents changes until the block ends."""
         with self._lock:
             yield self._state
 

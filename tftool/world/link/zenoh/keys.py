@@ -76,7 +76,7 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
 
 
 def any_hash_key(domain: int, name: str, ros_type: str) -> str:
-    """Return the zenoh key to receive messages with any type hash, as releases differ in it."""
+    """Return the zenoh key to receive messages with any type hash, which depends on the release."""
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 

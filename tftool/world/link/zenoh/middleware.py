@@ -59,10 +59,10 @@ class ZenohMiddleware(Middleware):
     """
 
     def __init__(self, options: Options, reach: ZenohReach) -> None:
-        """Join the graph; this returns at once if there is no other process.
+        """Join the graph; the constructor returns at once if there is no other process.
 
         No other process of this machine can join until `settle` or `close` is called, so that no
-        two of them decide at once whether to host.
+        two processes decide at the same time whether to host.
 
         Raises:
             LinkError: If the session's folder cannot be used, zenoh is missing or refuses, or no
@@ -316,7 +316,7 @@ class ZenohPublisher:
 
 
 class ZenohRequest:
-    """Received request over zenoh, with the number and client for its response."""
+    """Received request over zenoh, with the number and the client that the response repeats."""
 
     def __init__(self, query: Query, beside: Attachment) -> None:
         self._query = query

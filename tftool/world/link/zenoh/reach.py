@@ -38,10 +38,11 @@ class Certificates:
     authority: Path
 
     def check(self) -> None:
-        """Check that each file contains what it should; zenoh's own errors do not name the file.
+        """Check the content of each file, because zenoh's own errors do not name the file.
 
         Raises:
-            InputError: If a file is not such a PEM file, or the key belongs to another certificate.
+            InputError: If a file is not a PEM file of its kind, or the key belongs to another
+                certificate.
         """
         import ssl
 

@@ -234,7 +234,7 @@ def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
 
 
 def _make_private(path: Path) -> None:
-    """Create a folder that only its owner may enter, or check an existing folder for that.
+    """Create a folder that only its owner may enter, or check that an existing folder is private.
 
     Raises:
         LinkError: If the folder cannot be created, or other users may enter it.
@@ -320,7 +320,7 @@ def page_secret(home: Path | None = None) -> str:
 
 
 def is_stopped(pid: int) -> bool:
-    """Return whether a process is suspended, ended, or not visible to this one."""
+    """Return whether a process is suspended, has ended, or is not visible to this process."""
     try:
         facts = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
     except OSError:
