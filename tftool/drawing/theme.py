@@ -34,7 +34,7 @@ _PALETTE = (
 
 
 def blend(start: Color, end: Color, share: float) -> Color:
-    """Mix two colours; share 0 gives `start`, 1 gives `end`."""
+    """Mix two colours; `share` 0 gives `start`, 1 gives `end`."""
     return Color(
         round(start.r + share * (end.r - start.r)),
         round(start.g + share * (end.g - start.g)),

@@ -217,7 +217,7 @@ BAR = 8
 
 
 def bar(rate: float, fastest: float, cells: int = BAR, *, ascii_only: bool) -> str:
-    """Return a bar as long as a rate is high, lower than a line so that bars do not touch."""
+    """Return a bar whose length shows a rate; bars in adjacent lines do not touch."""
     if fastest <= 0.0 or rate <= 0.0:
         return ""
     return ("#" if ascii_only else "▇") * max(1, round(cells * rate / fastest))

@@ -125,7 +125,7 @@ class Document:
         return root
 
     def refuse(self, place: TextPlace, text: str, cause: Exception | None = None) -> NoReturn:
-        """Raise an error with all mistakes so far, and a last one at a position."""
+        """Raise an error with all mistakes so far, and with a last mistake at a position."""
         raise ScenarioError(self.name, [*self.mistakes, self.mistake(place, text)]) from cause
 
 

@@ -1,7 +1,7 @@
 """Users' programs that run in a scenario and are judged by its expectations.
 
-A scenario itself never names code to run; only the caller does. A program replaces one of the
-scenario's nodes, under its name, or is added to them; a launch file replaces all of them.
+A scenario itself never names code to run; only the caller does. A program replaces one node of the
+scenario, under that node's name, or is added to the nodes. A launch file replaces all nodes.
 """
 
 import sys

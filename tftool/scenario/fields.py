@@ -1,8 +1,9 @@
 """Readers of a YAML document by its expected structure; all mistakes are reported together.
 
-A reader is a function from a node to a value. If it cannot read the value, it records the mistake
-and raises `Unreadable`. A reader of several values catches this and continues with the next value,
-so that one pass finds all mistakes. The readers of single values are in `units`.
+A reader is a function from a node to a value. A reader that cannot read the value records the
+mistake and raises `Unreadable`. A reader of several values catches this exception and continues
+with the next value, so that one pass finds all mistakes. The readers of single values are in
+`units`.
 """
 
 import re

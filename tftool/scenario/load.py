@@ -59,7 +59,7 @@ def load(
         path: Path of the file.
         arguments: Values of arguments that the scenario declares.
         expects: Whether expectations are judged. The expectations of a user's file are always read;
-            a built-in scenario's are left out if they are not judged.
+            expectations of a built-in scenario are skipped if they are not judged.
 
     Raises:
         InputError: If the file cannot be read; a `ScenarioError` lists every mistake in it.

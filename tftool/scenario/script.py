@@ -177,7 +177,7 @@ class Drive(Action):
 
 @declare(ACTIONS, "spawn", short="name")
 class SpawnTurtle(Action):
-    """Action that spawns a turtle; without a name, the simulator chooses one."""
+    """Action that spawns a turtle; if no name is given, the simulator chooses a name."""
 
     name: str = reads(values.turtle, "")
     x: float = reads(values.length, CENTRE)

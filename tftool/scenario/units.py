@@ -256,7 +256,7 @@ class RelativeMoment:
     """Time in a question: relative to the start or to the question's time, or the latest.
 
     Attributes:
-        kind: Origin of `offset`; "latest" has none.
+        kind: Origin of `offset`; "latest" has no origin.
         offset: Nanoseconds after the origin.
     """
 

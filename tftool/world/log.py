@@ -37,7 +37,7 @@ class LogRecord:
     program: str = ""
 
     def __str__(self) -> str:
-        """Return the message in the format of ROS 2's console, with dots in a logger's name."""
+        """Return the message in the format of ROS 2's console; slashes in the name are dots."""
         second, rest = divmod(self.stamp, NANOSECONDS)
         logger = self.node.replace("/", ".")
         return f"[{self.level}] [{second}.{rest:09d}] [{logger}]: {self.text}"

@@ -1,7 +1,7 @@
 """Messages between the page and its server, defined once for Python and JavaScript.
 
 `REQUESTS` and `ANSWERS` contain the fields of every text message, `HEAD` and `NUMBERS` the layout
-of the binary one. Python reads requests and builds answers by them. For the page, `python -m
+of the binary message. Python reads requests and builds answers by them. For the page, `python -m
 tftool.screens.browser.page_messages` writes `page/messages.js`: the types of all messages, which
 TypeScript checks, and the decoder of the head.
 

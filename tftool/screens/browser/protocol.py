@@ -175,7 +175,7 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
 
 
 def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Return the message with a pair's transform at evenly spread times; null if it is unknown."""
+    """Return the message with a pair's transform at evenly spread times; null where unknown."""
     stamps = _stamps(epoch, asked)
     told: dict[str, Any] = {
         "target": asked["target"],
@@ -199,7 +199,7 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
 
 
 def encode_trails(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Return the message with frames' positions at evenly spread times; null if unknown."""
+    """Return the message with frames' positions at evenly spread times; null where unknown."""
     stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
     places: dict[str, list[list[float] | None]] = {}
     for frame in asked["frames"]:

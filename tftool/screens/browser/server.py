@@ -148,7 +148,7 @@ class PageServer:
         """Event that stops the writing of a page's file; None while none is written."""
 
     def show_robot(self, robot: ShownRobot) -> None:
-        """Show a robot from now on, in place of any other."""
+        """Show a robot from now on, in place of any other robot."""
         self._robot = robot
         robot.place(frozenset(self.source.buffer.frames()))
         self._tell_robot()

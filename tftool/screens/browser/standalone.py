@@ -41,8 +41,8 @@ class StandaloneData:
         name: Name of the source for messages, such as "recording 'run.mcap'".
         buffer: Transform buffer with the frames.
         epoch: Time from which the page counts; not 0.
-        now: Last time.
-        begin: First shown time; None for the latest transforms.
+        now: Last time of the data.
+        begin: Time to show first; None for the latest transforms.
         robot: Robot among the frames, with the folders of its meshes.
         tracks: Messages to draw besides the frames.
         view: Initial settings of the page, in the form of the text after # in its address.

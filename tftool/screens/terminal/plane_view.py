@@ -22,7 +22,7 @@ class Camera:
     """Camera over the plane, which keeps its view steady from picture to picture.
 
     Until the user zooms or pans, the view grows at once with the picture, and shrinks only when
-    most of it is empty: a picture that changes its scale all the time cannot be read.
+    most of the view is empty, because a picture that changes its scale all the time cannot be read.
     """
 
     def __init__(self) -> None:

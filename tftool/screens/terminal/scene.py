@@ -270,7 +270,7 @@ class Scene:
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
         """Return every frame's age as in rviz: seconds since its stamp last changed.
 
-        For past times the stamp itself is used: the time of arrival is not recorded.
+        For past times the stamp itself is used, because times of arrival are not recorded.
         """
         ages: dict[str, float] = {}
         for info in snapshot.frames:

@@ -18,9 +18,9 @@ class Setting:
         colors: Whether colours may be used.
         light: Whether the terminal's background is light.
         drive_only: Whether to show only the field, for `tftool teleop`.
-        at: First time to show, standing still; None for the present.
-        scenarios: Function that returns name and description of the scenarios to choose from;
-            None if no scenario can be chosen.
+        at: Past time to show first, at rest; None for the present.
+        scenarios: Function that returns name and description of the scenarios to choose from; None
+            if no scenario can be chosen.
     """
 
     title: str = "tftool"
