@@ -69,7 +69,7 @@ def test_what_the_page_may_say(said, kind, fields):
 @pytest.mark.parametrize(
     ("said", "told"),
     [
-        (b"\x00\x01", "text, not bytes"),
+        (b"\x00\x01", "must send text"),
         ("", "not JSON"),
         ("{", "not JSON"),
         ("[" * 100_000, "not JSON"),
@@ -84,21 +84,24 @@ def test_what_the_page_may_say(said, kind, fields):
         ('{"type": "pair", "target": "a"}', "names of frames"),
         (
             '{"type": "pair", "target": 1, "source": 2}',
-            "'target' .* is the name of a frame, or null",
+            "'target' .* must be the name of a frame, or null",
         ),
-        ('{"type": "got", "sequence": "1"}', "'sequence' of a message 'got' is a whole number"),
+        (
+            '{"type": "got", "sequence": "1"}',
+            "'sequence' of a message 'got' must be a whole number",
+        ),
         ('{"type": "key", "key": "q"}', "up, down, left, right"),
         (
             '{"type": "series", "target": "a"}',
-            "'source' .* is the name of a frame",
+            "'source' .* must be the name of a frame",
         ),
         (
             '{"type": "trails", "fixed": "a"}',
-            "'frames' .* is a list of at most 60",
+            "'frames' .* must be a list of at most 60",
         ),
         (TRAILS % "[1]", "60 names"),
         (TRAILS % json.dumps(["a"] * 61), "60 names"),
-        (SERIES % (5, 4, 10), "to a later one"),
+        (SERIES % (5, 4, 10), "after its begin"),
         (SERIES % ("NaN", 4, 10), "a number of seconds"),
         (SERIES % ("null", 4, 10), "a number of seconds"),
         (SERIES % (0, 4, 1), "from 2 to 2000"),

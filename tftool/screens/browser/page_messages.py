@@ -235,25 +235,25 @@ def parse(message: str | bytes) -> PageRequest:
         InputError: If the message is not one of `REQUESTS`; the text names the mistake.
     """
     if isinstance(message, bytes):
-        raise InputError("the page sends text, not bytes")
+        raise InputError("the message is bytes, but a page must send text")
     try:
         given = json.loads(message)
     except (ValueError, RecursionError) as error:
-        raise InputError("that is not JSON") from error
+        raise InputError("the message is not JSON") from error
     kind = given.get("type") if isinstance(given, dict) else None
     if not isinstance(kind, str) or kind not in REQUESTS:
         *most, last = REQUESTS
-        raise InputError(f'a message is an object whose "type" is {", ".join(most)} or {last}')
+        raise InputError(f'a message must have the "type" {", ".join(most)} or {last}')
     fields = {}
     for name, field in REQUESTS[kind].items():
         try:
             fields[name] = field.read(given.get(name))
         except ValueError:
-            raise InputError(f"'{name}' of a message '{kind}' is {field.words}") from None
+            raise InputError(f"'{name}' of a message '{kind}' must be {field.words}") from None
     if kind == "pair" and (fields["target"] is None) != (fields["source"] is None):
-        raise InputError("a pair is two names of frames, or null twice")
+        raise InputError("a pair must be two names of frames, or null twice")
     if "from" in fields and not fields["from"] < fields["to"]:
-        raise InputError("a series goes from one moment to a later one")
+        raise InputError("the end of a series must be after its begin")
     return PageRequest(kind, fields)
 
 

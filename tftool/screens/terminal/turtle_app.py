@@ -143,7 +143,7 @@ class TurtleApp(PanelApp):
         scene.world.log.listen(self._journal.add, "screen")
 
     def begin(self, stamp: Stamp) -> None:
-        """Count seconds from `stamp` on, when the world starts; a recording keeps its own start."""
+        """Count seconds from `stamp`, when the world starts; a recording has a start of its own."""
         if self.setting.at is None:
             self.scene.start = stamp
 

@@ -371,7 +371,7 @@ def _foreign(decode: Decoder) -> Callable[[bytes], bytes]:
         if len(payload) > LARGEST_FOREIGN:
             raise MalformedMessage(
                 "foxglove.FrameTransforms",
-                f"{len(payload)} bytes are more than we read ({LARGEST_FOREIGN})",
+                f"{len(payload)} bytes exceed the limit of {LARGEST_FOREIGN} bytes",
             )
         return encode_transforms(
             [
