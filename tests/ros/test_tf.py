@@ -459,6 +459,7 @@ def test_a_buffer_of_ones_own_transforms_what_it_can_look_up(node):
     import tf2_geometry_msgs  # noqa: F401 -- says how points are transformed
     import tf2_ros
     from geometry_msgs.msg import PointStamped
+    from rclpy.time import Time
 
     class Fixed(tf2_ros.BufferInterface):
         def lookup_transform(self, target_frame, source_frame, time, timeout=None):
@@ -470,10 +471,10 @@ def test_a_buffer_of_ones_own_transforms_what_it_can_look_up(node):
 
     assert (moved.header.frame_id, moved.point.z) == ("map", 1.0)
     for ask in (
-        lambda bare: bare.lookup_transform("a", "b", None),
-        lambda bare: bare.lookup_transform_full("a", None, "b", None, "c"),
-        lambda bare: bare.can_transform("a", "b", None),
-        lambda bare: bare.can_transform_full("a", None, "b", None, "c"),
+        lambda bare: bare.lookup_transform("a", "b", Time()),
+        lambda bare: bare.lookup_transform_full("a", Time(), "b", Time(), "c"),
+        lambda bare: bare.can_transform("a", "b", Time()),
+        lambda bare: bare.can_transform_full("a", Time(), "b", Time(), "c"),
     ):
         with pytest.raises(tf2_ros.NotImplementedException):
             ask(tf2_ros.BufferInterface())

@@ -29,18 +29,8 @@ class ServiceIntrospectionState(IntEnum):
     CONTENTS = 2
 
 
-class _Introspected:
-    """Methods of ROS 2's service introspection, for clients and servers."""
-
-    def configure_introspection(
-        self, clock: Any, service_event_qos_profile: Any, introspection_state: int
-    ) -> None:
-        """Store the introspection state; tftool publishes no requests or responses."""
-        self.introspection_state = ServiceIntrospectionState(introspection_state)
-
-
-class Client(_Introspected, Requester):
-    """Client that sends requests to a service."""
+class ServiceEnd(WorkQueue):
+    """Base of clients and servers of a service."""
 
     def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
         super().__init__(seat, group)
@@ -52,6 +42,16 @@ class Client(_Introspected, Requester):
     def service_name(self) -> str:
         """Full name of the service."""
         return f"/{self.full}"
+
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: Any, introspection_state: int
+    ) -> None:
+        """Store the introspection state; tftool publishes no requests or responses."""
+        self.introspection_state = ServiceIntrospectionState(introspection_state)
+
+
+class Client(ServiceEnd, Requester):
+    """Client that sends requests to a service."""
 
     def is_served(self) -> bool:
         """Return whether a server is available; called in the event loop's thread."""
@@ -99,7 +99,7 @@ class Client(_Introspected, Requester):
         return values.unpack(answer, self.srv_type.Response)
 
 
-class Service(_Introspected, WorkQueue):
+class Service(ServiceEnd):
     """Server that responds to the requests of a service."""
 
     def __init__(
@@ -111,18 +111,10 @@ class Service(_Introspected, WorkQueue):
         callback: Callable[[Any, Any], Any],
         group: Any,
     ) -> None:
-        super().__init__(seat, group)
-        self.srv_type = kind
-        self.srv_name = name
-        self.full = full
+        super().__init__(seat, kind, name, full, group)
         self.callback = callback
         self._open: set[asyncio.Future[Any]] = set()
         self._stop = seat.world.serve(full, self.asked, kind, node=seat.authority, shares=True)
-
-    @property
-    def service_name(self) -> str:
-        """Full name of the service."""
-        return f"/{self.full}"
 
     async def asked(self, request: Any) -> Any:
         """Queue a request for the executor; return a future of the response.

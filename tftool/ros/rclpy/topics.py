@@ -17,7 +17,7 @@ from tftool.ros.rclpy.qos import (
 )
 from tftool.ros.rclpy.qos_events import EndpointWatch, Silence
 from tftool.ros.rclpy.seat import NodeSeat
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality, Role, conflict
 from tftool.world.world import TransformMessage
 
 
@@ -41,41 +41,67 @@ def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
     return codec(message_type).decode(bytes(serialized_message))
 
 
-class Publisher(NodeEntity):
-    """Publisher that sends messages on a topic; `endpoint` is its entry in the graph."""
+class TopicEnd(NodeEntity):
+    """Base of publishers and subscriptions; `endpoint` is the entry in the graph."""
+
+    endpoint: Endpoint
+    event_watch: EndpointWatch | None = None
 
     def __init__(
-        self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
+        self,
+        seat: NodeSeat,
+        group: Any,
+        kind: type[Message],
+        topic: str,
+        full: str,
+        profile: QoSProfile,
     ) -> None:
-        super().__init__(seat, None)
+        super().__init__(seat, group)
         self.msg_type = kind
         self.qos_profile = profile
         self.topic = topic
         self.full = full
         self._carried = values.carried(kind, full)
         self._topic: Any = seat.world.topic(full, self._carried)
-        quality = quality_of(profile, offered=True)
-        self._withdrawn = False
-        latched = quality.is_latched and full not in values.TF_TOPICS
-        self.endpoint = Endpoint(
-            PUBLISHER,
-            seat.authority,
-            full,
-            kind.interface__,
-            quality,
-            kept=deque(maxlen=_room(profile)) if latched else None,
-        )
-        self._lease: Silence | None = None
-        if quality.timing is not None and quality.timing.is_manual:
-            seat.world.endpoints.set_alive(self.endpoint, False)
-            self._lease = Silence(seat, quality.timing.lease, self._expired)
-        self._leave = seat.world.endpoints.add(self.endpoint)
-        self.event_watch: EndpointWatch | None = None
+
+    def _describe(self, role: Role, quality: Quality, **queue: Any) -> None:
+        """Create the entry in the graph, without adding it yet."""
+        name, interface = self.seat.authority, self.msg_type.interface__
+        self.endpoint = Endpoint(role, name, self.full, interface, quality, **queue)
+
+    def _enter(self) -> None:
+        """Add the entry to the graph."""
+        self._leave = self.seat.world.endpoints.add(self.endpoint)
 
     @property
     def topic_name(self) -> str:
         """Full name of the topic."""
         return f"/{self.full}"
+
+    def withdraw(self) -> None:
+        """Remove the entry from the graph; no message is sent or received any more."""
+        super().withdraw()
+        self._leave()
+        if self.event_watch is not None:
+            self.event_watch.withdraw()
+
+
+class Publisher(TopicEnd):
+    """Publisher that sends messages on a topic; `endpoint` is its entry in the graph."""
+
+    def __init__(
+        self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
+    ) -> None:
+        super().__init__(seat, None, kind, topic, full, profile)
+        quality = quality_of(profile, offered=True)
+        self._withdrawn = False
+        latched = quality.is_latched and full not in values.TF_TOPICS
+        self._describe(PUBLISHER, quality, kept=deque(maxlen=_room(profile)) if latched else None)
+        self._lease: Silence | None = None
+        if quality.timing is not None and quality.timing.is_manual:
+            seat.world.endpoints.set_alive(self.endpoint, False)
+            self._lease = Silence(seat, quality.timing.lease, self._expired)
+        self._enter()
 
     def publish(self, msg: Any) -> None:
         """Send a message, given as an object or in serialised form.
@@ -134,13 +160,10 @@ class Publisher(NodeEntity):
 
     def withdraw(self) -> None:
         """Remove the publisher from the graph, and drop messages stored for late subscribers."""
-        super().withdraw()
         self._withdrawn = True
         if self._lease is not None:
             self._lease.stop()
-        self._leave()
-        if self.event_watch is not None:
-            self.event_watch.withdraw()
+        super().withdraw()
 
 
 class MessageInfo(TypedDict):
@@ -155,7 +178,7 @@ class MessageInfo(TypedDict):
     reception_sequence_number: int | None
 
 
-class Subscription(NodeEntity):
+class Subscription(TopicEnd):
     """Subscription that receives a topic's messages; `endpoint` is its entry in the graph."""
 
     is_a_callback = True
@@ -171,38 +194,21 @@ class Subscription(NodeEntity):
         group: Any,
         raw: bool = False,
     ) -> None:
-        super().__init__(seat, group)
-        self.msg_type = kind
+        super().__init__(seat, group, kind, topic, full, profile)
         self.raw = raw
         self.callback: Callable[..., Any] = callback
-        self.qos_profile = profile
-        self.topic = topic
-        self.full = full
         self._queue: deque[Any] = deque(maxlen=_room(profile))
         self._takes_info = not accepts(callback, None) and accepts(callback, None, None)
         self._quality = quality_of(profile, offered=False)
         # What other processes send, and sent before, comes to a latched one by itself.
         self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
-        self._topic: Any = seat.world.topic(full, values.carried(kind, full))
-        self.endpoint = Endpoint(
-            SUBSCRIPTION,
-            seat.authority,
-            full,
-            kind.interface__,
-            self._quality,
-            deliver=self._accept if self._is_fed else None,
-        )
-        self._leave = seat.world.endpoints.add(self.endpoint)
-        self.event_watch: EndpointWatch | None = None
+        deliver = self._accept if self._is_fed else None
+        self._describe(SUBSCRIPTION, self._quality, deliver=deliver)
+        self._enter()
         self._stop = self._topic.subscribe(self._arrived, seat.authority)
         if self._quality.is_latched:
             for value, sender in seat.late(full):
                 self._accept(value, sender)
-
-    @property
-    def topic_name(self) -> str:
-        """Full name of the topic."""
-        return f"/{self.full}"
 
     def get_publisher_count(self) -> int:
         """Return the number of publishers of the topic."""
@@ -252,10 +258,7 @@ class Subscription(NodeEntity):
         """Unsubscribe from the topic, and drop received messages."""
         super().withdraw()
         self._stop()
-        self._leave()
         self._queue.clear()
-        if self.event_watch is not None:
-            self.event_watch.withdraw()
 
 
 class RosoutPublisher(Publisher):

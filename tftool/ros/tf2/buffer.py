@@ -123,15 +123,81 @@ class BufferInterface:
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
-    def _refuse(self, *asked: Any, **named: Any) -> Any:
-        """Refuse a lookup that the subclass does not implement.
+    def _look_up(self, asked: "LookupRequest", timeout: Any) -> Any:
+        """Return the requested transform; wait for it, at most for the timeout.
 
         Raises:
-            NotImplementedException: Always.
+            TransformException: If the transform is not available in time.
+            NotImplementedException: If the class does not implement lookups.
         """
         raise NotImplementedException
 
-    lookup_transform = lookup_transform_full = can_transform = can_transform_full = _refuse
+    def _whether(self, asked: "LookupRequest", timeout: Any) -> tuple[int, str]:
+        """Return (whether a lookup succeeds within the timeout, the reason if not)."""
+        try:
+            self._look_up(asked, timeout)
+        except NotImplementedException:
+            raise
+        except TransformException as error:
+            return 0, str(error)
+        return 1, ""
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
+    ) -> Any:
+        """Return the pose of source in target as a geometry_msgs TransformStamped message.
+
+        With a timeout, the calling thread waits for the transform, at most for that time of
+        tftool's clock.
+
+        Raises:
+            TransformException: If the transform is not available in time.
+        """
+        return self._look_up(question(target_frame, source_frame, time), timeout)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NOW,
+    ) -> Any:
+        """Return the pose of source at one time in target at another, via a fixed frame.
+
+        Raises:
+            TransformException: If the transform is not available in time.
+        """
+        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self._look_up(asked, timeout)
+
+    def can_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Any,
+        timeout: Any = NOW,
+        return_debug_tuple: bool = False,
+    ) -> Any:
+        """Return whether a lookup would succeed; with `return_debug_tuple`, the reason too."""
+        found = self._whether(question(target_frame, source_frame, time), timeout)
+        return found if return_debug_tuple else bool(found[0])
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NOW,
+        return_debug_tuple: bool = False,
+    ) -> Any:
+        """Return whether a lookup at two times, through a fixed frame, would succeed."""
+        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
+        found = self._whether(asked, timeout)
+        return found if return_debug_tuple else bool(found[0])
 
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = NOW, new_type: Any = None
@@ -326,7 +392,7 @@ class BufferCore:
             self.hints.answer(asked.target, asked.source, asked.time)
         return found
 
-    def _whether(self, asked: LookupRequest) -> tuple[int, str]:
+    def _whether_now(self, asked: LookupRequest) -> tuple[int, str]:
         reason: str = self._ask(lambda: self._why_not(asked))
         if reason:
             self._program.looked_in_vain()
@@ -357,11 +423,11 @@ class BufferCore:
 
     def can_transform_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
         """Return (whether a lookup would succeed, the reason if not)."""
-        return self._whether(question(*asked, **named))
+        return self._whether_now(question(*asked, **named))
 
     def can_transform_full_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
         """Return (whether a lookup at two times would succeed, the reason if not)."""
-        return self._whether(full_question(*asked, **named))
+        return self._whether_now(full_question(*asked, **named))
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
         """Return the newest time at which the transform between two frames is known."""
@@ -404,72 +470,13 @@ class Buffer(BufferCore, BufferInterface):
 
     # Blocking
 
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
-    ) -> Any:
-        """Return the pose of source in target as a geometry_msgs TransformStamped message.
-
-        With a timeout, the calling thread waits for the transform, at most for that time of
-        tftool's clock.
-
-        Raises:
-            TransformException: If the transform is not available in time.
-        """
-        asked = question(target_frame, source_frame, time)
+    def _look_up(self, asked: LookupRequest, timeout: Any) -> Any:
         self._wait(asked, timeout)
         return self.answer(asked)
 
-    def lookup_transform_full(
-        self,
-        target_frame: str,
-        target_time: Any,
-        source_frame: str,
-        source_time: Any,
-        fixed_frame: str,
-        timeout: Any = NOW,
-    ) -> Any:
-        """Return the pose of source at one time in target at another, via a fixed frame.
-
-        Raises:
-            TransformException: If the transform is not available.
-        """
-        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
+    def _whether(self, asked: LookupRequest, timeout: Any) -> tuple[int, str]:
         self._wait(asked, timeout)
-        return self.answer(asked)
-
-    def can_transform(
-        self,
-        target_frame: str,
-        source_frame: str,
-        time: Any,
-        timeout: Any = NOW,
-        return_debug_tuple: bool = False,
-    ) -> Any:
-        """Return whether a lookup would succeed.
-
-        With `return_debug_tuple`, return (whether, reason of the failure).
-        """
-        asked = question(target_frame, source_frame, time)
-        return self._can(asked, timeout, return_debug_tuple)
-
-    def can_transform_full(
-        self,
-        target_frame: str,
-        target_time: Any,
-        source_frame: str,
-        source_time: Any,
-        fixed_frame: str,
-        timeout: Any = NOW,
-        return_debug_tuple: bool = False,
-    ) -> Any:
-        """Return whether a lookup at two times, through a fixed frame, would succeed."""
-        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._can(asked, timeout, return_debug_tuple)
-
-    def _can(self, asked: LookupRequest, timeout: Any, tell_why: bool) -> Any:
-        self._wait(asked, timeout)
-        whether, why_not = self._whether(asked)
-        return (whether, why_not) if tell_why else bool(whether)
+        return self._whether_now(asked)
 
     def _wait(self, asked: LookupRequest, timeout: Any) -> None:
         """Wait for a transform that may still become available, at most for the timeout."""

@@ -19,7 +19,6 @@ from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.time import Duration
 from tftool.ros.tf2.buffer import (
-    NOW,
     Buffer,
     BufferInterface,
     LookupRequest,
@@ -70,48 +69,11 @@ class BufferClient(BufferInterface):
         self.check_frequency = check_frequency
         self.timeout_padding = timeout_padding
 
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
-    ) -> Any:
-        """Return the pose of source in target from the server's buffer.
-
-        Raises:
-            TransformException: If the transform is not available, or the server does not respond
-                in time.
-        """
-        return self._ask(question(target_frame, source_frame, time), timeout)
-
-    def lookup_transform_full(
-        self,
-        target_frame: str,
-        target_time: Any,
-        source_frame: str,
-        source_time: Any,
-        fixed_frame: str,
-        timeout: Any = NOW,
-    ) -> Any:
-        """Return the pose of source at one time in target at another, via a fixed frame.
-
-        Raises:
-            TransformException: If the transform is not available, or the server does not respond
-                in time.
-        """
-        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._ask(asked, timeout)
-
-    def can_transform(self, *asked: Any, **named: Any) -> bool:
-        """Return whether a lookup in the server's buffer would succeed."""
-        return _succeeds(self.lookup_transform, *asked, **named)
-
-    def can_transform_full(self, *asked: Any, **named: Any) -> bool:
-        """Return whether a lookup at two times in the server's buffer would succeed."""
-        return _succeeds(self.lookup_transform_full, *asked, **named)
-
     def destroy(self) -> None:
         """Close the client of the action."""
         self.action_client.destroy()
 
-    def _ask(self, asked: LookupRequest, timeout: Any) -> Any:
+    def _look_up(self, asked: LookupRequest, timeout: Any) -> Any:
         if not self.action_client.server_is_ready():
             raise TimeoutException("The BufferServer is not ready.")
         goal = _action().Goal(
@@ -210,11 +172,3 @@ class BufferServer:
     def destroy(self) -> None:
         """Stop serving the action."""
         self._server.destroy()
-
-
-def _succeeds(look: Any, *asked: Any, **named: Any) -> bool:
-    try:
-        look(*asked, **named)
-    except TransformException:
-        return False
-    return True
