@@ -1,4 +1,5 @@
 import math
+import re
 
 import numpy as np
 import pytest
@@ -62,13 +63,36 @@ def test_the_moment_shown_is_marked_and_its_values_are_told(path):
     assert sum("┃" in line for line in lines) == 10
 
 
-@pytest.mark.parametrize("height", [4, 5, 6])
-def test_with_few_lines_a_curve_has_its_name_and_value_at_its_left(path, height):
-    lines = plotted(path, height=height)
+def test_with_four_lines_a_curve_has_its_name_and_value_at_its_left(path):
+    lines = plotted(path, height=4)
 
     assert lines[0].startswith("   dist│")
-    assert lines[height // 2 - 1].startswith("10.000m│")
-    assert lines[height // 2].startswith("    yaw│")
+    assert lines[1].startswith("10.000m│")
+    assert lines[2].startswith("    yaw│")
+
+
+def test_seven_lines_have_both_curves_with_their_scales_and_the_time(path):
+    lines = plotted(path, height=7)
+
+    assert [line[:8].strip() for line in lines[1:3]] == ["10.00│", "0│"]
+    assert [line[:8].strip() for line in lines[4:6]] == ["180.0│", "-180.0│"]
+    assert lines[6].split() == ["0.0", "10.0", "s"]
+
+
+@pytest.mark.parametrize("height", [5, 6])
+def test_few_lines_have_both_scales_below_one_line_with_both_values(path, height):
+    lines = plotted(path, height=height)
+
+    assert re.fullmatch(r"distance 10\.000 m  yaw -?180\.0°", lines[0])
+    assert [line[:8].strip() for line in lines[1:5]] == ["10.00│", "0│", "180.0│", "-180.0│"]
+    assert [line.split() for line in lines[5:]] == [["0.0", "10.0", "s"]] * (height - 5)
+
+
+def test_the_values_of_a_pair_without_news_have_a_note(path):
+    lines = plotted(path, note="9 s old")
+
+    assert lines[0] == "distance 10.000 m  9 s old"
+    assert lines[6].endswith("°  9 s old")
 
 
 @pytest.mark.parametrize(("width", "height"), [(0, 0), (5, 5), (16, 1), (16, 3), (30, 9), (99, 40)])

@@ -220,7 +220,7 @@ def echo(sample, width=40, height=6, look=PLAIN):
 def test_a_pair_is_told_in_numbers_and_words():
     assert echo(found(yaw=math.pi / 2)) == [
         "turtle1 in turtle2",
-        "at    1009.500",
+        "at    9.500 s",
         "xyz     3.000   4.000   0.000",
         "quat    0.000   0.000   0.707   0.707",
         "rpy       0.0     0.0    90.0°",
@@ -228,10 +228,25 @@ def test_a_pair_is_told_in_numbers_and_words():
     ]
 
 
+def test_a_pair_whose_leader_is_lost_is_dim_and_has_an_age():
+    lost = moment(
+        WORLD,
+        info("turtle1", "world"),
+        info("turtle2", "world"),
+        ages={"turtle1": 9.04, "turtle2": 0.01},
+        pair=Pair("turtle2", "turtle1", found(stamp=seconds(1001.0))),
+    )
+    lines = panels.pair(lost, 40, 6, PLAIN)
+
+    assert lines[1].plain == "at    1.000 s, 9.0 s old"
+    dim = theme.hexadecimal(theme.DARK.dim)
+    assert {str(span.style) for line in lines[2:] for span in line.spans} == {dim}
+
+
 def test_a_pair_in_a_narrow_panel_is_told_shorter():
     assert echo(found(-3.0, -4.0), width=26, look=ASCII) == [
         "turtle1 in turtle2",
-        "t  1009.500",
+        "at 9.500 s",
         "p   -3.00  -4.00   0.00",
         "q   0.00  0.00  0.00  1.00",
         "r     0.0    0.0    0.0",

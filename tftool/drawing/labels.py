@@ -23,7 +23,7 @@ SMALL: Final = 2
 ON_LINE: Final = 0.4
 """Cost of a cell with a line."""
 
-ON_AXIS: Final = 1.0
+ON_AXIS: Final = 1.6
 """Cost of a cell with an axis of a frame."""
 
 TAKEN: Final = 1e6

@@ -302,7 +302,10 @@ def _style(color: Color) -> str:
 PAIR_LABELS: Final = 7
 """Cells at the left of a curve of `pair_plot` for the labels of its axis."""
 
-TITLED_FROM: Final = 4
+SCALED_FROM: Final = 5
+"""Smallest number of lines of two curves with scales."""
+
+TITLED_FROM: Final = 3
 """Smallest number of lines of a curve with a title line."""
 
 
@@ -331,6 +334,7 @@ def pair_plot(
     palette: theme.Palette = theme.DARK,
     *,
     ascii_only: bool = False,
+    note: str = "",
 ) -> list[Text]:
     """Draw a pair's distance and yaw, with vertical scales that ignore `span`.
 
@@ -341,10 +345,13 @@ def pair_plot(
         height: Height in lines.
         palette: Colours of the screen.
         ascii_only: Whether to draw with ASCII characters.
+        note: Words after the last values, which are then dim, such as "9 s old".
     """
     columns = width - PAIR_LABELS - 1
-    with_axis = height >= 2 * TITLED_FROM + 1
-    rows = (height - with_axis) // 2
+    # In a low plot, one title line has both values.
+    is_low = SCALED_FROM <= height < 2 * TITLED_FROM + 1
+    with_axis = height > SCALED_FROM
+    rows = (height - with_axis - is_low) // 2
     if columns < 8 or rows < 1:
         return []
     found = {one.title: one for one in panels([trajectory_of(path)], span.start, _QUANTITIES)}
@@ -353,7 +360,18 @@ def pair_plot(
         ("distance", "m", theme.blend(palette.accent, palette.text, 0.1)),
         ("rotation", "°", _yaw_color(palette)),
     ):
-        lines += _curve(found[title], title, unit, color, span, columns, rows, palette, ascii_only)
+        curve = _curve(
+            found[title], title, unit, color, span, columns, rows + is_low, palette, ascii_only
+        )
+        if is_low and lines:
+            lines[0].append("  ").append_text(curve.pop(0))
+        lines += curve
+    if note:
+        titles = [line for line in lines if line.plain.startswith(("distance ", "yaw "))]
+        for line in titles:
+            line.stylize(theme.ink(palette.dim))
+            line.append(f"  {note}", theme.ink(palette.warning))
+            line.truncate(width)
     if with_axis:
         first, last = (f"{as_seconds(t - span.start):.1f}" for t in (span.first, span.last))
         words = f"{'':{PAIR_LABELS + 1}}{first}{last + ' s':>{max(0, columns - len(first))}}"
@@ -383,7 +401,7 @@ def _curve(
     title, unit = ("yaw", "d" if ascii_only else unit) if title == "rotation" else (title, unit)
     first, last = (as_seconds(one - span.start) for one in (span.first, span.last))
     value = _value_at(curve.times, curve.values, span)
-    said = "" if value is None else f"{value:.1f}{unit}" if unit != "m" else f"{value:.3f} {unit}"
+    said = "" if value is None else f"{value:z.1f}{unit}" if unit != "m" else f"{value:.3f} {unit}"
     dim, strong = theme.ink(palette.dim), theme.ink(color, bold=True)
     lines = []
     labels = [""] * rows

@@ -14,6 +14,9 @@ from tftool.world.log import PROBLEMS, LogRecord
 MOST_LINES = 4
 """Most lines of one message."""
 
+_STAMP = re.compile(r"\b(\d+)\.(\d{6})\b")
+"""Stamp in the error of a lookup, which differs each time."""
+
 FAR = 3600.0
 """Seconds from the start beyond which a stamp may be of another clock, and is not replaced."""
 
@@ -44,8 +47,6 @@ class Journal:
     STAMPS = 400
     # Repeated warnings of a node differ only in their numbers.
     _NUMBERS = re.compile(r"-?\d+(\.\d+)?")
-    # Stamps in the error of a lookup, which differ each time.
-    _STAMP = re.compile(r"\b(\d+)\.(\d{6})\b")
 
     def __init__(self, records: Iterable[LogRecord] = ()) -> None:
         self.revision = 0
@@ -57,7 +58,7 @@ class Journal:
         """Add a message of the world's log."""
         self.revision += 1
         warns = record.level in PROBLEMS
-        text = (self._NUMBERS if warns else self._STAMP).sub("#", record.text)
+        text = (self._NUMBERS if warns else _STAMP).sub("#", record.text)
         kind = f"{record.level}\n{record.node}\n{text}"
         # Several messages may repeat alternately, so the last few lines are compared.
         for entry in list(self._entries)[-4:]:
@@ -154,7 +155,7 @@ class Journal:
         when = when.rjust(indent)
         count = entry.times(until)
         times = f" {'x' if look.ascii_only else '×'}{count}" if count > 1 else ""
-        words = f"{record.node}: {self._STAMP.sub(_seconds_since(start), record.text)}"
+        words = f"{record.node}: {since_start(record.text, start)}"
         # The first line follows the time, the other lines are indented.
         room = max(8, (width if first is None else first) - len(when))
         lines = wrapped(words, max(8, width - indent), look.ink(color), first=room)
@@ -168,6 +169,11 @@ class Journal:
             lines[-1].truncate(max(0, width - len(times)))
             lines[-1].append(times, look.ink(palette.accent, bold=True))
         return lines
+
+
+def since_start(text: str, start: Stamp) -> str:
+    """Replace the stamps of a lookup's error that are near the start by seconds since the start."""
+    return _STAMP.sub(_seconds_since(start), text)
 
 
 def _seconds_since(start: Stamp) -> Callable[[re.Match[str]], str]:

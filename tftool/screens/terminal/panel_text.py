@@ -19,6 +19,7 @@ from tftool.drawing.line_plot import PAIR_LABELS, PlotSpan, pair_plot
 from tftool.drawing.table_columns import fitted, padded, plain
 from tftool.drawing.traffic_view import has_stopped
 from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.screens.terminal.log_lines import FAR, since_start
 from tftool.screens.terminal.scene import Scene, SceneMoment
 from tftool.screens.terminal.screen_options import BLOCK_LINES
 from tftool.screens.terminal.text_style import Look, wrapped
@@ -162,33 +163,64 @@ def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]
     )
     lines = [Text.assemble(source, (" in ", dim), target)] if asked.source else []
     if asked.found is None:
-        return lines + wrapped(asked.refusal, width, look.ink(look.palette.warning))
+        refusal = since_start(asked.refusal, moment.stamp - moment.elapsed)
+        return lines + wrapped(refusal, width, look.ink(look.palette.warning))
     narrow = width < 36
-    facts = _facts_of(asked.found, narrow=narrow, look=look)
+    age = stopped_for(moment)
+    facts = [_time_of(moment, asked.found, age), *_facts_of(asked.found, narrow=narrow, look=look)]
     if height >= BLOCK_LINES and not narrow:
         facts += _more_facts(asked.found)
-    for name, value in facts:
+    # Numbers of a pair that has stopped are dim: they are not the present ones.
+    inks = [look.ink(look.palette.warning if age else look.palette.text)]
+    inks += [dim if age else look.ink(look.palette.text)] * (len(facts) - 1)
+    for (name, value), ink in zip(facts, inks, strict=True):
         label = f"{name:{2 if narrow else 5}}"
         shown = fitted(value, max(0, width - len(label)), more=look.more)
-        lines.append(Text.assemble((label, dim), (shown, look.ink(look.palette.text))))
+        lines.append(Text.assemble((label, dim), (shown, ink)))
     return lines
+
+
+def stopped_for(moment: SceneMoment) -> float:
+    """Return the seconds since the last news of the shown pair's edges; 0 if all still arrive."""
+    frames = {info.frame: info for info in moment.snapshot.frames}
+    chains: list[set[str]] = []
+    for name in (moment.pair.target, moment.pair.source):
+        chain: set[str] = set()
+        info = frames.get(name)
+        while info is not None and info.frame not in chain:
+            chain.add(info.frame)
+            info = frames.get(info.parent or "")
+        chains.append(chain)
+    ages = [
+        age
+        for name in chains[0] ^ chains[1]
+        if has_stopped(age := moment.ages.get(name, 0.0), frames[name].rate) or theme.is_stale(age)
+    ]
+    return max(ages, default=0.0)
+
+
+def _time_of(moment: SceneMoment, found: TransformStamped, age: float) -> tuple[str, str]:
+    """Return the row of a transform's stamp, in seconds since the start of the screen."""
+    if not found.stamp:
+        return "at", " all times"
+    since = as_seconds(found.stamp - (moment.stamp - moment.elapsed))
+    # A stamp of another clock is shown as it is.
+    stamp = f"{since:.3f} s" if abs(since) < FAR else f"{as_seconds(found.stamp):.3f}"
+    return "at", f" {stamp}" + (f", {age:.1f} s old" if age else "")
 
 
 def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tuple[str, str]]:
     translation, rotation = found.transform
     degrees = [math.degrees(angle) for angle in rpy_from_quaternion(rotation)]
-    stamp = f"{as_seconds(found.stamp):.3f}" if found.stamp else "all times"
     away = _away(*translation, look)
     if narrow:
         return [
-            ("t", f" {stamp}"),
             ("p", _numbers(translation, 2, 7)),
             ("q", _numbers(rotation, 2, 6)),
             ("r", _numbers(degrees, 1, 7)),
             ("", f" {away}"),
         ]
     return [
-        ("at", f" {stamp}"),
         ("xyz", _numbers(translation, 3, 8)),
         ("quat", _numbers(rotation, 3, 8)),
         ("rpy", _numbers(degrees, 1, 8) + _degree(look)),
@@ -447,7 +479,12 @@ class PairPlot:
         newest = scene.newest(pair.target, pair.source)
         if newest is not None and span.first < newest <= span.last:
             stamps = np.append(stamps[stamps < newest], newest)
-        key = (pair.target, pair.source, span, newest, width, height, look)
+        else:
+            # The curve of a static pair ends at the present too.
+            stamps = stamps[stamps <= now]
+        age = 0.0 if moment.behind else stopped_for(moment)
+        note = f"{age:.0f} s old" if age else ""
+        key = (pair.target, pair.source, span, newest, note, width, height, look)
         if key == self._key:
             return self._lines
         self._key = key
@@ -456,7 +493,15 @@ class PairPlot:
                 pair.target, pair.source, stamps[stamps > 0], missing="nan", threads=1
             )
         except TransformException:
-            self._lines = wrapped("No poses to plot.", width, look.ink(look.palette.dim))
+            path = None
+        if path is None or not path.valid.any():
+            words = "No pose to plot in this span."
+            if newest is not None and newest < span.first:
+                words += f" The newest is {as_seconds(now - newest):.0f} s old."
+            self._lines = wrapped(words, width, look.ink(look.palette.dim))
             return self._lines
-        self._lines = pair_plot(path, span, width, height, look.palette, ascii_only=look.ascii_only)
+        ascii_only = look.ascii_only
+        self._lines = pair_plot(
+            path, span, width, height, look.palette, ascii_only=ascii_only, note=note
+        )
         return self._lines
