@@ -1,4 +1,4 @@
-"""What every test shares."""
+"""Fixtures and settings that every test shares."""
 
 import os
 import sys
@@ -12,15 +12,15 @@ from tests.command_line import Result, Simulated
 from tftool.app.main import main
 from tftool.commands.shared.connection import Connection
 
-# No test compares wall time, so hypothesis may not either; and a build machine draws the
-# same examples in every run, so that a red build means a change and not a lucky draw.
+# No test compares wall time, so hypothesis must not either. A build machine draws the same examples
+# in every run, so that a failure means a change and not bad luck.
 TIMELESS = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("desk", **TIMELESS)
 settings.register_profile("ci", **TIMELESS, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "desk")
 
-# Where Python is told to cache no bytecode, each of some thousand child processes would compile the
-# package anew, which takes longer than most tests.
+# If Python writes no bytecode, each of some thousand child processes compiles the package again,
+# which takes longer than most tests.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
@@ -28,9 +28,9 @@ pytest_plugins = ["pytester", "tftool.ros.pytest_plugin"]
 
 
 def pytest_collection_modifyitems(items):
-    """Leave random tests out of the coverage: what they run, tests of one case each run too.
+    """Exclude random tests from the coverage; other tests run the same code.
 
-    Following every line makes them three times slower, and they are most of what is computed.
+    Tracing every line would make random tests three times slower, and they do most of the work.
     """
     for item in items:
         if item.get_closest_marker("hypothesis"):
@@ -39,8 +39,8 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session", autouse=True)
 def own_sessions():
-    """A session folder of our own: no test's process meets anybody else's."""
-    # Not pytest's own folder: a unix socket's name has about a hundred letters.
+    """Use a session folder of this test run, so that no test meets other processes."""
+    # The folder is not pytest's, because the path of a unix socket is limited to about 100 letters.
     with tempfile.TemporaryDirectory(prefix="tf") as folder:
         before = os.environ.get("TFTOOL_SESSION_DIR")
         os.environ["TFTOOL_SESSION_DIR"] = str(Path(folder) / "s")
@@ -55,7 +55,7 @@ def own_sessions():
 
 @pytest.fixture
 def by_memory(monkeypatch):
-    """The middleware "memory", which connects links of this process; no link is in it yet."""
+    """Use the middleware "memory", which connects worlds of this process; return it, empty."""
     from tests.world.link.memory import MemoryMiddleware
 
     monkeypatch.setattr(MemoryMiddleware, "members", [])
@@ -63,20 +63,20 @@ def by_memory(monkeypatch):
 
 @pytest.fixture
 def outside():
-    """Where the commands of a test have their clocks and links from: "providers"."""
+    """Return the providers from which the commands of a test get their clocks and connections."""
     return {"providers": None}
 
 
 @pytest.fixture
 def simulated(outside):
-    """Hosted worlds live on simulated time and unshared; a connection that sees to it."""
+    """Run hosted worlds on simulated time without a session; return such a connection."""
     outside["providers"] = Simulated()
     return Connection(providers=outside["providers"])
 
 
 @pytest.fixture
 def in_tutorial(monkeypatch):
-    """The working directory is the tutorial's workspace, and no ROS 2 is sourced."""
+    """Change to the tutorial's workspace, with no ROS 2 sourced."""
     monkeypatch.chdir(Path(__file__).parent / "tutorial")
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
@@ -84,7 +84,7 @@ def in_tutorial(monkeypatch):
 
 @pytest.fixture
 def tftool(outside, capsys, monkeypatch):
-    """The command: its words in, status, stdout and stderr out."""
+    """Return a function that runs a command line; its result has status, stdout and stderr."""
     monkeypatch.setenv("COLUMNS", "100")
     monkeypatch.delenv("NO_COLOR", raising=False)
 

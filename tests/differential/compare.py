@@ -1,4 +1,4 @@
-"""Both sides live through the same worlds; what they answer is compared."""
+"""Comparison of two programs that execute the same worlds."""
 
 import json
 import math
@@ -19,13 +19,13 @@ PYTHON = "/usr/bin/python3"
 
 @dataclass
 class Comparison:
-    """What came of it.
+    """Result of a comparison.
 
     Attributes:
-        questions: How many were asked.
-        refused: How many of them both sides refused, by class.
-        worst: The largest difference between two answers that both gave.
-        disagreements: Questions to which the two said something else.
+        questions: Number of questions.
+        refused: Number of questions that both programs refused, by class of the error.
+        worst: Largest difference between two results.
+        disagreements: Questions to which only one program gave a result, or with other errors.
     """
 
     questions: int = 0
@@ -35,7 +35,7 @@ class Comparison:
 
 
 def missing() -> str:
-    """Why there is nobody to compare with; empty if there is."""
+    """Return the reason why nothing can be compared; empty if Debian's tf2 is installed."""
     if shutil.which(PYTHON) is None:
         return f"there is no {PYTHON}"
     found = subprocess.run(
@@ -45,7 +45,7 @@ def missing() -> str:
 
 
 def their_answers(worlds: list[World]) -> list[list[Any]]:
-    """What Debian's tf2 answers, world by world."""
+    """Return the answers of Debian's tf2, by world."""
     told = subprocess.run(
         [PYTHON, str(THEIRS)],
         input="".join(json.dumps([one.cache, one.steps]) + "\n" for one in worlds),
@@ -57,7 +57,7 @@ def their_answers(worlds: list[World]) -> list[list[Any]]:
 
 
 def compare(seeds: range, tolerance: float) -> Comparison:
-    """Ask both sides everything in the worlds of those seeds."""
+    """Compare the answers to all questions in the worlds of some seeds."""
     worlds = [world(seed) for seed in seeds]
     result = Comparison()
     for seed, lived, theirs in zip(seeds, worlds, their_answers(worlds), strict=True):

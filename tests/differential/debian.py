@@ -1,7 +1,7 @@
-"""The other side: ROS 1's compiled tf2, as Debian ships it; run by the system's own Python.
+"""The program to compare with: ROS 1's compiled tf2 from Debian, run by the system's own Python.
 
-Reads one world a line (JSON) from standard input and writes its answers, one line a world:
-for each question a list that begins with what came of it. Imports nothing of ours.
+It reads one world per line (JSON) from standard input, and writes one line of answers per world. An
+answer is a list that begins with the kind of the result. Nothing of tftool is imported.
 """
 
 import json

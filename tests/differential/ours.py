@@ -1,15 +1,14 @@
-"""Our side of the comparison, made to differ from ROS 1 nowhere but where it must not.
+"""tftool's answers for the comparison, with ROS 1's behaviour where ROS 2 changed it by design.
 
-What ROS 1 does otherwise by design (ROS 2 changed it) is done here for our buffer, in the
-one place where samples go in:
+The differences are imitated in the one function that inserts samples:
 
-- a second value for the same child and stamp is ignored, not kept: it is sent as one
-  from ages ago, which is refused as well and leaves the parent's name known as well;
-- a child's first sample decides for good whether it is static;
-- old samples go right after an insert and not before the next one: sending the very
-  same sample again forgets them, and adds nothing.
+- ROS 1 ignores a second value for the same child and stamp. The sample is inserted with a very
+  old stamp instead: it is refused too, and the parent's name is known afterwards.
+- In ROS 1, a child's first sample decides for ever whether the child is static.
+- ROS 1 prunes old samples directly after an insert, not before the next one. Inserting the same
+  sample once more prunes them, and adds nothing.
 
-Quaternions are unit ones, as ROS 1 refuses others, and compared up to sign.
+Quaternions have length one, as ROS 1 refuses others, and are compared up to their sign.
 """
 
 import math
@@ -30,7 +29,7 @@ AGES_AGO = -(10**18)
 
 
 def live(world: World) -> list[list[Any]]:
-    """Our answers, one for each question."""
+    """Return tftool's answers to the questions of a world."""
     buffer = Buffer(world.cache, log=lambda level, text: None)
     stamps: dict[str, set[int]] = {}
     static_children: dict[str, bool] = {}
@@ -76,20 +75,20 @@ def _ask(buffer: Buffer, step: list[Any]) -> Any:
 
 
 def _kind(step: list[Any], refused: TransformException) -> str:
-    """The class by its name in the Python binding, which has fewer than C++."""
+    """Return the name that an exception has in the Python binding, which has fewer classes."""
     if isinstance(refused, ExtrapolationException):
         return "ExtrapolationException"
     if step[0] == "latest" and (
         isinstance(refused, ConnectivityException)
         or (isinstance(refused, LookupException) and refused.looped)
     ):
-        # There the binding knows the base class only.
+        # For this case the binding has only the base class.
         return "TransformException"
     return type(refused).__name__
 
 
 def difference(theirs: Any, ours: Any) -> float:
-    """How far apart two answers are: relative for numbers, infinite where they disagree."""
+    """Return the difference of two answers: relative for numbers, infinite for other results."""
     if theirs[0] != ours[0]:
         return math.inf
     found, wanted = ours[1], theirs[1]

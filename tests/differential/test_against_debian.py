@@ -1,4 +1,4 @@
-"""Our buffer against the real thing: ROS 1's tf2 as Debian compiles it."""
+"""Comparison of tftool's buffer with ROS 1's tf2 as compiled by Debian."""
 
 import math
 
@@ -18,7 +18,7 @@ def test_tf2_gives_the_same_answers_and_the_same_refusals():
     assert found.disagreements == []
     assert found.worst <= 1e-9
     assert found.questions >= 20_000
-    # Every kind of refusal was met, and often.
+    # Every kind of refusal occurred often.
     assert {kind: count >= 100 for kind, count in found.refused.items()} == dict.fromkeys(
         [
             "ConnectivityException",

@@ -1,4 +1,4 @@
-"""What a recording answers, against compiled tf2 that was fed with a copy decoded by rosbags."""
+"""Comparison of a recording with compiled tf2 that got the transforms as decoded by rosbags."""
 
 import random
 
@@ -18,14 +18,14 @@ from tftool.base.errors import TransformException
 
 QUESTIONS = 1000
 
-# Debian's binding hands moments over as doubles, of which these are exact.
+# Debian's binding passes stamps as doubles, which represent multiples of this step exactly.
 STEP = SECOND // 64
 START = 1_750_000_000 * SECOND
 MISSING = compare.missing()
 
 
 def sent():
-    """A robot that drives: statics, a chain of three that moves, and a frame that starts late."""
+    """Return a robot with static frames, a moving chain of three, and a frame that starts late."""
     mounts = ((0, "base_link", "laser", numbers(1)), (0, "base_link", "camera", numbers(2)))
     messages = [Sent(START, "/tf_static", mounts, node="/state_publisher")]
     for tick in range(300):
@@ -40,7 +40,7 @@ def sent():
 
 
 def decoded(path):
-    """Every transform that rosbags finds, as steps of a world."""
+    """Return every transform that rosbags finds, as steps of a world."""
     steps = []
     with AnyReader([path], default_typestore=ROS2) as reader:
         wanted = [one for one in reader.connections if one.topic in ("/tf", "/tf_static")]

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 SECOND = 10**9
 
-# Turns at which signs and branches are decided: half turns, quarter turns, thirds.
+# Rotations at which signs and branches change: half turns, quarter turns, thirds
 _SPECIAL = [
     (0.0, 0.0, 0.0, 1.0),
     (1.0, 0.0, 0.0, 0.0),
@@ -29,24 +29,24 @@ _SPECIAL = [
 
 
 class World(NamedTuple):
-    """A cache length in nanoseconds, and the steps."""
+    """Length of the cache in nanoseconds, and the steps."""
 
     cache: int
     steps: list[list[Any]]
 
 
 def world(seed: int, questions: int = 100) -> World:
-    """The world of that seed; the same every time."""
+    """Return the world of a seed; the result is always the same."""
     random = Random(seed)
     frames = [f"f{n}" for n in range(random.randint(3, 12))]
     cache = random.choice([10 * SECOND, 10 * SECOND, 2 * SECOND, 100 * SECOND])
-    # How much of each kind of trouble there is in this one.
+    # Random frequency of each kind of difficult data in this world
     restless = random.choice([0.0, 0.0, 0.02, 0.2])
     loops = random.random() < 0.3
     late = random.choice([0.0, 0.1, 0.5])
     start = random.choice([0, 1, 1_000_000, 1_600_000_000]) * SECOND
-    # Debian's binding takes times as float seconds: beyond some weeks, only those on a
-    # grid of 1/512 s arrive as they were sent.
+    # Debian's binding passes times as floats in seconds. Beyond some weeks, only multiples of 1/512
+    # s arrive exactly.
     grid = 1 if start < 10**16 else SECOND // 512
     trees = random.randint(1, 3)
 
@@ -95,7 +95,7 @@ def _pose(random: Random) -> list[float]:
 
 
 def _bad_set(random: Random, frames: list[str], now: int) -> list[Any]:
-    """A sample that both sides must refuse; a slash in front, that both take off."""
+    """Return a sample that both programs must refuse, or with a slash that both remove."""
     child, parent = random.sample(frames, 2)
     pose = _pose(random)
     kind = random.randrange(6)

@@ -1,7 +1,8 @@
-"""Recordings made up to be judged: healthy ones, faults one and two at a time, threads re-enacted.
+"""Synthetic recordings with known faults: healthy ones, one or two faults, reported cases.
 
-Each is a function of a robot that drives and navigates, or of an empty one; its row says what
-must be found, where, and which consequences may be. All is drawn with a jitter of its own.
+Each recording is a function of a robot that drives and navigates, or of an empty one. Its row
+lists the findings that must occur, their names, and the permitted consequences. Each recording
+has its own random jitter.
 """
 
 import math
@@ -26,7 +27,7 @@ Build = Callable[[Robot], object]
 
 @dataclass(frozen=True)
 class Case:
-    """What is recorded, and what must be found: ids, and what their evidence must name."""
+    """Recording, and the ids that must be found, with names that their evidence must contain."""
 
     name: str
     build: Build
@@ -44,7 +45,7 @@ def nav(
     image: str = "camera_optical_frame",
     length: float = 8.0,
 ) -> None:
-    """A robot that navigates: all of it but some frames."""
+    """Add the data of a robot that navigates, without some frames."""
     missing = set(without)
     edges = (
         ("map", "odom", 20.0),
@@ -68,7 +69,7 @@ def nav(
     for child, (parent, pose) in statics.items():
         if child not in missing:
             made.static(parent, child, pose, at=-0.05)
-    # All statics in one message, as a state publisher sends them.
+    # All static transforms are in one message, as robot_state_publisher sends them.
     for (_, _, static), rows in made.records.items():
         if static:
             rows[:] = [(s, p, made_at if m >= made_at else m) for s, p, m in rows]
@@ -91,7 +92,7 @@ def away(t: float) -> Pose:
     return (0.5 * t + 1.0, 0.4, 0.0, *NO_TURN)
 
 
-# Healthy, and suspicious at first sight
+# Healthy recordings that look suspicious at first
 
 
 def arm_at_rest(made: Robot) -> None:
@@ -159,7 +160,7 @@ def torn(made: Robot) -> None:
     made.damage = ("the last chunk is torn",)
 
 
-# One fault
+# Recordings with one fault
 
 
 def conflict(made: Robot, *names: str) -> None:
@@ -262,7 +263,7 @@ def overtaken(made: Robot) -> None:
 
 
 def also(*builds: Build) -> Build:
-    """All of them, on the same robot."""
+    """Return a function that applies all functions to the same robot."""
 
     def build(made: Robot) -> None:
         for one in builds:
@@ -448,7 +449,7 @@ CASES = (*HEALTHY, *FAULTS, *TWO, *REENACTED)
 
 
 def made_by(case: Case, salt: int) -> Robot:
-    """The recording of a case, with the jitter of a salt."""
+    """Return the recording of a case, with the jitter of a random seed."""
     made = Robot(noise=np.random.default_rng([salt, CASES.index(case)]))
     case.build(made)
     return made

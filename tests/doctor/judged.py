@@ -1,4 +1,4 @@
-"""What the doctor finds on a small robot."""
+"""Findings of the doctor on a small robot."""
 
 import math
 

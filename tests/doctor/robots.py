@@ -1,4 +1,4 @@
-"""Frames and messages as columns, made up: a robot with a laser, and what may be wrong with it."""
+"""Synthetic frames and messages as columns: a robot with a laser, and possible faults."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -25,7 +25,7 @@ MOUNT: Pose = (0.1, 0.0, 0.2, *NO_TURN)
 
 
 def drives(t: float) -> Pose:
-    """Half a metre a second, along x."""
+    """Return the pose of a robot that drives half a metre per second along x."""
     return (0.5 * t, 0.0, 0.0, *NO_TURN)
 
 
@@ -35,7 +35,7 @@ def stands(_t: float) -> Pose:
 
 @dataclass
 class Robot:
-    """What is recorded; times are seconds from the start, latencies seconds."""
+    """Recorded data; times are seconds from the start, latencies are seconds."""
 
     start: float = START
     records: dict[tuple[str, str, bool], list[tuple[int, Pose, int]]] = field(default_factory=dict)
@@ -56,13 +56,13 @@ class Robot:
     """Gives latencies and periods a jitter; none when None."""
 
     def unsteady(self, value: float, share: float) -> float:
-        """A value with jitter, at most so large a share of it."""
+        """Return a value with random jitter of at most the given share."""
         if self.noise is None:
             return value
         return value + abs(value) * float(self.noise.uniform(-share, share))
 
     def log(self, at: float) -> int:
-        """When what arrives after so many seconds is received."""
+        """Return the log time of data that arrives after so many seconds."""
         return seconds(self.start if self.log_from is None else self.log_from) + seconds(at)
 
     def sent(
@@ -77,7 +77,7 @@ class Robot:
         node: str = "",
         stamp: int | None = None,
     ) -> None:
-        """One transform; `stamp` nanoseconds in place of what `at` means."""
+        """Add one transform; `stamp`, in nanoseconds, replaces the stamp that `at` gives."""
         publisher = Publisher(topic, node)
         if publisher not in self.publishers:
             self.publishers.append(publisher)
@@ -102,7 +102,7 @@ class Robot:
         node: str = "",
         topic: str = "/tf",
     ) -> None:
-        """A transform every so often; `offset` dates it ahead."""
+        """Add a periodic transform; `offset` shifts its stamps to the future."""
         for tick in range(round((end - begin) * hz)):
             at = begin + tick / hz
             if self.noise is not None:
@@ -132,7 +132,7 @@ class Robot:
         end: float = LASTS,
         latency: float = 0.015,
     ) -> None:
-        """Messages with a header."""
+        """Add messages with a header."""
         _, messages = self.heard.setdefault(topic, (kind, []))
         for tick in range(round((end - begin) * hz)):
             at = begin + tick / hz
@@ -215,7 +215,7 @@ def robot(
     start: float = START,
     log_from: float | None = None,
 ) -> Robot:
-    """A robot as it should be, or without a part of it: odom, base_link, laser and its scans."""
+    """Return a healthy robot with odom, base_link, laser and its scans, or with some of them."""
     made = Robot(start=start, log_from=log_from)
     if odometry:
         made.moving("odom", "base_link")

@@ -1,4 +1,4 @@
-"""The way between two links of a description, and what a lookup lacks."""
+"""Tests of the path between two links of a description, and of the reason for a failed lookup."""
 
 import pytest
 

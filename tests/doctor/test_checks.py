@@ -1,4 +1,4 @@
-"""Each check trips on a small robot of its own, and stays quiet where its guard says so."""
+"""Tests of the checks, each on a small robot that triggers it and on one that must not."""
 
 import math
 from pathlib import Path
@@ -59,7 +59,7 @@ def test_two_known_publishers_of_different_opinion_are_named():
     conflict = found(made, "publisher-conflict")
     assert conflict.publishers == ("/gazebo", "/ekf")
     assert conflict.confidence.value == "certain"
-    # They drive 1 m and 0.3 m apart.
+    # The two positions are 1 m and 0.3 m apart along the axes.
     assert conflict.facts["apart"] == pytest.approx(math.hypot(1.0, 0.3), abs=0.02)
 
 
@@ -76,7 +76,7 @@ def test_two_unknown_publishers_are_seen_from_the_values():
 @pytest.mark.parametrize("jitter", [0.0, 0.004])
 @pytest.mark.parametrize("speed", [3.0, 14.0, 40.0, -25.0])
 def test_a_fast_wheel_has_one_publisher(speed, jitter):
-    # Radians a second, at 51 ms: up to two thirds of a turn from sample to sample.
+    # Speeds in radians per second at 51 ms: up to two thirds of a turn between two samples
     made = robot()
     noise = np.random.default_rng(3)
     for tick in range(150):
@@ -94,7 +94,7 @@ def test_two_publishers_of_a_wheel_at_equal_rates_half_a_period_apart(speed):
             made.sent("base_link", "wheel", at, (0.0, 0.1, 0.0, *turned(speed * at + angle, 1)))
     conflict = found(made, "publisher-conflict")
     assert conflict.edges == (("base_link", "wheel"),)
-    # 1.5 rad apart, and what it turns in half a period.
+    # The poses are 1.5 rad apart, plus the turn during half a period.
     assert conflict.facts["turned"] == pytest.approx(1.5, abs=0.026 * speed + 1e-6)
     assert "85.9°" in conflict.evidence[0] or speed
 
@@ -181,7 +181,7 @@ def test_what_is_merely_fast_has_one_publisher(speed):
 def test_two_publishers_of_equal_values_only_repeat_stamps():
     made = robot()
     made.moving("odom", "base_link")
-    assert ids(made, notes=True) == []  # ROS 2 ignores them
+    assert ids(made, notes=True) == []  # ROS 2 ignores equal samples
     made.kind = "ROS 1 bag"
     assert ids(made) == ["repeated-stamp"]
 
@@ -191,7 +191,7 @@ def test_a_node_that_repeats_its_newest_pose_under_an_old_stamp_is_no_conflict(k
     made = robot(odometry=False)
     made.kind = kind
     for tick in range(160):
-        # Each pose is sent twice, and the second time under the stamp of the next one.
+        # Each pose is sent twice, the second time with the stamp of the next pose.
         for stamp in (tick, tick + 1):
             pose = (0.05 * tick, 0.0, 0.0, *NO_TURN)
             made.sent("odom", "base_link", 0.05 * stamp, pose, node="/camera")
@@ -224,7 +224,7 @@ def test_a_static_that_is_repeated_is_fine():
 
 
 def long_drive(child: str = "gps_link", parent: str = "base_link") -> Robot:
-    """A minute's drive, and something on it that never moves and is sent on /tf."""
+    """Return a drive of a minute with a frame that never moves but is sent on /tf."""
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=10, end=61.0)
     made.moving(parent, child, hz=10, pose=stands, end=61.0)
@@ -264,33 +264,33 @@ def test_a_short_recording_does_not_tell_a_mount_from_what_rests():
 
 
 def test_what_could_move_and_rests_is_no_constant():
-    # Beside another wheel that moves.
+    # Another wheel moves.
     wheels = long_drive("wheel_left")
     wheels.moving("base_link", "wheel_right", hz=10, pose=drives, end=61.0)
-    # In the odometry.
+    # The odometry contains the frame.
     named = long_drive()
     told = Robot()
     told.moving("base_link", "gps_link", topic="/odom", hz=10, end=1.0)
     named.odometry = told
-    # With the stamps of the joint states.
+    # The stamps are those of joint states.
     states = long_drive()
     states.hears("/joint_states", "", 10.0, "sensor_msgs/JointState", end=61.0)
-    # In one message with what moves.
+    # The frame is in one message with moving frames.
     together = long_drive()
     (key, mount), (_, base) = list(together.records.items())[::-1][:2]
     together.records[key] = [
         (stamp, pose, message)
         for (stamp, pose, _), (_, _, message) in zip(mount, base, strict=True)
     ]
-    # Above all that moves.
+    # The frame is above all moving frames.
     lowest = long_drive("dock", parent="hall")
-    # Beside the fixed joints of a robot description, one of which is mounted on it.
+    # A robot description has fixed joints, one of which is mounted on the frame.
     arm = long_drive("arm")
     arm.static("base_link", "imu")
     arm.static("arm", "gripper")
     place = arm.records["base_link", "imu", True][0][2]
     arm.records["arm", "gripper", True] = [(seconds(START), stands(0.0), place)]
-    # Long before the end.
+    # The samples end long before the end of the recording.
     brief = robot(odometry=False, scans=False)
     brief.moving("odom", "base_link", hz=10, end=61.0)
     brief.moving("base_link", "gps_link", hz=10, pose=stands, end=50.0)
@@ -350,7 +350,7 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     made.static("camera_link", "camera_optical")
     finding = found(made, "split-tree")
     assert finding.severity is Severity.WARNING
-    # Nothing says where the camera is mounted.
+    # No data shows where the camera is mounted.
     assert finding.facts["join"] is None
     assert finding.fixes[0].command == ""
     assert "nothing in the data says where to join camera_link" in finding.fixes[0].text
@@ -520,7 +520,7 @@ def test_an_optical_frame_with_the_axes_of_the_body():
     made = robot()
     made.static("base_link", "camera_link")
     made.static("camera_link", "camera_optical_frame", (0.0, 0.0, 0.0, *NO_TURN))
-    # From body to optical axes is a third of a turn about a diagonal.
+    # From body axes to optical axes is a third of a turn about a diagonal.
     assert found(made, "optical-convention").facts["off"] == pytest.approx(120.0)
 
     right = robot()
@@ -546,7 +546,7 @@ def test_a_picture_in_optical_axes_is_fine_whatever_its_name():
     body.hears("/image", "camera_frame", kind="sensor_msgs/Image")
     assert found(body, "image-not-optical").confidence is Confidence.CERTAIN
 
-    # A camera whose z looks sideways may be anything.
+    # The axes of a camera whose z axis points sideways are not checked.
     sideways = robot()
     sideways.static("base_link", "camera_frame", (0.1, 0.0, 0.2, *turned(math.pi / 2, axis=0)))
     sideways.hears("/image", "camera_frame", kind="sensor_msgs/Image")

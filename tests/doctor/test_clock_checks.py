@@ -1,4 +1,4 @@
-"""The checks of clocks and stamps, each on a small robot of its own."""
+"""Tests of the checks of clocks and stamps, each on a small robot."""
 
 import io
 from dataclasses import replace
@@ -31,7 +31,7 @@ def test_a_simulation_with_its_clock_is_healthy():
     made.moving("map", "odom", hz=20, pose=stands, offset=1.0)
     made.static("base_link", "laser")
     made.hears("/scan", "laser")
-    # The simulator runs at half the speed; /clock says so.
+    # The simulator runs at half speed, and /clock shows this.
     assert ids(made) == []
     assert "only differences" in made.judged().model.reference
     made.clock = [(seconds(12.0 + 0.1 * i), seconds(START + 0.1 * i)) for i in range(81)]
@@ -49,7 +49,7 @@ def test_a_single_stamp_of_another_year_is_named_and_makes_no_hole(tick, years):
     stamps[tick] = (stamp + years * 31_536_000 * 10**9, *rest)
 
     if tick == 0 and years < 0:
-        # Old at the start: what was latched is, by intention.
+        # Latched messages are old at the start on purpose.
         assert "wild-stamp" not in ids(made, notes=True)
         return
     finding = found(made, "wild-stamp")
@@ -57,7 +57,7 @@ def test_a_single_stamp_of_another_year_is_named_and_makes_no_hole(tick, years):
     assert finding.facts["stamp"] == stamps[tick][0]
     assert finding.facts["off"] == pytest.approx(2 * 31_536_000 * 10**9, rel=1e-6)
     assert finding.facts["side"] == ("ahead of" if years > 0 else "behind")
-    # What follows from it is not told beside it.
+    # The consequences of the wild stamp are not reported in addition.
     assert ids(made) == ["wild-stamp"]
     assert "gap" not in ids(made, notes=True)
 
@@ -144,7 +144,7 @@ def test_samples_too_old_to_be_kept_and_samples_that_overtake():
     for tick in range(100):
         late = 0.2 if tick % 5 == 0 else 0.005
         overtaken.sent("base_link", "arm", tick * 0.05, drives(tick * 0.05), latency=late)
-    # Log order is that of arrival: those that took longer come behind newer ones.
+    # The log is in the order of arrival: delayed messages follow newer ones.
     assert found(overtaken, "out-of-order").severity is Severity.NOTE
 
 
@@ -169,7 +169,7 @@ def test_diagnostics_have_no_place_and_may_have_another_clock():
 
 
 def shifted(hours: float) -> Robot:
-    """A robot whose clock is off that of the recorder by some hours."""
+    """Return a robot whose clock differs from the recorder's clock by some hours."""
     made = robot(log_from=START + hours * 3600.0)
     made.hears("/points", "laser", 5.0, "sensor_msgs/PointCloud2")
     return made
@@ -182,7 +182,7 @@ def test_a_recording_that_is_shifted_as_a_whole_is_one_note(hours):
     assert (note.id, note.severity) == ("shifted-clock", Severity.NOTE)
     side = "before" if hours > 0 else "after"
     assert note.message.startswith(f"all stamps are {abs(hours):g} hours {side} their reception")
-    # What is asked of the waits is asked of the shifted clock.
+    # The waits are computed on the shifted clock.
     made.hears("/cloud", "laser", 5.0, "sensor_msgs/PointCloud2", latency=-0.08)
     assert ids(made) == ["clock-offset"]
 
@@ -239,7 +239,7 @@ def test_dating_ahead_by_a_period_or_of_a_constant_is_by_design():
 
 
 def test_a_slow_simulation_without_a_clock_is_not_late():
-    """A simulation that takes three seconds for one of its own: nothing is known of its clock."""
+    """Check a simulation that takes three seconds for each simulated second, without `/clock`."""
     made = robot(start=12.0, log_from=START)
     made.messages = [(seconds(START) + 3 * (log - seconds(START)), n) for log, n in made.messages]
     made.heard = {
@@ -303,7 +303,7 @@ def test_messages_that_repeat_one_stamp_are_no_matter_of_the_cache_or_the_networ
     assert ids(frozen_marker("base_link"), notes=True) == ["frozen-stamp"]
     finding = found(frozen_marker("base_link"), "frozen-stamp")
     assert (finding.topics, finding.count) == (("/wall_marker",), 70)
-    # In odom a marker needs no transform that moves.
+    # A marker in odom needs no moving transform.
     assert ids(frozen_marker("odom"), notes=True) == []
 
 
@@ -342,7 +342,7 @@ def test_a_localiser_that_repeats_a_stamp_is_not_to_be_stamped_anew(kind, words)
 
 
 def test_stamps_that_repeat_while_a_slow_simulation_stands_are_not_frozen():
-    """A localiser at 50 Hz of the wall clock, and a simulation that makes a step in two seconds."""
+    """Check a localiser at 50 Hz of real time, with a simulation that steps every two seconds."""
     made = Robot(start=12.0, log_from=START)
     for step in range(10):
         made.sent("odom", "base_link", 2.0 * step, drives(step), stamp=seconds(12.0 + 0.06 * step))
@@ -418,7 +418,7 @@ def test_a_localiser_on_the_recorders_clock_is_off_the_others_and_no_more(hours)
     off = "14.94 s" if hours > 0 else "168 hours"
     assert finding.message.startswith(f"odom in map is {off}")
     assert ("played" in finding.fixes[0].text) == (hours < -1)
-    # Nothing else tells of the two clocks.
+    # No other data shows the two clocks.
     assert ids(made, notes=True) == ["clock-offset"]
     asked = traced(made.judged().model, Question("map", "laser", seconds(START + 4.0)))
     assert asked.cause is Cause.CLOCK_OFFSET
@@ -462,7 +462,7 @@ def test_a_localiser_out_of_order_hangs_on_the_odometry_that_its_scans_wait_for(
     made = robot(odometry=False)
     made.moving("odom", "base_link", hz=1)
     for tick in range(70):
-        # Ten scans are released at once, the newest first.
+        # Ten scans are sent at once, the newest first.
         released = tick // 10 + 1.1
         at = tick * 0.1
         made.sent("map", "odom", at, latency=released - at - 0.01 * (tick % 10))
@@ -475,6 +475,6 @@ def test_a_sensor_alone_is_off_the_recorders_clock():
     assert found(made, "clock-offset").message == "/scan is 1.80 s off the recorder's clock"
     made.hears("/points", "laser", kind="sensor_msgs/PointCloud2")
     assert found(made, "clock-offset").message == "/scan is 1.80 s off the other clocks"
-    # Without a transform nothing is known of an image's axes.
+    # Without a transform, the axes of an image are unknown.
     made.hears("/image", "camera", kind="sensor_msgs/Image")
     assert found(made, "image-not-optical").because_of == "no-transforms"

@@ -1,4 +1,4 @@
-"""Every recording of the corpus is judged right: all that is wrong is named, and nothing else."""
+"""Tests that the doctor finds all faults of the corpus, and nothing else."""
 
 import pytest
 
@@ -29,7 +29,7 @@ def test_what_is_wrong_is_named_and_nothing_else(case, salt):
 def test_a_healthy_recording_has_at_most_a_note_that_is_true(case):
     ids = {one.id for one in made_by(case, 3).judged().findings}
     assert ids <= {
-        # One tree a robot, and one message of statics.
+        # Each robot has one tree, and one message of static transforms.
         "two prefixed robots": {"split-tree"},
         "torn file": {"truncated-recording"},
         "picked-up box": {"parent-switch", "edge-stopped"},

@@ -1,4 +1,4 @@
-"""The checks of what is missing when, each on a small robot of its own."""
+"""Tests of the checks of missing and late data, each on a small robot."""
 
 import io
 import math
@@ -27,7 +27,7 @@ def test_an_edge_that_stops_explains_why_scans_cannot_be_placed():
 
 @pytest.mark.parametrize(("goes_on", "told"), [(5.02, []), (5.5, []), (7.0, ["edge-stopped"])])
 def test_links_that_stop_together_before_the_end_are_no_fault_of_the_first_of_them(goes_on, told):
-    """So a session looks whose host left: nothing else goes on, and one link is the last."""
+    """Check edges that stop together, as in a session whose host has left."""
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", end=5.0)
     made.moving("base_link", "arm", end=goes_on)
@@ -122,7 +122,7 @@ def test_a_recording_without_statics_is_told_so_and_no_second_publisher_is_advis
     assert not any("static_transform_publisher" in fix.command for fix in cures)
     assert any("the statics are missing from the recording" in fix.text for fix in cures)
 
-    # With statics of others, this one was not published.
+    # Other static transforms were recorded, so this one was not published.
     made.static("base_link", "imu")
     cures = [fix for one in made.judged().findings for fix in one.fixes]
     assert any("static_transform_publisher" in fix.command for fix in cures)
@@ -132,11 +132,11 @@ def test_statics_that_come_late():
     made = robot(laser=False)
     made.static("base_link", "laser", at=3.0)
     finding = found(made, "static-late")
-    # 30 scans of 10 Hz are stamped before; the last of them arrives after the static.
+    # 30 scans at 10 Hz have earlier stamps; the last of them arrives after the static transform.
     assert finding.topics == ("/scan",)
     assert finding.facts["late"] == pytest.approx(seconds(3.0), abs=seconds(0.02))
 
-    # One that was sent before the recorder ran is only heard late.
+    # A static transform that was sent before the recorder started is only received late.
     _, mount, number = made.records["base_link", "laser", True][0]
     made.records["base_link", "laser", True][0] = (seconds(START - 60.0), mount, number)
     assert "static-late" not in ids(made, notes=True)
@@ -149,16 +149,17 @@ def test_statics_that_are_offered_to_no_late_subscriber():
 
 
 def test_statics_in_more_messages_than_a_player_keeps_are_a_note():
-    """rosbag2 offers the last ten messages to late subscribers, whoever sent them."""
+    """Check static transforms in more than the ten messages that rosbag2 offers later."""
     made = robot()
     for number in range(9):
         made.static("base_link", f"camera_{number}", at=0.1)
     assert ids(made, notes=True) == []
     made.static("base_link", "imu", at=0.2)
     assert found(made, "latched-overwrite").frames == ("laser",)
-    # An edit that puts all in one message leaves the single ones: it is no remedy.
+    # An edit that combines all static transforms does not remove the single messages, so it is no
+    # remedy.
     assert not any(fix.command for fix in found(made, "latched-overwrite").fixes)
-    # ROS 1's player keeps one for each publisher, and here there is one at most.
+    # ROS 1's player stores one message per publisher, and here each publisher has at most one.
     early = replace(robot_with_two_mounts().evidence(), kind="ROS 1 bag")
     (note,) = judge(early).findings
     assert (note.id, note.frames) == ("latched-overwrite", ("laser",))
@@ -182,7 +183,7 @@ def test_odometry_that_comes_too_late_for_the_laser():
     made.hears("/scan", "laser", hz=20)
     finding = found(made, "sensor-outruns-tf")
     assert (finding.topics, finding.edges) == (("/scan",), (("odom", "base_link"),))
-    # The scan just after a sample waits for the next one (150 ms on), and that one's delay.
+    # The scan directly after a sample waits for the next sample (150 ms later) and its delay.
     assert finding.facts["worst"] == pytest.approx(seconds(0.15 + 0.25 - 0.015), abs=1)
     assert any("no rate is enough" in fix.text for fix in finding.fixes)
 
@@ -220,7 +221,7 @@ def test_what_a_filter_takes_in_is_not_placed_sample_by_sample(kind):
     made.hears("/imu", "laser", hz=100, kind=f"sensor_msgs/{kind}")
     assert ids(made, notes=True) == []
     made.moving("map", "odom", hz=20, pose=stands, begin=4.0)
-    # The samples of an IMU have a direction at least.
+    # Samples of an IMU contain at least a direction.
     assert ids(made, notes=True) == (["late-start"] if kind != "NavSatFix" else [])
     del made.records["map", "odom", False]
     made.hears("/scan", "laser")
@@ -234,10 +235,10 @@ def test_relays_of_one_scan_that_wait_alike_are_one_finding():
     (finding,) = made.judged().findings
     assert (finding.id, finding.topics) == ("sensor-outruns-tf", ("/scan", "/stable_scan"))
     assert finding.message == "/scan, /stable_scan arrive before the transforms they need"
-    # Both carry the same stamps: the topic that arrives first waits longest.
+    # Both topics have the same stamps, so the topic that arrives first waits longest.
     assert finding.facts["topic"] == "/scan"
 
-    # A scan of other moments waits longer: it has a finding of its own.
+    # A scan with other stamps waits longer, and has a finding of its own.
     made.hears("/rear_scan", "laser", hz=5, begin=0.01)
     alone = [one.topics for one in made.judged().findings if one.id == "sensor-outruns-tf"]
     assert alone == [("/scan", "/stable_scan"), ("/rear_scan",)]
@@ -279,7 +280,7 @@ def test_waits_of_one_period_of_fast_odometry_are_not_reported():
     slower.moving("odom", "base_link", hz=12, latency=0.001)
     slower.hears("/scan", "laser", hz=5, latency=0.001)
     finding = found(slower, "sensor-outruns-tf")
-    # One message waits at a time: a queue of one is no advice.
+    # At most one message waits at a time, so a longer queue is no remedy.
     assert not any("queue" in fix.text for fix in finding.fixes)
 
 
@@ -297,7 +298,7 @@ def test_the_advised_wait_leaves_a_stall_out():
 
 
 def silent(made: Robot, begin: float, end: float, lost: bool) -> None:
-    """Nothing arrives for a time; what is not lost comes at its end."""
+    """Let nothing arrive for a time; data that is not lost arrives at the end of this time."""
     low, high = made.log(begin), made.log(end)
     made.messages = [(high if low < log < high else log, sender) for log, sender in made.messages]
     for topic, (kind, rows) in made.heard.items():
@@ -315,7 +316,7 @@ def test_a_network_that_is_gone_for_a_time_is_one_finding(lost):
     assert finding.message == "nothing arrived for 3.02 s on 2 of 2 streams"
     assert ("on 1 of them data of that time never came" in finding.evidence[0]) == lost
     assert finding.topics == ("/scan",)
-    # The lidar goes on: it is no outage of all.
+    # The lidar continues, so not all streams stop.
     made = robot()
     made.hears("/points", "laser", kind="sensor_msgs/PointCloud2")
     made.hears("/image", "laser", kind="sensor_msgs/Image")
@@ -369,7 +370,7 @@ def test_a_tag_that_is_seen_no_more_has_not_stopped_and_a_mount_has():
 
 
 def test_statics_on_tf_are_not_missing():
-    # ROS 1 before tf2: mounts are sent again and again on /tf.
+    # ROS 1 before tf2 sends mounts periodically on /tf.
     made = robot(laser=False, scans=False)
     made.moving("base_link", "base_laser", hz=10, pose=stands)
     made.hears("/scan", "laser")
@@ -394,7 +395,7 @@ def test_a_gap_explains_waits_only_where_all_that_is_late_falls_into_it():
         return made
 
     assert found(gapped(0.005), "sensor-outruns-tf").because_of == "gap"
-    # Each transform is 200 ms late: that is so without the gap, too.
+    # Each transform is 200 ms late, also without the gap.
     assert found(gapped(0.2), "sensor-outruns-tf").because_of is None
 
 

@@ -1,4 +1,4 @@
-"""The checks that need a description or odometry, each on a small robot of its own."""
+"""Tests of the checks that need a description or odometry, each on a small robot."""
 
 import math
 
@@ -11,7 +11,7 @@ from tftool.doctor.findings import Severity
 
 
 def urdf(*joints: str) -> str:
-    """Joints written "wheel: continuous base_link wheel_link"."""
+    """Return a URDF with joints written as "wheel: continuous base_link wheel_link"."""
     links: dict[str, None] = {}
     text = ""
     for joint in joints:
@@ -54,7 +54,7 @@ def test_a_joint_without_state_explains_the_links_below_it():
 
     made.joints = frozenset({"caster"})
     assert "joint-without-state" not in ids(made)
-    # Joint states that nothing turned into transforms: robot_state_publisher did not run.
+    # No program converted the joint states to transforms: robot_state_publisher did not run.
     assert found(made, "urdf-frame-unpublished").because_of is None
 
 
@@ -75,7 +75,7 @@ def test_links_that_tf_lacks_are_told_with_the_reason_of_their_joint():
         "camera: fixed to base_link: the statics are missing",
         "arm_link: moved by arm (revolute): no state of it was published",
     )
-    # What the description promises is no unknown frame, wherever messages are.
+    # A frame of the description is not an unknown frame, even if messages use it.
     made.hears("/image", "camera", kind="sensor_msgs/CompressedImage")
     assert ids(made) == ["urdf-frame-unpublished"]
 
@@ -108,7 +108,7 @@ def test_the_static_that_arrives_last_counts_whatever_its_stamp():
     made = robot(laser=False)
     made.static("base_link", "laser", (0.1, 0.0, 0.2, *NO_TURN), at=4.0)
     late = (0.4, 0.0, 0.2, *NO_TURN)
-    # As a static publisher that was started before, and is heard later.
+    # A static publisher that was started before the recorder is heard later.
     made.sent("base_link", "laser", 5.0, late, topic="/tf_static", stamp=seconds(START - 19.0))
     made.urdf = urdf(LASER_JOINT)
     assert found(made, "urdf-tf-mismatch").facts["apart"] == pytest.approx(0.3)
@@ -144,7 +144,7 @@ def test_a_movable_joint_at_rest_is_no_constant():
 
 
 def says(pose, latency=0.004, child="base_link"):
-    """What odometry messages say."""
+    """Return odometry messages with the given poses."""
     told = Robot()
     told.moving("odom", child, pose=pose, topic="/odom", latency=latency)
     return told
@@ -163,7 +163,7 @@ def test_odometry_and_transform_of_one_name_that_disagree():
     )  # fmt: skip
     made.odometry = says(lambda t: (0.5 * t, 0.0, 0.0, *turned(math.radians(3.0))))
     assert found(made, "odometry-tf-mismatch").facts["turned"] == pytest.approx(math.radians(3))
-    # At times they may: more than half is too often.
+    # Some poses may differ; more than half of them is too many.
     made.odometry = says(lambda t: (0.5 * t + (1.0 if t > 4.5 else 0.0), 0.0, 0.0, *NO_TURN))
     assert ids(made) == []
 
@@ -188,14 +188,14 @@ def test_odometry_of_a_pair_that_tf_does_not_join_is_a_note():
     assert finding.evidence == ("/odom says laser in odom; in tf laser hangs from base_link",)
     assert "disagree" not in finding.message
 
-    # Another frame of the base, which hangs from the one in tf.
+    # The message's child is another frame of the base, a parent or child of the frame in tf.
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_footprint")
     made.static("base_footprint", "base_link")
     made.odometry = says(drives, child="base_link")
     assert "odometry-tf-mismatch" not in ids(made, notes=True)
 
-    # What is not joined at all is one finding.
+    # Frames that are not connected at all are one finding.
     made = robot(odometry=False)
     made.static("map", "odom")
     made.odometry = says(drives)

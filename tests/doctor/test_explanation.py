@@ -1,4 +1,4 @@
-"""Why a lookup refuses: the link, the amount, and what would let it through."""
+"""Tests of the reasons for failed lookups: the edge, the missing time, and the remedies."""
 
 import io
 
@@ -38,7 +38,8 @@ def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
     assert [link.verdict for link in found.links] == [LinkVerdict.ANSWERS, LinkVerdict.FORWARD]
     assert found.links[1].short_by == seconds(0.25)
     assert (found.cause, found.check) == (Cause.LATE, "sensor-outruns-tf")
-    # The sample for 4.4 arrives at 4.65; a wait of 385 ms, 390 as tf2 asks every 10 ms.
+    # The sample for 4.4 arrives at 4.65. This needs a wait of 385 ms, or 390 ms as tf2 retries
+    # every 10 ms.
     assert found.answerable_from == T + seconds(4.65)
     assert (found.remedies[0].least, found.remedies[0].advised) == (seconds(0.385), seconds(0.39))
     assert not found.remedies[1].possible
@@ -46,7 +47,7 @@ def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
 
 @pytest.mark.parametrize(("hz", "advised"), [(4, True), (50, False)])
 def test_a_higher_rate_is_advised_only_where_the_link_comes_too_seldom(hz, advised):
-    """A wait of 100 ms is met by 10 Hz where nothing arrives late."""
+    """Check the advised rate: a wait of 100 ms needs 10 Hz if no transform is late."""
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=hz, latency=0.0)
     made.hears("/scan", "laser", hz=20, latency=0.0)
@@ -117,8 +118,8 @@ def test_what_was_dropped_needs_a_larger_cache_and_that_much_is_enough():
 
     assert (found.cause, found.links[1].verdict) == (Cause.CACHE, LinkVerdict.PRUNED)
     least = found.remedies[0].least
-    # Asked at 18.0, when the newest sample is that of 17.98. ROS 2 prunes before that comes and
-    # does with a period less; ROS 1 prunes after.
+    # At 18.0 the newest sample is 17.98. ROS 2 prunes before it inserts the next sample, so a
+    # period less is enough; ROS 1 prunes afterwards.
     assert least == seconds(12.98)
     for cache, answers in ((least, True), (least - seconds(0.04), False)):
         again = asked(made, "odom", "laser", 5.0, settings=Settings(cache_time=cache))
@@ -134,7 +135,8 @@ def test_a_text_that_quotes_a_link_off_the_way_is_said_to_mislead():
     found = asked(made, "odom", "laser", 5.0)
 
     assert found.remedies[0].least == seconds(12.98)
-    # What odom in map, dated a second ahead, begins with; tf2 pruned before the last came.
+    # This is the oldest sample of odom in map, which is stamped a second ahead; tf2 pruned before
+    # the last sample came.
     assert "earliest data is at time 1750000008.900000" in found.text
     assert "quotes 1750000008.900, a time of odom, which is not on the way" in found.why[-1]
 
@@ -322,7 +324,7 @@ def test_a_question_for_the_latest_is_one_for_the_last_moment_in_common():
     model = Model(made.evidence())
     found = traced(model, Question("odom", "arm"))
     assert not found.available
-    # The odometry ended at 1.98, and the arm began at 5: there is no moment in common.
+    # The odometry ended at 1.98 and the arm began at 5, so there is no common time.
     assert found.links[0].verdict is LinkVerdict.BACKWARD
     assert found.links[0].short_by == seconds(3.02)
     assert found.cause is Cause.BEFORE_START

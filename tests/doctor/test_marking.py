@@ -1,4 +1,4 @@
-"""Marks of frames: the quick look that comes first hides nothing, and needs no numpy."""
+"""Tests of frame marks: the fast first check hides no fault, and needs no numpy."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""`tftool doctor --mounts`: mounts that contradict the motion, and mounts that moved."""
+"""Tests of `tftool doctor --mounts`: mounts that contradict the motion, and moved mounts."""
 
 import json
 import math
@@ -135,7 +135,7 @@ def test_a_mount_that_moves_in_the_recording_is_found_at_its_moment(tftool, tmp_
     assert result.status == 1
     changed = [one for one in found["findings"] if one["id"] == "mount-changed"]
     assert len(changed) == 1
-    # A window is 25 s long: the camera moved where the second begins.
+    # A window is 25 s long, and the camera moves at the beginning of the second window.
     assert changed[0]["since"] == pytest.approx(1_750_000_025 * SECOND, abs=SECOND), changed
 
 

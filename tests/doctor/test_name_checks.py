@@ -1,4 +1,4 @@
-"""The checks of names, each on a small robot of its own."""
+"""Tests of the checks of names, each on a small robot."""
 
 import pytest
 from hypothesis import given
@@ -23,11 +23,11 @@ def test_a_slash_in_a_header_has_its_own_check():
     made.hears("/scan", "/laser")
     assert ids(made) == ["slash-twins"]
     assert found(made, "slash-twins").topics == ("/scan",)
-    # A message filter strips the slash, and its lookup succeeds.
+    # A message filter removes the slash, so that its lookup succeeds.
     assert "direct tf2 lookup" in found(made, "slash-twins").consequence
     assert found(made, "slash-twins").severity is Severity.ERROR
 
-    # ROS 1's own tf strips the slash: such a robot works, and writes its transforms so.
+    # ROS 1's own tf removes the slash: such a robot works, and its transforms have slashes.
     made.kind = "ROS 1 bag"
     made.slashed["odom", "base_link", False] = 7
     assert found(made, "slash-twins").severity is Severity.WARNING
@@ -38,7 +38,7 @@ def test_no_cure_names_a_frame_with_a_slash():
     made = robot()
     made.hears("/camera/info", "/camera_frame", kind="sensor_msgs/CameraInfo")
     fixes = found(made, "unknown-frame").fixes
-    # Without the slash the frame is still unknown.
+    # Without the slash, the frame is still unknown.
     assert fixes[0].command.endswith("--child-frame-id camera_frame")
     assert fixes[1].text.startswith('and set frame_id to "camera_frame"')
     assert not any("/camera_frame" in fix.text + fix.command for fix in fixes)
@@ -59,7 +59,7 @@ def test_a_frame_is_not_near_because_it_is_a_link_too(name):
     made.hears("/gps/fix", name, kind="sensor_msgs/NavSatFix")
     finding = found(made, "unknown-frame")
     assert "near" not in finding.evidence[0]
-    # A frame of the world is no mount.
+    # A frame that is fixed to the world is not a mount.
     assert bool(finding.fixes[0].command) == (name == "navsat_link")
 
 
@@ -159,7 +159,7 @@ def test_names_that_tools_stumble_over(name):
 
 
 def by_definition(one, other):
-    """The distance as it is defined: of the ways to begin, the best one."""
+    """Return the distance by its recursive definition: the best of all first steps."""
     if not one or not other:
         return len(one) + len(other)
     ways = [

@@ -1,4 +1,4 @@
-"""Remedies in the words of the recording's ROS."""
+"""Tests of remedies with the commands of the recording's ROS version."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Steps of a localiser are listed with their size, and motion is not."""
+"""Tests of the list of a localiser's steps, without its continuous motion."""
 
 import math
 
@@ -13,11 +13,11 @@ from tftool.doctor.model import Model
 
 
 def localised() -> Robot:
-    """A robot that drives, whose localiser corrects it every two seconds by more."""
+    """Return a robot that drives, with a localiser that corrects it more every two seconds."""
 
     def corrects(t: float) -> tuple[float, ...]:
         jumps = int(t / 2.0 + 1e-6)
-        # Beside its steps it drifts by 1 mm a second.
+        # Between its steps, the localiser drifts by 1 mm per second.
         return (0.02 * jumps + 0.001 * t, 0.0, 0.0, *turned(math.radians(jumps)))
 
     made = robot()
@@ -31,7 +31,7 @@ def test_every_correction_is_a_step_of_its_size_with_the_drift_before_it():
     for step in steps:
         assert step.moved == pytest.approx(0.02, abs=1e-6)
         assert math.degrees(step.turned) == pytest.approx(1.0, abs=1e-6)
-    # From one step to the next, 19 samples of 0.1 mm.
+    # Between two steps are 19 samples of 0.1 mm.
     assert [step.drift_moved for step in steps[1:]] == pytest.approx([0.0019, 0.0019], abs=1e-6)
 
 
@@ -70,7 +70,7 @@ def test_few_samples_have_no_steps():
 
 @pytest.mark.parametrize("jump", [0.0, 0.3])
 def test_stamps_that_are_less_regular_than_the_motion_make_no_steps(jump):
-    """Wheels that tell of 42 mm in each message, whenever it is stamped."""
+    """Check wheels that report 42 mm per message, whatever the stamp."""
     made, at = robot(odometry=False, scans=False), 0.0
     for number, gap in enumerate([0.15, 0.1, 0.2, 0.05, 0.3, 0.045, 0.15, 0.2, 0.05, 0.14] * 8):
         at += gap

@@ -40,13 +40,13 @@ def draw(picture, rows=16, size=FIELD, **how):
 
 
 def turtle(name, x, y, theta=0.0, **how):
-    """A turtle without a frame, so that nothing but its sprite and name is drawn."""
+    """Return a turtle without a frame, of which only its sprite and name are drawn."""
     ahead = ((math.cos(theta), math.sin(theta)),)
     return PlaneFrame(name, x, y, ahead, is_turtle=True, is_frame=False, **how)
 
 
 def sheet(*turtles, strokes=(), **how):
-    """The turtles' field with a drawing on it."""
+    """Return the turtles' field with a drawing on it."""
     pen = Drawn(strokes, how.pop("forgotten", 0), how.pop("edition", 0))
     field = TurtleField(**how)
     return PlanePicture("world", turtles, field=field, pen=pen)
@@ -57,7 +57,7 @@ def stroke(x0, y0, x1, y1, color=PEN, width=3):
 
 
 def dotted(lines, color=PEN):
-    """The (column, row) of every cell with a piece of trail of that colour in it."""
+    """Return the (column, row) of every cell that contains a part of a trail of that colour."""
     named = theme.hexadecimal(color)
     found = set()
     for row, line in enumerate(lines):
@@ -109,7 +109,7 @@ def test_whatever_there_is_every_line_is_exactly_as_wide_as_asked(
     drawn = Drawn(tuple(stroke(*ends) for ends in trail))
     field = TurtleField(walls=frozenset({"left", "top"}))
     ends = np.array([(x0, y0, 0.0, x1, y1, 0.0) for x0, y0, x1, y1 in trail], float)
-    # What is farther away has no trail.
+    # Frames farther away have no trail.
     ends = np.clip(np.nan_to_num(ends), -1e9, 1e9).reshape(-1, 2, 3)
     trails = ColoredLines(ends, np.zeros(len(trail), int))
     picture = PlanePicture("f", frames, field=field, pen=drawn, trails=trails)
@@ -289,7 +289,7 @@ def test_another_background_is_painted_everywhere():
 
 
 def test_the_field_lies_in_the_picture_as_its_frame_does():
-    """Ten metres to the right, and turned by a quarter: its colour is there, and nowhere else."""
+    """Check a field ten metres to the right and turned by a quarter: its colour is only there."""
     lines = Canvas(80, 20, scaled=False).lines(
         sheet(x=10.0 + FIELD, theta=math.pi / 2, strokes=(stroke(1.0, 2.0, 9.0, 2.0),)),
         Viewport(0.0, 0.0, FIELD / 20 * 2),
@@ -301,9 +301,9 @@ def test_the_field_lies_in_the_picture_as_its_frame_does():
         for column in range(80)
         if (ground := style_at(lines, column, row).bgcolor) and ground.name == "#4556ff"
     }
-    # Two thirds of a metre to a column: 18 of 80 cells of 0.554 m are 10 m, 20 more the field.
+    # A column is 0.554 m: 18 of 80 columns are 10 m, and the field has 20 more.
     assert blue == {(column, row) for row in range(10, 20) for column in range(18, 38)}
-    # What was drawn along its x axis, two metres from it, goes up, two metres from the right.
+    # A drawing along the field's x axis, two metres from it, goes up, two metres from the right.
     assert {column for column, _ in dotted(lines)} == {math.floor((8.0 + FIELD) / FIELD * 20)}
 
 
@@ -426,7 +426,8 @@ def test_a_frame_is_a_named_point_with_red_axis_ahead_and_green_one_to_its_left(
 
     assert words(lines)[8][16] == "●"
     assert "carrot1" in "".join(words(lines))
-    # Turned to the left by a quarter, ahead is up, and its left is left.
+    # The turtle is turned to the left by a quarter, so its x axis points up and its y axis to the
+    # left.
     red, green = dotted(lines, colors.x_axis), dotted(lines, colors.y_axis)
     assert red
     assert all(column == 16 and row < 8 for column, row in red)
@@ -495,7 +496,7 @@ def test_the_grid_says_its_metres():
     assert [line[:4].strip() for line in text[:-1] if line[:4].strip()] == [
         "8", "6", "4", "2", "0", "-2"
     ]  # fmt: skip
-    # Where 0 stands at both sides, two lines cross.
+    # If 0 is a label on both sides, the two lines cross.
     assert text[16][:5].split() == ["0"] or text[15][:5].split() == ["0"]
 
 
@@ -530,7 +531,7 @@ def test_without_colour_a_big_turtle_is_an_arrow():
 
 
 def letters(lines, row):
-    """The colour of every letter of a row, and whether it stands on the field."""
+    """Return the colour of every letter of a row, and whether the letter is on the field."""
     found = []
     for segment in lines[row]:
         style = segment.style

@@ -1,4 +1,4 @@
-"""The tree in a terminal's width."""
+"""Tests of the tree in the width of a terminal."""
 
 from itertools import pairwise
 
@@ -70,7 +70,7 @@ def test_forty_levels_are_readable_in_eighty_columns():
 
     assert len(drawn) == 42
     assert all(f"link_{n}" in line for n, line in enumerate(drawn[1:]))
-    # Each one cell further to the right than what it hangs from.
+    # Each child begins one cell further to the right than its parent.
     starts = [line.index("link_") for line in drawn[1:]]
     assert all(after - before == 1 for before, after in pairwise(starts[1:]))
     assert drawn[-1].split()[-2:] == ["0.02", "s"]

@@ -1,4 +1,4 @@
-"""Differences as lines, in as many cells as a terminal has."""
+"""Tests of differences as lines, in the width of a terminal."""
 
 import pytest
 from rich.cells import cell_len
@@ -19,5 +19,5 @@ def test_what_has_no_room_stands_below_its_link(width):
 
     assert lines(found, 200) == wide
     assert max(map(cell_len, wide.splitlines())) > width >= max(map(cell_len, told.splitlines()))
-    # The same words in the same order: each link, then what is to say of it.
+    # The words and their order are the same: each edge, followed by its differences.
     assert told.split() == wide.split()

@@ -1,4 +1,4 @@
-"""Pictures of the tree: exact small ones, escapes in every format, thousands of frames."""
+"""Tests of pictures of the tree: exact small ones, escapes in every format, thousands of frames."""
 
 import base64
 import hashlib
@@ -77,7 +77,7 @@ def many(count, fan=3):
 
 
 def test_dot_is_what_view_frames_writes():
-    # spec 7.6: numbers as Python floats, Buffer length before Most recent, a trailing \n.
+    # spec 7.6: numbers as Python floats, Buffer length before Most recent, a trailing \n
     drawn = draw(snapshot(root("world"), base(), link("arm", "base")), "dot").content
 
     assert drawn == (
@@ -117,7 +117,7 @@ DOT_TOKENS = re.compile(r'"(?:[^"\\]|\\.)*"|[A-Za-z_]+|->|[{}\[\];=,]|(\s+)|(.)'
 
 
 def dot_edges(text):
-    """Read dot by its lexical rules; return the edges' quoted ends."""
+    """Read dot by its lexical rules; return the quoted ends of the edges."""
     tokens = []
     for found in DOT_TOKENS.finditer(text):
         assert found[2] is None, f"{found[2]!r} is no token of dot"
@@ -137,7 +137,7 @@ def test_no_name_escapes_from_dot():
     edges = dot_edges(drawn)
     assert len(edges) == len(HOSTILE)
     assert {parent for parent, _ in edges} == {'"world"'}
-    assert "evil [label" in drawn.replace('\\"', '"')  # it is there, as a name
+    assert "evil [label" in drawn.replace('\\"', '"')  # the text is part of a name
     assert "\x1b" not in drawn
     assert r'"a&lt;b"[label="a&amp;lt;b"];' in drawn
 
@@ -280,7 +280,7 @@ def test_svg_draws_static_links_and_frames_differently():
     kinds = [element.get("class") for element in tree.iter(f"{SVG}rect")]
     styles = [element.get("class") for element in tree.iter(f"{SVG}path")]
     assert kinds == ["root", "static", "dynamic"]
-    assert styles == ["still", None, None, "still"]  # two links, and the legend's two
+    assert styles == ["still", None, None, "still"]  # two edges, and the legend's two
 
 
 def test_svg_shows_the_moment_looked_at_beside_the_moment_recorded():
@@ -373,7 +373,7 @@ def test_a_loop_is_drawn_and_said():
 
 
 def pdf_text(data):
-    """Read a PDF by its own table of objects; return what its page's stream draws."""
+    """Read a PDF with its table of objects; return the drawing commands of its page."""
     assert data.startswith(b"%PDF-1.")
     start = int(re.search(rb"startxref\n(\d+)\n%%EOF\n$", data)[1])
     head, table = re.match(rb"xref\n0 (\d+)\n((?:\d{10} \d{5} [nf] \n)+)", data[start:]).groups()
@@ -423,7 +423,7 @@ def test_every_suffix_names_a_format():
     assert set(drawing.SUFFIXES.values()) == set(drawing.FORMATS)
 
 
-# Frames that are not sent any more, letters a font lacks, and the page
+# Frames that are no longer sent, letters that a font lacks, and the page
 
 
 STALE = {"base": ("edge-stopped",)}
@@ -441,7 +441,7 @@ def test_a_card_of_a_frame_that_is_sent_no_more_is_marked_and_says_how_old_it_is
     assert '<rect class="stale"' in marked
     assert ">Most recent transform: 3.0 s, 9.5 s old</text>" in marked
     assert '<rect class="stale"' not in plain
-    # An amber edge, 0.851 0.451 0.102, around it.
+    # An amber border, 0.851 0.451 0.102
     assert "0.85 0.45 0.10 RG" in unpacked(draw(frames, "pdf", STALE).content)
     assert "0.85 0.45 0.10 RG" not in unpacked(draw(frames, "pdf").content)
 
@@ -492,7 +492,7 @@ def test_the_page_is_one_file_with_the_picture_and_every_fact():
 def test_names_are_nothing_but_names_in_the_page():
     page = draw(hostile(), "html").content
 
-    # One script, the one that the page's own rule allows.
+    # The page has one script, which its security policy allows.
     (script,) = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
     allowed = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     assert f"script-src 'sha256-{allowed}'" in page

@@ -1,4 +1,4 @@
-"""A diagnosis as text, for programs, for an issue, for a build server."""
+"""Tests of a diagnosis as text, for programs, for an issue, and for a build server."""
 
 import io
 import json
@@ -31,7 +31,8 @@ def shown(what) -> str:
 
 
 def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
-    # 400 transforms of odometry and two statics; base_link, laser, odom and the camera's two.
+    # 400 transforms of odometry and two static ones; base_link, laser, odom and the camera's two
+    # frames.
     assert shown(findings.render(jumping().judged())).splitlines() == [
         "made up: columns, 8.0 s, 2 topics, 5 frames, 2 trees, 402 transforms",
         "",
@@ -110,7 +111,7 @@ def test_no_name_acts_in_an_issue():
     text = findings.as_markdown(made.judged())
     rows = [line for line in text.splitlines() if line.startswith("| error")]
     assert len(rows) == 1
-    # Unescaped bars of the row are those of its cells: the four that frame three of them.
+    # The row has three cells, so it has four unescaped bars.
     assert rows[0].count("|") == 4
     assert "\n# x" not in text
     assert "````text" in text
@@ -163,7 +164,7 @@ def test_on_a_terminal_an_explanation_is_broken_between_words(check):
 
     assert text.split() == findings.explained(check).split()
     for line in text.splitlines():
-        # What is longer alone is an address or a command.
+        # Only a line that consists of an address or a command may be longer.
         assert len(line) <= 60 or len(line.split()) <= 2
 
 

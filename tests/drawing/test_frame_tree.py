@@ -229,7 +229,7 @@ def test_a_deep_chain_is_indented_so_far_and_then_numbered():
     assert by_name["f64"].startswith(" " * 4 * 63 + "└── f64 ")
     assert by_name["f65"].startswith("65…└── f65 ")
     assert by_name["f3000"].startswith("3000…└── f3000 ")
-    # As long as a few levels make them, not as the depth does: 3000 lines of 12 kB would be 36 MB.
+    # The length of a line is limited, whatever the depth: 3000 lines of 12 kB would be 36 MB.
     assert max(map(len, lines)) < 500
 
 

@@ -1,4 +1,4 @@
-"""Tables of a recording's facts, in as many cells as a terminal has."""
+"""Tests of the tables of a recording's facts, in the width of a terminal."""
 
 import pytest
 from rich.cells import cell_len

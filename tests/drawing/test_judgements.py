@@ -1,4 +1,4 @@
-"""Judgements as a table, as rows and as a JUnit report."""
+"""Tests of results of scenarios as a table, as rows and as a JUnit report."""
 
 import io
 from xml.etree import ElementTree
@@ -33,14 +33,14 @@ NASTY = Report(
 
 
 def text(*reports, width=90, render=judgements.render_all):
-    """What a terminal of that width, without colour, would show."""
+    """Return the text on a terminal of that width without colour."""
     console = Console(file=io.StringIO(), width=width, color_system=None)
     console.print(render(reports))
     return console.file.getvalue()
 
 
 def brief(*reports, width=90):
-    """The same of what only the failures are told in full."""
+    """Return the same text with only the failures in full."""
     return [
         line.rstrip() for line in text(*reports, width=width, render=judgements.render).split("\n")
     ]
@@ -50,7 +50,7 @@ def test_a_scenario_is_one_line_and_only_what_failed_is_told_in_full():
     assert brief(GOOD, BAD, EMPTY) == [
         "turtles  ok      1 of 1 expectation held",
         "own      FAILED  0 of 2 expectations held",
-        # The cause comes first: what was expected fails because of it.
+        # The cause comes first: the expectation fails because of it.
         "                 node 'script' failed: TftoolError: no node serves 'clear'",
         "                 and more",
         "                 line 4: by 9 s: distance from a to b below 1 m",

@@ -1,4 +1,4 @@
-"""The tidy layout obeys its rules, whatever the forest."""
+"""Tests that the layout of a tree obeys its rules, for any trees."""
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,7 +12,8 @@ TREE_GAP = 40.0
 def test_a_parent_stands_over_the_middle_of_its_children():
     items = [Item(40, (1, 2)), Item(20), Item(60)]
 
-    # 20 + gap 10 + 60 wide; the children's middles are 10 and 60, the parent's between.
+    # Width 20 + gap 10 + width 60. The children's centres are 10 and 60, and the parent's is
+    # between them.
     assert tidy(items, [0], gap=GAP, tree_gap=TREE_GAP) == [
         Spot(35, 0),
         Spot(10, 1),
@@ -27,7 +28,7 @@ def test_trees_stand_side_by_side_and_clear_of_each_other():
 
 
 def test_small_subtrees_between_large_ones_are_spread_evenly():
-    # The outer children fan out two levels down; the leaf between them has slack.
+    # The outer children have wide subtrees two levels down; the leaf between them has free space.
     items = [
         Item(10, (1, 2, 3)),
         Item(10, (4, 5, 6)),
@@ -47,7 +48,7 @@ def test_nothing_is_placed_when_there_is_nothing():
 
 
 def test_an_item_that_fills_levels_keeps_others_off_all_of_them():
-    # Item 1 fills levels 1 and 2; item 3 hangs on level 2 and would slide under it.
+    # Item 1 fills levels 1 and 2; item 3 is on level 2 and would be placed below it.
     items = [Item(10, (1, 2)), Item(10, levels=2), Item(10, (3,)), Item(50)]
 
     places = tidy(items, [0], gap=GAP, tree_gap=TREE_GAP)

@@ -17,7 +17,7 @@ START = seconds(1000)
 
 @pytest.fixture(scope="module")
 def path() -> TransformArray:
-    """Ten seconds: away from one metre to ten, and a turn and a half to the left."""
+    """Return ten seconds of a motion from one metre to ten, with a turn and a half to the left."""
     buffer = Buffer(cache_time=seconds(60))
     for tenth in range(101):
         yaw = 3.0 * math.pi * tenth / 100

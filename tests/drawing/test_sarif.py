@@ -1,4 +1,4 @@
-"""SARIF as the standard's own schema demands it, with what code hosts need to show it."""
+"""Tests of SARIF against the standard's own schema, and against the needs of code hosts."""
 
 import json
 from importlib.resources import files

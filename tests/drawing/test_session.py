@@ -1,4 +1,4 @@
-"""Who shares a session, in aligned columns."""
+"""Tests of the list of a session's processes in aligned columns."""
 
 import pytest
 from rich.cells import cell_len

@@ -1,4 +1,4 @@
-"""Numbers in few cells."""
+"""Tests of numbers in few cells."""
 
 import pytest
 

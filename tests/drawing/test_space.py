@@ -1,4 +1,4 @@
-"""Frames in space: a depth buffer, meshes, the camera, and the cells made of them."""
+"""Tests of 3-D pictures: depth buffer, meshes, camera, and the cells of a terminal."""
 
 import base64
 import re
@@ -37,7 +37,7 @@ def test_the_nearer_surface_hides_the_farther_one():
     corners = np.concatenate([square(1.0), square(5.0, 2.0)])
     found = rasterise(corners, np.concatenate([HALVES + 4, HALVES]), 16, 16)
 
-    # 8 × 8 points of the large square, of which the small one takes 4 × 4.
+    # The large square has 8 × 8 points, of which the small one covers 4 × 4.
     assert (found.owners >= 0).sum() == 64
     assert np.isin(found.owners, (0, 1)).sum() == 16
     assert set(found.depths[found.owners >= 0].tolist()) == {1.0, 5.0}
@@ -231,7 +231,7 @@ def test_from_above_the_ball_covers_the_pin_and_from_the_side_it_does_not(pictur
             and rgb.red == rgb.blue == 0
         )
 
-    # The base is a square of 2 m from above, and half of that from the side.
+    # The base is a square of 2 m from above, and half as large from the side.
     assert green("top") > 1.5 * green("side") > 20
 
 
@@ -308,7 +308,7 @@ def test_a_turned_link_turns_its_solid():
 
 
 def spread(count):
-    """A fan of frames around one root, far enough from each other for a name each."""
+    """Return frames around one root, far enough from each other for a name each."""
     frames = [SpaceFrame("root", Transform())]
     for number in range(count):
         angle = 2.0 * np.pi * number / count
@@ -336,7 +336,7 @@ def test_names_do_not_cover_the_robot_where_there_is_room_beside_it(picture):
     named = [line for line in lines if "ball" in line or "base" in line]
 
     assert len(named) == 2, lines
-    # A name within the robot would have parts of it on both sides.
+    # A name that covers the robot would have parts of the robot on both sides.
     assert not any(re.search(r"[▀▄].*[a-z]{4}.*[▀▄]", line) for line in named)
 
 

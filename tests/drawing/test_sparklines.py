@@ -1,4 +1,4 @@
-"""Small curves of rate and delay beside each frame."""
+"""Tests of small curves of rate and delay beside each frame."""
 
 import pytest
 
@@ -24,7 +24,7 @@ def test_rate_and_delay_are_counted_from_look_to_look(room, cells):
     now = seconds(100)
     for look in range(20):
         now += seconds(0.5)
-        # Ten messages a look at first, and none later; each 0.1 s old.
+        # Ten messages per look at first, and none later; each is 0.1 s old.
         for _ in range(10 if look < 10 else 0):
             sample = TransformStamped(now - seconds(0.1), "map", "base", Transform.identity())
             traffic.receive(now, [sample], "driver", is_static=False)

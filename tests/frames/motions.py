@@ -1,4 +1,4 @@
-"""Made motions of one rigid body with a known mount, clock offset and noise."""
+"""Simulated motions of one rigid body with a known mount, clock offset and noise."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from tftool.base.stamps import NANOSECONDS
 
 @dataclass(frozen=True)
 class World:
-    """Two motions, and the truth about them."""
+    """Two motions, and the true values."""
 
     a: TransformArray
     b: TransformArray
@@ -60,23 +60,23 @@ def world(
     pace=1.0,
     flips=0.0,
 ):
-    """Make a body move smoothly, and two chains that measure it.
+    """Simulate a body that moves smoothly, and two chains that measure it.
 
     Args:
-        seed: Of all random numbers.
-        kind: "3d", "axis" (turns about z alone), "planar" (x, y and yaw alone), "still" (no turns),
+        seed: Seed of all random numbers.
+        kind: "3d", "axis" (turns about z only), "planar" (x, y and yaw only), "still" (no turns),
             "rest" (no motion at all).
-        seconds: Length.
-        rates: Poses a second of A and B.
-        noise: Deviation of one pose, metres and degrees an axis.
-        offset: Clock of A less that of B, seconds.
-        outliers: Share of B's poses that are anywhere.
+        seconds: Duration.
+        rates: Poses per second of A and B.
+        noise: Standard deviation of one pose per axis, metres and degrees.
+        offset: Clock of A minus clock of B, seconds.
+        outliers: Share of B's poses that are random.
         ppm: Drift of A's clock.
         scale: Factor by which A's translations are too long.
         upside: Whether B is given as the inverse.
-        drift: Random walk of A: its share of the way after one metre and one radian.
+        drift: Random walk of A, as a share of the distance after one metre and one radian.
         pace: Factor of the speed.
-        flips: Share of B's poses that are turned by half a turn, as those of a tag are.
+        flips: Share of B's poses that are turned by half a turn, as by an ambiguous tag.
     """
     dice = np.random.default_rng(seed)
 
@@ -169,7 +169,7 @@ def world(
 
 
 def errors(found, truth):
-    """Return how far a mount is from the truth: metres by axis, degrees about B's axes."""
+    """Return the errors of a mount: metres by axis, degrees about B's axes."""
     shift = np.subtract(found.translation, truth.translation)
     back = np.array([truth.rotation]) * [-1.0, -1.0, -1.0, 1.0]
     (off,) = product(back, np.array([found.rotation]))

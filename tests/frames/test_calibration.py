@@ -1,4 +1,4 @@
-"""Calibration from made motions whose mount and clock offset are known."""
+"""Tests of calibration with simulated motions whose mount and clock offset are known."""
 
 from dataclasses import replace
 
@@ -73,7 +73,7 @@ def test_intervals_hold():
         inside += list(np.abs(shift) <= found.interval95.translation)
         inside += list(np.abs(turn) <= found.interval95.rotation_deg)
 
-    # 95 % are meant to; of 120 fewer than 100 would be a fault, not bad luck.
+    # The intervals should contain 95 %; fewer than 100 of 120 would be a fault, not bad luck.
     assert sum(inside) >= 100
 
 
@@ -184,7 +184,7 @@ def test_the_drift_of_a_clock_is_estimated_over_a_long_recording():
 
 
 def wandering(poses, degrees, metres):
-    """Return poses whose fixed frame turns and moves slowly, as that of an odometry does."""
+    """Return poses whose fixed frame turns and moves slowly, as the frame of an odometry does."""
     share = np.linspace(-1.0, 1.0, len(poses))[:, None]
     bend = np.sin(2.0 * share)
     turns = quaternions(np.radians(degrees) * bend * [0.2, 0.1, 1.0])

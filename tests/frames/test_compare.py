@@ -1,4 +1,4 @@
-"""What differs between two sets of frames is found, measured, and nothing else is."""
+"""Tests that the differences between two sets of frames are found and measured."""
 
 import math
 
@@ -15,7 +15,7 @@ START = 1_700_000_000 * SECOND
 
 
 def frames(start=START, period=SECOND // 10, count=100, *, off=0.0, laser=None):
-    """map -moving- base -static- laser; `off` moves base to the side for the later half."""
+    """Return map -moving- base -static- laser; `off` moves base sideways in the later half."""
     found = Buffer(seconds(1000))
     for n in range(count):
         late = off if 2 * n >= count else 0.0
@@ -66,7 +66,8 @@ def test_what_moves_is_measured_with_its_worst_and_when():
 
 
 def test_other_stamps_are_compared_between_the_samples():
-    # Half as often, and a little later: a straight line and a steady turn lose nothing by it.
+    # Half the rate and later stamps: a straight motion and a steady turn can be interpolated
+    # exactly.
     found = tftool.diff(frames(), frames(START + 1234, SECOND // 5, 50), mm=0.1, deg=0.01)
 
     assert not found.changed or found.changed[0].displacement.millimetres < 0.2
@@ -88,7 +89,7 @@ def test_links_that_come_go_and_hang_elsewhere_are_named():
 
     found = tftool.diff(frames(), other)
 
-    # It lies where it lay, but turned: seen from the parent it had.
+    # The laser is at the same position but turned, as seen from its former parent.
     laser = next(one for one in found.links if one.child == "laser")
     assert changes(found) == {
         "imu": (Change.added,),

@@ -1,4 +1,4 @@
-"""Digits by the million are those Python writes one by one."""
+"""Tests that numbers written in bulk equal the numbers that Python writes one by one."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def test_rows_are_those_of_python(numbers):
 
     for line, row in zip(lines, numbers.tolist(), strict=True):
         for word, number in zip(line.split(" "), row, strict=True):
-            # The last digit may be rounded the other way, where it is a tie but for the float.
+            # The last digit may be rounded in the other direction if the number is nearly a tie.
             assert word == exactly(number) or abs(float(word) - number) <= 0.5001e-9 + np.spacing(
                 abs(number)
             )

@@ -1,4 +1,4 @@
-"""Which formats there are, and what writes each."""
+"""Tests of the export formats and their writers."""
 
 from tftool.frames.export.export_formats import Format
 from tftool.frames.export.static_files import LINK_WRITERS
@@ -6,7 +6,7 @@ from tftool.frames.export.trajectory_files import TRAJECTORY_WRITERS
 
 
 def test_every_format_has_a_writer_of_its_own():
-    # MCAP holds messages over time, and is written from the buffer itself.
+    # MCAP contains messages over time, and is written from the buffer itself.
     of_links = {form for form in Format if not form.is_trajectory} - {Format.mcap}
 
     assert set(TRAJECTORY_WRITERS) == {form for form in Format if form.is_trajectory}

@@ -1,4 +1,4 @@
-"""At which moments a pair is asked for, and what becomes of those that are refused."""
+"""Tests of the times at which a pair is looked up, and of refused lookups."""
 
 import math
 
@@ -20,7 +20,7 @@ def moved(buffer, parent, child, stamps, turn=0.0):
 
 @pytest.fixture
 def buffer():
-    """map -1 Hz- odom -10 Hz- base -static- laser, from 1 s to 5 s; odom has a second more."""
+    """Return map -1 Hz- odom -10 Hz- base -static- laser from 1 s to 5 s; odom until 6 s."""
     found = Buffer(seconds(100))
     moved(found, "map", "odom", [n * SECOND for n in range(1, 7)])
     moved(found, "odom", "base", [n * SECOND // 10 for n in range(10, 51)])
@@ -56,7 +56,7 @@ def test_a_period_begins_at_the_start(buffer):
 def test_what_is_refused_is_told_in_runs(buffer):
     found = sample(buffer, "map", "laser", Moments(period=SECOND // 2))
 
-    # The base ends at 5 s, what carries it at 6 s.
+    # base ends at 5 s, and odom ends at 6 s.
     (run,) = found.refusals
     assert (run.first, run.last, run.count) == (5 * SECOND + SECOND // 2, 6 * SECOND, 2)
     assert "extrapolation into the future" in run.reason

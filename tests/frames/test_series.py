@@ -1,4 +1,4 @@
-"""Curves over time: units, gaps, and what is refused."""
+"""Tests of curves over time: units, gaps, and refusals."""
 
 import math
 
@@ -14,7 +14,7 @@ SECOND = seconds(1)
 
 
 def circling(stamps):
-    """A frame on a circle of 2 m about the origin, once round in 10 s, facing ahead."""
+    """Return a frame on a circle of 2 m about the origin, one turn in 10 s, facing ahead."""
     buffer = Buffer(seconds(1000))
     for second in stamps:
         angle = 0.2 * math.pi * second
@@ -46,7 +46,7 @@ def test_what_is_drawn_of_a_circle_is_known():
     assert drawn["x"].times[0] == 0.0
     yaw = drawn["yaw"].values
     assert np.nanmax(np.abs(yaw)) <= 180.0
-    # Twice half a turn is passed in 20 s, and nothing is drawn across.
+    # The yaw passes half a turn twice in 20 s, and no line is drawn at these points.
     assert np.count_nonzero(np.isnan(yaw)) == 2
     steps = np.abs(np.diff(yaw))
     assert np.nanmax(steps) < 2.0

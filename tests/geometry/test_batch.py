@@ -1,4 +1,4 @@
-"""Each function for many gives, row by row, what its namesake gives for one."""
+"""Tests that functions for arrays give, row by row, the result of the function for one value."""
 
 import math
 

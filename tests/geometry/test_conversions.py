@@ -31,7 +31,7 @@ def test_either_set_of_angles_means_the_same_rotation(turn):
         conversions.second_rpy_from_quaternion,
     ):
         again = conversions.quaternion_from_rpy(*angles_of(turn))
-        # So much is lost next to the poles, where two of the three angles become one.
+        # Near the poles, two of the three angles become one, which loses this accuracy.
         assert quaternions.angle_between(again, turn) < NEAR_A_POLE
 
 
@@ -114,7 +114,7 @@ def test_transforms3d_agrees_about_roll_pitch_yaw(roll, pitch, yaw):
 
     assert conversions.quaternion_from_euler((roll, pitch, yaw), "sxyz") == pytest.approx(ours)
     theirs = conversions.euler_from_quaternion(ours, "sxyz")
-    # Half a turn is the same turn with either sign.
+    # Half a turn is the same rotation with either sign.
     apart = zip(theirs, conversions.rpy_from_quaternion(ours), strict=True)
     assert [math.remainder(a - b, math.tau) for a, b in apart] == pytest.approx([0, 0, 0], abs=1e-6)
 

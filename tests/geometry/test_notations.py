@@ -1,4 +1,4 @@
-"""Every notation of a rotation in numbers."""
+"""Tests of every notation of a rotation."""
 
 import pytest
 

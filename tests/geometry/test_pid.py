@@ -46,7 +46,7 @@ def test_an_output_at_its_limit_does_not_wind_the_integral_up():
 
 
 def test_an_integral_may_shrink_while_the_output_is_at_its_limit():
-    # 20 steps of error 0.4 leave an integral of 0.8; then the error changes sign.
+    # 20 steps of error 0.4 give an integral of 0.8; then the error changes its sign.
     gains = Gains(0.0, 1.0, output_limit=0.5)
     *_, last = outputs(gains, [-0.4] * 12 + [4.0])
 

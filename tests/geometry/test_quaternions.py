@@ -33,7 +33,7 @@ def test_turning_a_vector_is_what_its_matrix_does(turn, vector):
 
 
 def out_of_a_matrix(m):
-    """tf2's own way from a matrix to a quaternion: spec, canonical sign."""
+    """Convert a matrix to a quaternion as tf2 does, with the canonical sign of the spec."""
     trace = m[0][0] + m[1][1] + m[2][2]
     if trace > 0.0:
         w = 0.5 * math.sqrt(trace + 1.0)
@@ -52,7 +52,7 @@ def test_the_sign_is_the_one_that_comes_out_of_a_matrix(turn):
     by_matrix = out_of_a_matrix(quaternions.matrix(turn))
     by_rule = quaternions.canonical(turn)
 
-    # At the limits between the cases rounding decides, and both signs are right.
+    # At the limits between the cases, rounding decides, and both signs are right.
     near_a_limit = abs(turn[3] ** 2 - 0.25) < 1e-9 or any(
         abs(abs(turn[i]) - abs(turn[j])) < 1e-9 for i, j in ((0, 1), (0, 2), (1, 2))
     )
@@ -66,7 +66,7 @@ def test_slerp_goes_the_same_way_back(start, end, fraction):
     there = quaternions.slerp(start, end, fraction)
     back = quaternions.slerp(end, start, 1.0 - fraction)
 
-    # Between opposite ends either arc is the shorter one.
+    # Between opposite rotations, both arcs are equally short.
     if abs(sum(a * b for a, b in zip(start, end, strict=True))) > 1e-6:
         assert same(there, back, 1e-9)
     assert math.hypot(*there) == pytest.approx(1.0)
@@ -84,7 +84,7 @@ def test_slerp_covers_its_share_of_the_angle(start, end, fraction):
 @given(rotations)
 def test_slerp_between_equals_stays_to_the_last_bit(turn):
     x, y, z, w = turn
-    # Added up as slerp does; from Python 3.12 on, `sum` rounds less.
+    # The terms are added in slerp's order; from Python 3.12 on, `sum` rounds less.
     cosine = x * x + y * y + z * z + w * w
 
     assert quaternions.slerp(turn, turn, 0.3) == (turn if cosine >= 1.0 else pytest.approx(turn))

@@ -1,4 +1,4 @@
-"""What people paste means what they mean; scipy and transforms3d are asked what that is."""
+"""Tests of pasted rotations against scipy and transforms3d."""
 
 import math
 
@@ -128,7 +128,7 @@ def test_radians_that_look_like_degrees_are_said():
 @pytest.mark.parametrize("axes", AXES)
 def test_every_order_of_axes_is_scipys(axes):
     angles = (0.3, -0.4, 1.2)
-    # scipy: capital letters for rotating axes, small ones for fixed.
+    # scipy uses capital letters for rotating axes, and small letters for fixed ones.
     order = axes[1:].upper() if axes[0] == "r" else axes[1:]
     wanted = Rotation.from_euler(order, angles)
 
@@ -148,7 +148,7 @@ def test_every_way_out_is_a_way_in(turn):
     pose = Transform(
         (0.25, -1e-7, 12345.678), read(" ".join(map(str, turn)), "xyzw").transform.rotation
     )
-    # transforms3d's angles lose digits near their poles: they have a test of their own.
+    # transforms3d's angles lose digits near their poles, which have a test of their own.
     for form in (one for one in TARGETS if one not in AXES):
         text = alone(pose, form)
         bare = None if form in ("matrix4", "urdf", "static") else form

@@ -1,8 +1,7 @@
-"""The ROS definitions of what a link carries, and their hashes by way of rosbags.
+"""ROS definitions of the messages that a link carries, and their hashes as rosbags computes them.
 
-Messages are hashed by rosbags itself. Services and actions are made of messages
-(request, response, event; goal, result, feedback), put together here as ROS 2's
-own generator does.
+rosbags hashes messages itself. Services and actions consist of messages (request, response, event;
+goal, result, feedback), which are composed here as ROS 2's generator does.
 """
 
 import pytest
@@ -75,14 +74,14 @@ ACTIONS = {
 
 
 def empty_store():
-    """A rosbags type store that knows nothing yet."""
+    """Return a rosbags type store without types."""
     return get_typestore(Stores.EMPTY)
 
 
 def store():
-    """A rosbags type store that knows every type above, parts included."""
+    """Return a rosbags type store with every type above, and the types of their fields."""
     types = get_typestore(Stores.ROS2_JAZZY)
-    # Its gid is written char[16]; ROS 2 hashes what that becomes in IDL, uint8[16].
+    # The definition has gid as char[16]; ROS 2 hashes its form in IDL, uint8[16].
     del types.fielddefs["service_msgs/msg/ServiceEventInfo"]
     del types.types["service_msgs/msg/ServiceEventInfo"]
     register(types, "service_msgs/msg/ServiceEventInfo", EVENT_INFO)
@@ -124,10 +123,10 @@ def _service(types, name, request, response):
 
 
 def register(types, name, text):
-    """Tell a type store of a structure, whatever folder it is of."""
+    """Add a structure to a type store, whatever its folder is."""
     if name not in types.fielddefs:
         found = get_types_from_msg(text, name)
-        # rosbags files what is in a srv folder under srv/msg; ROS 2 hashes it under srv.
+        # rosbags stores types of a srv folder under srv/msg; ROS 2 hashes them under srv.
         types.register({_plain(key): _plain(value) for key, value in found.items()})
 
 

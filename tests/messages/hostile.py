@@ -1,4 +1,4 @@
-"""What a stranger may make of a payload."""
+"""Payloads that a hostile sender may create."""
 
 
 def mutations(chance, payload):

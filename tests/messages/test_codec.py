@@ -1,4 +1,4 @@
-"""Every message's bytes against rosbags' codec, and against everything a stranger may send."""
+"""Tests of every message's bytes against rosbags' codec, and of malformed bytes."""
 
 import array
 import random
@@ -35,7 +35,7 @@ TYPES = sorted(every_type())
 
 
 def text_of(full):
-    """A definition as a .msg file has it, types by their full names."""
+    """Return a definition as in a .msg file, with full names of types."""
     lines = []
     for field in INTERFACES.structure(full).fields:
         brackets = ""
@@ -60,7 +60,7 @@ TEXTS = ["", "a", "odom", "größe", "x" * 300, "日本"]
 
 
 def chosen(chance, kind):
-    """A random value of a primitive type."""
+    """Return a random value of a primitive type."""
     if kind in ("float32", "float64"):
         value = chance.choice([0.0, -0.0, 1.5, -2.25, chance.uniform(-1e6, 1e6), float("inf")])
         return struct.unpack("f", struct.pack("f", value))[0] if kind == "float32" else value
@@ -77,7 +77,7 @@ def chosen(chance, kind):
 
 
 def filled(chance, kind):
-    """A random message of a class; its times are those that ROS 1 has too."""
+    """Return a random message of a class, with times that ROS 1 has too."""
     message = kind()
     if kind.interface__ in ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"):
         message.sec, message.nanosec = chance.randrange(1 << 31), chance.randrange(1 << 31)
@@ -101,7 +101,7 @@ def filled(chance, kind):
 
 
 def as_rosbags(store, message):
-    """The same message as rosbags has it."""
+    """Return the same message as an object of rosbags."""
     values = []
     for field in message.fields__:
         value = getattr(message, field.name)
@@ -119,7 +119,7 @@ def as_rosbags(store, message):
 def single(store, field, value):
     if not isinstance(field.kind, str):
         return as_rosbags(store, value)
-    # rosbags has a single byte signed.
+    # In rosbags, a single byte is signed.
     return int.from_bytes(value, "little", signed=True) if field.kind == "byte" else value
 
 
@@ -143,7 +143,7 @@ def test_every_type_has_the_bytes_rosbags_writes_for_ros_1_and_is_read_back(stor
     for _ in range(4):
         message = filled(chance, ros1.kind)
 
-        # rosbags gives headers the number of ROS 1 where it converts, not where it writes.
+        # rosbags adds ROS 1's header number when it converts, not when it writes.
         cdr = store.serialize_cdr(as_rosbags(store, message), full)
         payload = bytes(store.cdr_to_ros1(cdr, full))
 
@@ -180,7 +180,7 @@ def test_anything_with_the_fields_of_a_message_can_be_written():
     assert codec(string).encode(Named()) == codec(string).encode(string(data="hello"))
 
 
-# What is refused, and why
+# Refused bytes
 
 
 def made(text):
@@ -244,7 +244,7 @@ def test_a_message_larger_than_we_read_is_refused_unread(monkeypatch):
     [
         ("string[] data", b"\x01\0\0\0\0\0\0\0", 5),
         ("std_msgs/String[] data", b"\x01\0\0\0\0\0\0\0", 5),
-        # Each of the outer list holds one more, of the inner list.
+        # Each item of the outer list contains one item of the inner list.
         ("std_msgs/MultiArrayLayout[] data", struct.pack("<IIIIII", 1, 1, 0, 2, 3, 4), 2),
     ],
 )
@@ -281,7 +281,7 @@ def test_an_empty_message_may_come_without_its_byte():
 def test_a_value_that_was_changed_in_place_and_does_not_fit_is_not_written(text, name, value, told):
     kind = made(text)
     message = kind()
-    # Past the checks of assignment, as a list that is appended to goes.
+    # This avoids the checks of assignment, like appending to a list.
     setattr(message, f"_{name}", value)
 
     if not told:
@@ -357,7 +357,7 @@ def test_an_image_is_copied_once_on_its_way_out_and_once_on_its_way_in():
     assert again == payload
     assert message == image
     assert written < 1.2
-    # An array makes room ahead for what may be appended to it.
+    # A growing array reserves memory in advance.
     assert read < 1.3
 
 
@@ -374,7 +374,7 @@ def test_a_hundred_thousand_hostile_payloads_leave_memory_flat():
     try:
         for number in range(100_000):
             if number == 90_000:
-                # Watched at the end alone: watching makes everything three times slower.
+                # Memory is traced only here, because tracing makes everything three times slower.
                 tracemalloc.start()
             decode, payload = chance.choice(cases)
             try:

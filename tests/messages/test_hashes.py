@@ -1,4 +1,4 @@
-"""Hashes of types, against what ROS 2 publishes and what rosbags computes."""
+"""Tests of type hashes against hashes that ROS 2 publishes and rosbags computes."""
 
 import pytest
 
@@ -24,7 +24,8 @@ def store():
 @pytest.mark.parametrize(
     ("name", "published"),
     [
-        # What `ros2 topic info -v`, `ros2 service info`, `ros2 action info` and rmw_zenoh show.
+        # Hashes shown by `ros2 topic info -v`, `ros2 service info`, `ros2 action info` and
+        # rmw_zenoh
         (
             "std_msgs/msg/String",
             "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18",
@@ -65,7 +66,7 @@ def test_the_hash_of_every_message_is_the_one_rosbags_computes(store, name):
 
 
 def test_a_char_is_the_uint8_that_ros_2_describes():
-    # rosbags describes it as a char.
+    # rosbags describes this type as a char.
     described = definitions.empty_store()
     described.register(definitions.get_types_from_msg("uint8 data", CHAR))
 

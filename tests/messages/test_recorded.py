@@ -1,4 +1,4 @@
-"""Definitions that come with a recording, against rosbags' reading of the same text."""
+"""Tests of definitions in recordings, against rosbags' reading of the same text."""
 
 import random
 import struct
@@ -130,7 +130,7 @@ def test_a_type_without_a_definition_in_the_recording_is_the_one_of_ros_2():
     own = Interfaces()
 
     assert own.recorded("std_msgs/msg/String")().data == ""
-    # Its parts may be missing too: rosbag2 of the first years kept no definitions.
+    # Definitions of fields may be missing too: early rosbag2 stored no definitions.
     assert own.recorded("pkg/Said", "geometry_msgs/Point at")().at.x == 0.0
 
 

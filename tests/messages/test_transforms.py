@@ -1,4 +1,4 @@
-"""Transforms as bytes, against rosbags' codec and everything a stranger may send."""
+"""Tests of transforms as bytes, against rosbags' codec, and of malformed bytes."""
 
 import random
 import struct
@@ -97,7 +97,7 @@ def test_the_array_path_reads_an_empty_message():
     assert columns.translations.shape == (0, 3)
 
 
-# What is refused, and why
+# Refused bytes
 
 
 ONE = encode_transforms(transforms(random.Random(1), 1))
@@ -166,7 +166,7 @@ def test_hostile_transforms_are_read_or_refused_and_memory_stays_flat():
     try:
         for number in range(50_000):
             if number == 45_000:
-                # Watched at the end alone: watching makes everything three times slower.
+                # Memory is traced only here, because tracing makes everything three times slower.
                 tracemalloc.start()
             decode, payload = chance.choice(cases)
             try:
@@ -196,5 +196,5 @@ def test_strangers_with_ever_new_names_do_not_fill_the_memory_for_names():
     finally:
         tracemalloc.stop()
 
-    # To keep one takes more than 200 bytes.
+    # Each stored transform would need more than 200 bytes.
     assert peak < 20_000 * 100
