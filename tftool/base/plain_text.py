@@ -1,4 +1,4 @@
-"""Text for people: resembling names, escaped control characters, short numbers."""
+"""Text for people: similar names, escaped control characters, short numbers."""
 
 import math
 import unicodedata

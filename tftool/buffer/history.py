@@ -99,7 +99,7 @@ LONGEST: Final = 1.0 + quaternions.ROUNDING
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Fields:
-        """Fields of `StaticLink` and `History`; the C kernel, if built, has its own such class."""
+        """Fields of `StaticLink` and `History`; the C kernel, if built, defines this class."""
 
         __slots__ = (
             "_newest",
@@ -597,8 +597,8 @@ class History(Fields):
     def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
         """Append records with increasing stamps, and prune those before a stamp.
 
-        All records have the origin of the existing samples. There must be at least one sample, and
-        the last record must be newer than `oldest_kept`.
+        All records have the same origin (parent and authority) as the existing samples. There must
+        be at least one sample, and the last record must be newer than `oldest_kept`.
         """
         if self.newest_stamp < oldest_kept:
             self.replace(records, array("q", [self.origin]) * (len(records) // WORDS))

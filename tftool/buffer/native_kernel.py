@@ -21,7 +21,7 @@ BUILD: Final = "native" if IS_NATIVE else "pure Python"
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Door:
-        """Fields that methods of `Buffer` read first; if built, the C kernel defines it.
+        """Fields that methods of `Buffer` read first; the C kernel, if built, defines this class.
 
         Attributes:
             _paths: Paths of the solver.

@@ -24,7 +24,7 @@ _new: Final = tuple.__new__
 
 
 class Path(NamedTuple):
-    """Links from the source and from the target up to their common ancestor.
+    """Path between two frames: the links (each frame's pose in its parent) to the common ancestor.
 
     A path is a tuple because the native kernel reads its fields by index.
 
@@ -322,7 +322,7 @@ class Solver:
         return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
 
     def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
-        """Return the state of a lookup, and the frames, one of which must change for success."""
+        """Return AVAILABLE, EXPIRED or PENDING, and the frames to watch for changes if PENDING."""
         target, source, time = lookup
         if target == source:
             return AVAILABLE, ()

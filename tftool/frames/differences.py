@@ -38,7 +38,7 @@ class Behaviour(StrEnum):
 
 
 class Change(StrEnum):
-    """Kind of change of a link from the first set of frames to the second."""
+    """Kind of change of a frame from the first set of frames to the second."""
 
     added = "added"
     gone = "gone"
@@ -200,7 +200,7 @@ def compare(
     *,
     align_starts: bool = False,
 ) -> Differences:
-    """Compare two sets of frames, link by link.
+    """Compare two sets of frames, frame by frame.
 
     Static poses are compared directly. Frames that move in both sets are compared at common stamps.
     Without common stamps, the second set is interpolated at the stamps of the first set. If one set
@@ -413,7 +413,7 @@ def diff(
     rate_percent: float | None = None,
     align_starts: bool = False,
 ) -> Differences:
-    """Compare two sets of frames, link by link; see `differences.compare`::
+    """Compare two sets of frames, frame by frame; see `differences.compare`::
 
         for one in tftool.diff("monday.mcap", "robot.urdf").changed:
             print(one.child, *one.changes)

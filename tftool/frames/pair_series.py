@@ -272,7 +272,7 @@ def _shade(run: RefusedRun, start: Stamp) -> RefusedSpan:
 def _columns(
     one: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
 ) -> "tuple[Floats, Floats, np.ndarray]":
-    """Return times in seconds, values, and a mask of the rows, from the second on, after a gap."""
+    """Return times in seconds, values, and a mask of the gaps between rows, shape (n - 1,)."""
     times = (one.path.stamps - start) / NANOSECONDS
     apart = np.diff(times)
     usual = float(np.median(apart)) if len(apart) else 0.0

@@ -79,7 +79,7 @@ class DescriptionOptions:
     urdf: Path | None = None
 
     def refuse(self, what: str) -> None:
-        """Raise an error if one of these options was given; the source has no description.
+        """Raise an error if one of these options was given for a source without a description.
 
         Args:
             what: Name of the source, as the beginning of a sentence.
@@ -109,7 +109,7 @@ class RecordingOptions:
     tf_topics: tuple[str, ...] = ()
 
     def refuse(self, what: str) -> None:
-        """Raise an error if an option that changes the result was given, but no recording.
+        """Raise an error if an option that changes the result was given without a recording.
 
         Args:
             what: Name of the source, as the beginning of a sentence.

@@ -295,7 +295,7 @@ _STOP = Twist2D()
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """Control law from distance and bearing to speed and turn rate; by default ROS's.
+    """Law from a goal's distance and bearing to speeds; its defaults are the ROS tutorial's.
 
     Attributes:
         distance: Gains from distance in metres to speed in m/s.

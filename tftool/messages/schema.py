@@ -263,7 +263,7 @@ def _of_action(folder: str, base: str, part: str) -> str | None:
 
 
 def _sections(full: str, text: str) -> dict[str, str]:
-    """Split a recorded definition into its sections; return their texts by full name."""
+    """Split a recorded definition into the definitions of its types; return these by full name."""
     first, *others = _SEPARATOR.split(text)
     # For a service's event, the recorded definition is that of the service.
     name = _DERIVED.sub("", full) if "/msg/" not in full and "---" in first else full

@@ -159,7 +159,7 @@ def _readable(text: str) -> str:
 
 
 class ContainerWriter(Protocol):
-    """Writer of one recording file; the constructor creates it, and `finish` completes it."""
+    """Writer of one recording file; the constructor creates the file, and `finish` completes it."""
 
     @property
     def size(self) -> int:
@@ -216,7 +216,7 @@ def offers_text(static: bool) -> str:
 
 
 def restyled(text: str, version: int) -> str:
-    """Rewrite policies in a text of QoS profiles as the numbers or words of a metadata version."""
+    """Return QoS profiles with numbers or words as policies, as a metadata version requires."""
 
     def policy(match: "re.Match[str]") -> str:
         before, name, value = match.groups()

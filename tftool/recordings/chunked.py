@@ -208,7 +208,7 @@ class ChunkedReader(File):
             self.damage.append(damage)
 
     def note_chunk(self, chunk: Chunk, reason: str) -> None:
-        """Report the first damage of a chunk; further damage usually follows from the first."""
+        """Report damage of a chunk, unless damage of the same chunk was reported before."""
         chunk.whole = False
         if chunk not in self._damaged:
             self._damaged.add(chunk)
@@ -239,7 +239,7 @@ class ChunkedReader(File):
     def _scan(self, chunks: Iterator[Chunk]) -> None:
         """Collect the channels and chunks of a file without an index, up to its end or damage.
 
-        A chunk's records are read only if it has no indexes, or these name undescribed channels.
+        A chunk's records are read only if it has no indexes, or they name channels not found yet.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -269,7 +269,7 @@ class ChunkedReader(File):
             )
 
     def origin(self, number: int) -> Any:
-        """Return a channel's description as stored in the file, for `adopt` of a writer."""
+        """Return the stored description of a channel, for `adopt` of this format's writer."""
         raise NotImplementedError
 
     # A chunk's messages
@@ -335,7 +335,7 @@ class ChunkedReader(File):
             chunk.whole = False
 
     def walked_table(self, chunk: Chunk) -> MessageTable:
-        """Read all records of a chunk; return the messages, and register described channels."""
+        """Return the messages in a chunk's records, and register channels in these records."""
         heads: list[MessageHead] = []
         data = self.examined(chunk)
         if data is None:
@@ -394,7 +394,7 @@ class ChunkedReader(File):
         raise NotImplementedError
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, publish times and sequence numbers of messages with these payloads."""
+        """Return log times, publish times and sequence numbers, for payloads at `starts`."""
         raise NotImplementedError
 
     def known(self, messages: MessageTable) -> MessageTable:

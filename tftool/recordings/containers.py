@@ -66,7 +66,7 @@ class ContainerFormat:
         return found
 
     def create(self, path: Path, **options: Any) -> "ContainerWriter":
-        """Create a file of this format, with those of the options that its writer has.
+        """Create a file of this format; options that its writer lacks are ignored.
 
         Raises:
             UsageError: If the container has no such compression, or a package is missing.
@@ -162,7 +162,7 @@ def container_named(name: str) -> ContainerFormat:
 
 
 def container_stored(storage: str) -> ContainerFormat:
-    """Return the file format with the storage name of rosbag2 "mcap" or "sqlite3".
+    """Return the file format that rosbag2 calls "mcap" or "sqlite3".
 
     Raises:
         UsageError: If rosbag2 has no such storage.

@@ -169,7 +169,7 @@ def _template(payload: bytes, *, is_cdr: bool) -> _Template:
 
 
 def _columns(names: tuple[str, ...], order: str, rows: list[tuple[bytes, bytes]]) -> JointStates:
-    """Return the joint states in pairs of bytes: a stamp, and the positions of all joints."""
+    """Return the joint states from pairs of bytes: the stamp, and the positions of all joints."""
     stamps, positions = (b"".join(column) for column in zip(*rows, strict=True))
     times = np.frombuffer(stamps, dtype=f"{order}u4").reshape(-1, 2).astype(np.int64)
     found = np.frombuffer(positions, dtype=f"{order}f8").astype(np.float64)

@@ -323,7 +323,7 @@ class Recording:
 
     @property
     def oddities(self) -> dict[str, int]:
-        """Return how many transforms the buffer left out or replaced, by a sentence why."""
+        """Return sentences about transforms that the buffer left out or replaced, with counts."""
         _ = self.buffer
         return dict(self._oddities)
 
@@ -463,7 +463,7 @@ def _set_moving(
 def _set_static(
     buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
 ) -> None:
-    """Insert a child's last static transform into a buffer; count it if earlier ones differ."""
+    """Insert a child's last static transform into a buffer; report differences in `oddities`."""
     edge = max(edges, key=_last)
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()

@@ -245,7 +245,7 @@ def packages_around(file: Path, name: str) -> Iterator[Path]:
 
 
 def _below(folder: Path, name: str) -> Iterator[Path]:
-    """Yield folders below `folder` that may be the package `name`, the least deep first."""
+    """Yield folders below `folder` that may be the package `name`, least nested first."""
     level: Iterable[Path] = [folder]
     seen = 0
     for _ in range(DEEPEST):

@@ -132,7 +132,7 @@ class Intervals:
 
 
 class MovingEdge:
-    """A moving edge, with tables precomputed for a batch lookup."""
+    """An edge whose pose changes, with precomputed tables for a batch lookup."""
 
     __slots__ = ("_buckets", "column", "intervals")
 
@@ -201,7 +201,7 @@ _LINE = 8
 
 
 def blocks(count: int, most: int) -> Iterator[slice]:
-    """Yield slices that split `count` times into equal blocks of at most `most`."""
+    """Yield slices that divide `count` times into equal blocks of at most `most` times."""
     # Equal blocks, because a short last block costs as many numpy calls as a full one.
     size = -(-count // -(-count // most))
     # Rows of whole cache lines: loads that cross two lines are slower.
@@ -224,7 +224,7 @@ class BlockArrays:
     """Work arrays for one block of times, and the arithmetic of a chain on these arrays."""
 
     def __init__(self, room: Floats, count: int) -> None:
-        """Divide memory from `room` into arrays for blocks of exactly `count` times."""
+        """Divide the memory `room` into arrays for blocks of exactly `count` times."""
         self.count = count
         rows = _RowAllocator(room, count)
         self._flags = rows(1)[0].view(np.bool_)[:count]

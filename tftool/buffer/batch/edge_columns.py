@@ -207,7 +207,7 @@ class Buckets:
     def find(
         self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
     ) -> None:
-        """Write into `index` the index of the last sample at or before each time, in any order."""
+        """Write the index of the last sample at or before each time into `index`, for any times."""
         # If samples come in bursts, some buckets are full, and a binary search is faster.
         if self._steps > _MOST_STEPS:
             index[:] = np.searchsorted(self._stamps, times, "right") - 1
@@ -222,7 +222,7 @@ class Buckets:
 
 
 def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
-    """Write the index of the last sample at or before each time into `index`; times sorted.
+    """Write the index of the last sample at or before each time into `index`, for sorted times.
 
     If there are fewer samples than times, the function searches the samples among the times.
     """

@@ -218,7 +218,7 @@ class _Batch:
                 self.put(row, self.ask(int(self.times[row])))
 
     def begin(self, times: Stamps, start: int) -> Indices:
-        """Solve the rows with data on the steady path; return the indices of the other rows."""
+        """Solve the rows for which `self.path` has data; return the indices of the other rows."""
         rows = slice(start, start + len(times))
         usable = (times >= self.first) & (times <= self.last) & (times != 0)
         self.valid[rows] = False
@@ -231,7 +231,7 @@ class _Batch:
         return rest
 
     def has_all(self, times: Stamps) -> bool:
-        """Whether the steady path has data at all these times, of which none is 0 (latest)."""
+        """Whether `self.path` has data at all these times, of which none is 0 (latest)."""
         least, most = int(times.min()), int(times.max())
         return self.first <= least and most <= self.last and (least > 0 or bool(times.all()))
 
@@ -349,7 +349,7 @@ class _Batch:
 
 
 def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
-    """Return the steady path, valid at all times; None if the path changes over time."""
+    """Return the path between two frames if it is the same at all times; else None."""
     walk = tree.walk(target, source, 0)
     if walk.ended != ARRIVED or not tree.is_steady(walk):
         return None

@@ -326,7 +326,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Return the determined directions, if a second axis of rotation may be only noise."""
+        """Return the determined directions, after a check that a second axis is not noise."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))

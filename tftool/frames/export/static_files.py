@@ -194,7 +194,7 @@ def _whole_name(one: FixedLink) -> FixedLink:
 
 
 def _plain(one: FixedLink) -> str:
-    """Return the options in one line; raise an error if ROS would change a frame name."""
+    """Return a publisher's options as text; raise an error if ROS would change a frame name."""
     for name in (one.parent, one.child):
         if not _PLAIN_WORD.fullmatch(name):
             raise InputError(

@@ -54,9 +54,9 @@ class StaticArguments:
 def parse(argv: Sequence[str]) -> StaticArguments | None:
     """Parse the arguments of static_transform_publisher.
 
-    `--x --y --z`, `--roll --pitch --yaw` or `--qx --qy --qz --qw`, `--frame-id` and
-    `--child-frame-id`, in any order, each with its value as the next word; or eight
-    words `x y z yaw pitch roll parent child`; or nine, `x y z qx qy qz qw parent child`.
+    The options `--x --y --z`, `--roll --pitch --yaw` or `--qx --qy --qz --qw`, `--frame-id` and
+    `--child-frame-id` may be in any order, each followed by its value. Without options, there are
+    eight words `x y z yaw pitch roll parent child`, or nine words `x y z qx qy qz qw parent child`.
 
     Returns:
         The parsed arguments; None if help is requested.

@@ -85,7 +85,7 @@ class StaticHeads:
 
     @property
     def topics(self) -> frozenset[str]:
-        """Return the topics to latch, whose static transforms are written at the start."""
+        """Return the topics that must be latched, because they are written at the start."""
         if not self.wanted:
             return frozenset()
         found = frozenset(one.channel.topic for one in self._statics)

@@ -179,7 +179,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether an input's chunks may be copied, because channel numbers mean the same here."""
+        """Whether an input's chunks may be copied: channel numbers mean the same in this file."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -295,7 +295,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """End the current chunk, which has the messages of `block`; compress it like `block`."""
+        """End the current chunk, which replaces `block`, and compress it like `block`."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)
@@ -324,7 +324,7 @@ def digest_table(
     channels: Mapping[int, Channel],
     container: str,
 ) -> None:
-    """Update each topic's checksum with messages, including all times that `container` stores."""
+    """Update each topic's checksum with messages, and with the times that `container` stores."""
     numbers: dict[tuple[str, str], list[int]] = {}
     for number in table.owners:
         channel = channels[number]

@@ -141,7 +141,7 @@ class Kinds:
         return found, np.concatenate(rest) if rest else which[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
-        """Change a message as the example of a new kind; return False for an unusual message."""
+        """Add a kind with a message as its example; return False for an unusual message."""
         if len(known) >= _MOST_KINDS:
             return False
         try:

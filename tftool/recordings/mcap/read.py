@@ -496,7 +496,9 @@ class Mcap(ChunkedReader):
     def _batch(
         self, chunk: Chunk, chosen: Mapping[int, int], singly: SingleMessages, ahead: Ahead
     ) -> Batch | None:
-        """Return a chunk's messages in chosen channels; None if none, or if `singly` read them."""
+        """Return a chunk's messages in chosen channels, unless there are none or `singly` reads
+        them.
+        """
         parts = []
         for channel, place in chunk.indexes.items():
             if channel in chosen:
