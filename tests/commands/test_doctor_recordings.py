@@ -198,7 +198,7 @@ def test_the_list_beside_a_recording_is_followed(tftool, tmp_path):
     rules = tmp_path / "run.doctor.yaml"
     rules.write_text("ignore: [unknown-frame]\n", encoding="utf-8")
     result = tftool("doctor", run)
-    assert (result.status, result.err) == (0, f"Following {rules}.\n")
+    assert (result.status, result.err) == (0, f"Using the doctor's settings in {rules}.\n")
     output = tmp_path / "found.jsonl"
     assert tftool("doctor", run, "-o", output).status == 0
 

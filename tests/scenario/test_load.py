@@ -544,8 +544,8 @@ LOOKUP = "lookup: {target: a, source: b}"
 @pytest.mark.parametrize(
     ("entry", "wrong"),
     [
-        ("{trees: 1}", "when must it hold?; say one of at: 2 s, by: 20 s, "),
-        ("{at: 1 s, by: 1 s, trees: 1}", "at, by exclude each other; say one of at: 2 s, "),
+        ("{trees: 1}", "when must it hold?; write one of at: 2 s, by: 20 s, "),
+        ("{at: 1 s, by: 1 s, trees: 1}", "at, by exclude each other; write one of at: 2 s, "),
         (
             "{at: 1 s, every: 1 s, trees: 1}",
             "'every' is only allowed together with 'by', 'during' or 'always'",

@@ -359,7 +359,7 @@ class _ScenarioReader:
         if len(said) != 1:
             wrong = f"{listed(said)} exclude each other" if said else "when must it hold?"
             reading.note(
-                node, f"{wrong}; say one of at: 2 s, by: 20 s, during: [1 s, 5 s], always: true"
+                node, f"{wrong}; write one of at: 2 s, by: 20 s, during: [1 s, 5 s], always: true"
             )
         name, question, given = tagged(node, reading, "an expectation", SUBJECTS, common, beside)
         whens = reading.try_read(lambda _, r: self.whens(node.place, given, r), node)

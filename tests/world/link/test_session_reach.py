@@ -106,8 +106,8 @@ def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypat
                 gate_world = far.graph.foreign_domains
                 assert gate_world == {3}
                 assert texts(world) == [
-                    "Another process runs in domain 3; this one runs in domain 0 and does "
-                    "not receive it. "
+                    "Another process runs in domain 3; this process runs in domain 0. "
+                    "Neither receives the other. "
                     "To join: --domain 3."
                 ]
 

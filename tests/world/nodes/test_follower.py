@@ -153,7 +153,7 @@ def test_stale_data_stops_the_follower_with_one_clear_sentence_until_it_is_fresh
     said = log_texts(world, "listener")
     assert said[1:] == [
         "The newest transform of turtle1 in turtle2 is 1.904 s old, the limit is 1 s: "
-        "stopping until there is a newer one",
+        "stopping until there is a newer transform",
         "There are new transforms of turtle1: following again",
     ]
     # t = 3, 4, 5, the stop at 6, and 10, 11, 12 again.

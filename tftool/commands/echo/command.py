@@ -203,4 +203,4 @@ def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
         stamp = int(stamps[row])
         printer.found(stamp, TransformStamped(stamp, *pair, pose))
     if len(rows) < len(stamps):
-        notice(f"{len(stamps) - len(rows)} of {len(stamps)} lookups were refused.")
+        notice(f"{len(stamps) - len(rows)} of {len(stamps)} lookups failed.")

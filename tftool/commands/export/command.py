@@ -124,7 +124,7 @@ def _tell(done: Exported) -> None:
             reason = one.refusals[0].reason.strip()
             notice(
                 visible(
-                    f"{one.source} in {one.target}: {one.refused} of {len(one.path)} moments "
+                    f"{one.source} in {one.target}: {one.refused} of {len(one.path)} times "
                     f"have no pose and are left out. The first: {reason}"
                 )
             )

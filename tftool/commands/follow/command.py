@@ -57,9 +57,9 @@ def run(connection: Connection, options: FollowOptions) -> ExitStatus:
         )
     if options.delay and options.delay >= world.buffer.cache_time:
         notice(
-            f"The buffer remembers {as_seconds(world.buffer.cache_time):g} s, so where "
-            f"{visible(options.leader)} was {as_seconds(options.delay):g} s ago is forgotten: "
-            f"--cache-time {as_seconds(options.delay + options.period):g} remembers it."
+            f"The buffer keeps {as_seconds(world.buffer.cache_time):g} s, and has forgotten where "
+            f"{visible(options.leader)} was {as_seconds(options.delay):g} s ago: give "
+            f"--cache-time {as_seconds(options.delay + options.period):g}."
         )
     world.log.listen(_tell, "console")
     Follower(

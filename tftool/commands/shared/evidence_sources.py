@@ -97,5 +97,5 @@ def rules_of(word: str | None) -> DoctorRules:
         return scenario_named(word).doctor
     rules, file = rules_beside(found.name)
     if file is not None:
-        notice(f"Following {visible(str(file))}.")
+        notice(f"Using the doctor's settings in {visible(str(file))}.")
     return rules

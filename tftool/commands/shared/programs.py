@@ -34,7 +34,7 @@ def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = Non
     """
 
     def tell(record: "LogRecord") -> None:
-        # The session prints the link's messages.
+        # The session prints the connection's messages.
         if record.node != "link":
             tell_record(record, label="" if label_of is None else label_of(record))
 

@@ -28,7 +28,7 @@ MOST_ON_SCREEN = 5_000
 """Most frames drawn on a terminal, because nobody scrolls through tens of thousands."""
 
 Moving = frozenset[str] | None
-"""Links of a description whose joints move; None for frames of other sources."""
+"""Frames whose joint moves, if the frames are of a robot description; else None."""
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> Iterator[str]:

@@ -106,7 +106,7 @@ class SceneQuestion:
         simulator = self.scene.simulator
         turtles = simulator is not None and bool(simulator.turtles)
         soon = turtles and moment.elapsed < PATIENCE
-        # The pair shown in place of the chosen one may change its root while links appear.
+        # The pair shown in place of the chosen one may change its root while frames appear.
         settled = asked == self._wished or moment.elapsed >= self._first_link_at + PATIENCE
         if soon or (settled and all(name in snapshot for name in asked)):
             return asked

@@ -142,7 +142,7 @@ class TrafficWatch(PanelApp):
             return sorted(links, key=lambda link: -(present_rate(now, link.series) or 0.0))
         if self._order == "delay":
             return sorted(links, key=lambda link: -(link.series.average_delay or 0.0))
-        # Static links have no curve; they are listed last, so that the curves stay together.
+        # Static frames have no curve; they are listed last, so that the curves stay together.
         return sorted(links, key=lambda link: link.is_static)
 
     # Keys

@@ -128,7 +128,9 @@ class LinkContext:
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
         """Count a malformed message; log the first malformed message of each topic."""
         self.refused += 1
-        self.say_once(f"refused {name}", f"On '{name}': {refusal}. Others like it are counted.")
+        self.say_once(
+            f"refused {name}", f"On '{name}': {refusal}. Further such messages are only counted."
+        )
 
     def say_once(self, what: str, sentence: str) -> None:
         """Log a warning, once for each value of `what`."""

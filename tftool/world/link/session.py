@@ -289,14 +289,13 @@ class Link(LinkContext):
     def _warn_of_rival(self, name: str, served: str) -> None:
         for rival in self.graph.entities(SERVER, name=served):
             process = self.graph.process(rival.session)
-            # Of two processes, the one that started later reports it.
+            # The process that started later reports the conflict.
             if process is None or process.since < self._since:
                 self.say_once(
                     "rival",
                     f"{process or f'node {rival.node!r}'} serves '{name}' too: two hosts of "
                     "the same turtles mix their transforms. Stop one of them, or give this "
-                    "one "
-                    "a --domain of its own.",
+                    "process a --domain of its own.",
                 )
 
     # Keeping up with the others
@@ -358,8 +357,8 @@ class Link(LinkContext):
         for domain in self.graph.foreign_domains:
             self.say_once(
                 f"domain {domain}",
-                f"Another process runs in domain {domain}; this one runs in domain "
-                f"{self.options.domain} and does not receive it. To join: --domain {domain}.",
+                f"Another process runs in domain {domain}; this process runs in domain "
+                f"{self.options.domain}. Neither receives the other. To join: --domain {domain}.",
             )
 
 

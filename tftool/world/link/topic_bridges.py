@@ -176,7 +176,7 @@ def _here(endpoints: list[Endpoint]) -> list[Endpoint]:
 
 
 LARGE: Final = 256 * 1024
-"""Smallest message of transforms in bytes that may be inserted as arrays."""
+"""Smallest size in bytes of a message whose transforms may be inserted as arrays."""
 
 LONG: Final = 64
 """Smallest average number of samples per edge at which inserting arrays is faster."""
@@ -320,8 +320,8 @@ class TransformBridge:
             self._link.say_once(
                 "clock ahead",
                 f"'{authority}' stamps its transforms {as_seconds(ahead):.1f} s after this "
-                "machine's clock, which is slow then, or that one is fast (demo --rate): ages, and "
-                "answers about the present or some seconds ago, are off by as much.",
+                "machine's clock: this clock is slow, or the other clock is fast (demo --rate). "
+                "Ages, and lookups at the present or some seconds ago, are wrong by as much.",
             )
             return
         self._link.say_once(

@@ -131,7 +131,7 @@ class Follower(Node):
             self.warn(
                 f"The newest transform of {self.leader} in {self.follower} is "
                 f"{as_seconds(age):.3f} s old, the limit is {as_seconds(self.stale_after):g} s: "
-                "stopping until there is a newer one"
+                "stopping until there is a newer transform"
             )
             self.publish(f"{self.follower}/cmd_vel", twist())
         elif self._stale and not stale:

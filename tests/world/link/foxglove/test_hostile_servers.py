@@ -274,7 +274,7 @@ def test_endless_advertise_is_bounded_and_the_frames_go_on():
 
     with server(script) as address:
         said, link = heard_by(address, lambda world, _: "base" in world.buffer.frames())
-    assert "offers more than 5000 channels: further ones are ignored" in said
+    assert "offers more than 5000 channels: further channels are ignored" in said
     assert len(link.graph.entities()) <= 5000
 
     state = ServerState()
@@ -452,7 +452,7 @@ def test_a_server_that_restarts_is_joined_again_with_its_statics(robots):
             return said
 
     said = asyncio.run(scene())
-    assert sum("what it sent stays as it was. Trying again" in one for one in said) == 3
+    assert sum("the data received so far stays. Trying again" in one for one in said) == 3
 
 
 @needs_openssl

@@ -276,8 +276,8 @@ class DdsMiddleware(Middleware):
             self.say_once(
                 f"asked {vendor}",
                 f"A node over {vendor} asks for the service '{name}': {vendor} numbers "
-                "requests in a field that DDS's library for Python cannot read, so it gets "
-                "no answer.",
+                "requests in a field that DDS's library for Python cannot read, so the node "
+                "gets no answer.",
             )
 
         try:
@@ -337,8 +337,8 @@ class DdsMiddleware(Middleware):
             self.say_once(
                 f"quality {found.name} {found.node}",
                 f"'{found.node}' publishes /{found.name} as {offers}, and tf2 asks for {wants}: "
-                f"so neither tf2's listeners nor this one receive it ({policy}). Let it "
-                f"offer {wants}.",
+                f"neither tf2's listeners nor this process receive it ({policy}). Let "
+                f"'{found.node}' offer {wants}.",
             )
         if not found.type_hash or not INTERFACES.has(found.ros_type):
             return
@@ -346,9 +346,8 @@ class DdsMiddleware(Middleware):
             self.say_once(
                 f"hash {found.name} {found.ros_type}",
                 f"'{found.node}' publishes '{found.name}' with another definition of "
-                f"{found.ros_type} than ours: messages that do not fit are not read. Give "
-                "tftool its definition (a workspace's own package), or update one of the "
-                "two.",
+                f"{found.ros_type} than tftool: messages that differ are not read. Run tftool in "
+                "a workspace with that definition, or update the publisher or tftool.",
             )
 
 

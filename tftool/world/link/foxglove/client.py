@@ -220,8 +220,8 @@ class FoxgloveClient:
             if was_there:
                 lost += 1
                 self._warn(
-                    f"The connection to {self._place} has ended ({reason}); what it sent stays as "
-                    f"it was. Trying again ({lost})."
+                    f"The connection to {self._place} has ended ({reason}); the data received so "
+                    f"far stays. Trying again ({lost})."
                 )
             with self._lock:
                 self._state = ServerState()

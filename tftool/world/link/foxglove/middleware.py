@@ -146,8 +146,8 @@ class FoxgloveMiddleware(Middleware):
         self._conversions = {one: to for one, to in self._conversions.items() if one in there}
         if ignored:
             self._warn(
-                f"{self._place} offers more than {len(state.channels)} channels: further ones "
-                "are ignored."
+                f"{self._place} offers more than {len(state.channels)} channels: further "
+                "channels are ignored."
             )
         for key in [key for key, one in self._entities.items() if found.get(key) != one]:
             self._entities.pop(key)
