@@ -194,7 +194,7 @@ def brief(diagnosis: Diagnosis) -> str:
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
-    """Return, by the check of a cause, the checks of the findings that it explains, with counts."""
+    """Map the check of each cause to the checks of its consequences, with their counts."""
     counts: dict[str, dict[str, int]] = {}
     for finding in diagnosis.findings:
         if finding.because_of is not None:

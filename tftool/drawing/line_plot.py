@@ -336,7 +336,7 @@ def pair_plot(
     ascii_only: bool = False,
     note: str = "",
 ) -> list[Text]:
-    """Draw a pair's distance and yaw, with vertical scales that ignore `span`.
+    """Draw a pair's distance and yaw; the vertical axes fit the whole path, not only `span`.
 
     Args:
         path: Poses of the pair, NaN at times without a pose.

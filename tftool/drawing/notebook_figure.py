@@ -11,7 +11,7 @@ class NotebookFigure(Figure):
     """Figure of pyplot that a notebook shows only once."""
 
     def _ipython_display_(self) -> None:
-        """Remove the figure from those shown at the end of the cell, and show it as usual."""
+        """Show the figure as usual, and do not show it again at the end of the cell."""
         if "inline" in get_backend():
             pyplot.close(self)
         # This exception makes IPython show the figure as if this method did not exist.

@@ -120,7 +120,7 @@ def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
 def as_junit(
     reports: Sequence[Report], command: str = "tftool check", whole: str = "plays to its end"
 ) -> str:
-    """Return reports as a JUnit XML document; times are those of the scenarios' own clocks.
+    """Return reports as a JUnit XML document; its times are the scenarios' simulated times.
 
     Args:
         reports: The reports.

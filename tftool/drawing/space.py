@@ -123,7 +123,7 @@ class OrbitCamera:
         self.look_from(names[(names.index(self.name) + 1) % len(names)])
 
     def turn(self, right: float, up: float) -> None:
-        """Orbit the scene to the right and up, each by a number of `TURN`s (a fixed angle)."""
+        """Orbit the scene by a number of steps to the right and up."""
         self.name = "orbit"
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi

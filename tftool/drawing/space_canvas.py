@@ -242,7 +242,7 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Return a mask of the outlines: points in front of a neighbour of another solid or depth."""
+    """Return a mask of the outlines: points nearer than a neighbour on another part of a solid."""
     edge = np.zeros(whose.shape, bool)
     with np.errstate(invalid="ignore"):
         for here, there in (
