@@ -7,13 +7,13 @@ import math
 from typing import SupportsIndex, TypeAlias
 
 Stamp: TypeAlias = int
-"""A time in nanoseconds since the clock's epoch; in a query 0 means the latest."""
+"""A time in nanoseconds since the clock's epoch; in a lookup 0 means the latest."""
 
 Duration: TypeAlias = int
 """A duration in nanoseconds."""
 
 LATEST: Stamp = 0
-"""In a query: the latest time at which every link of the chain has data."""
+"""In a lookup: the latest time at which all frames between two frames have data."""
 
 LAST_STAMP: Stamp = 2**63 - 1
 """The largest stamp: stamps have 64 bits."""

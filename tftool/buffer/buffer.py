@@ -51,7 +51,7 @@ Listener: TypeAlias = Callable[[TransformStamped, bool, str], object]
 # A cache time below this many nanoseconds was probably meant in seconds.
 _LIKELY_SECONDS: Final = 1_000_000
 
-# Errors of the fast insertion if the frame is new or the argument unusual; then `_set_slowly`.
+# The fast insertion raises these if a frame is new or an argument unusual. `_set_slowly` follows.
 _NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
 
 # Number of the newest samples that `rivals` searches for alternating senders.

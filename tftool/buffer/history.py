@@ -82,8 +82,9 @@ _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 _SLACK: Final = 3
 _LEAST_SLACK: Final = 32
 
-# Free space after the newest sample: as many records as there are, but within these limits, or
-# that part of all (a shift to the right). Making space may copy all records, so it must be rare.
+# Free space after the newest sample: as many records as there are samples, within the first two
+# limits, or if that is more, 1/16 of all (a shift by the third number). Making space may copy all
+# records, so it must be rare.
 _LEAST_ROOM: Final = 8
 _MOST_ROOM: Final = 256
 _ROOM: Final = 4

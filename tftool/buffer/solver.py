@@ -343,7 +343,8 @@ class Solver:
             return AVAILABLE, ()
         if expired:
             return EXPIRED, ()
-        # Both walks, because the missing link may have another parent at the newest time.
+        # Watch both paths, because the frame without data may have another parent at the newest
+        # time.
         newest = trees.walk(target_number, source_number, 0)
         seen = dict.fromkeys([*walk.visited(), *newest.visited()])
         return PENDING, tuple(trees.frames[number].name for number in seen)

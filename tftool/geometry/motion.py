@@ -224,7 +224,7 @@ class PidState:
 
 
 FRESH = PidState()
-"""State of a controller before its first step."""
+"""State of a controller before its first update."""
 
 
 def step(
@@ -326,7 +326,7 @@ class PursuitState:
 
 
 AT_REST = PursuitState()
-"""State of the controllers before the first step."""
+"""State of the controllers before the first update."""
 
 
 def steer(

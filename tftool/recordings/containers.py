@@ -180,6 +180,6 @@ RECORDED: Final = container_named("mcap")
 
 def library_name() -> str:
     """Return tftool's name and version, as written into files."""
-    # Rooms must not import the package `tftool` itself, so its version is read here.
+    # No module may import the package `tftool` itself, so the version is read in this way.
     version: str = sys.modules["tftool"].__version__
     return f"tftool {version}"

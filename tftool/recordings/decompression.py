@@ -31,7 +31,7 @@ twice.
 
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
-_WAITING: Final = 3  # minimum number of parts that wait for a thread
+_WAITING: Final = 3  # minimum number of chunks that wait for a thread
 _LARGEST_KEPT: Final = 31 << 20
 
 Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
@@ -115,7 +115,7 @@ class _Coming:
 
     def unpack_here(self) -> None:
         """Decompress the chunk in this thread, unless another thread has already started it."""
-        # If the future cannot be cancelled, a thread is decompressing the part.
+        # If the future cannot be cancelled, a thread is decompressing the chunk.
         if not self.future.cancel():
             return
         self.future = Future()
@@ -144,7 +144,7 @@ class Ahead:
         """
         self._keys = iter(keys)
         self._packed = packed
-        # By key, in order; None for parts that are not decompressed ahead.
+        # By key, in order; None for chunks that are not decompressed ahead.
         self._coming: dict[object, _Coming | None] = {}
         self._spare: list[_Room] = []
         self._lent: _Room | None = None
@@ -172,7 +172,7 @@ class Ahead:
         self._lent = found.room
         self._start()
         for other in self._coming.values():
-            # The wanted part is ready, so this thread need not help any more.
+            # The wanted chunk is ready, so this thread need not help any more.
             if found.future.done():
                 break
             if other is not None:
@@ -187,7 +187,7 @@ class Ahead:
             found = self._coming.pop(passed)
             if passed == key:
                 return found
-            # The memory of a part that a thread is decompressing cannot be reused yet.
+            # The memory of a chunk that a thread is decompressing cannot be reused yet.
             if found is not None and (found.future.cancel() or found.future.done()):
                 self._spare.append(found.room)
             self._start()
@@ -303,9 +303,9 @@ def lz4_frame() -> Any:
         raise _missing("lz4", "lz4") from None
     import numpy as np
 
-    # lz4 allocates memory twice for every part, which takes twice as long as decompression. Linux's
-    # malloc reuses freed memory only up to the largest size it has freed before: allocate and free
-    # a large array once. Its memory is never written.
+    # lz4 allocates memory twice for every chunk, which takes twice as long as decompression.
+    # Linux's malloc reuses freed memory only up to the largest size it has freed before: allocate
+    # and free a large array once. Its memory is never written.
     np.empty(_LARGEST_KEPT, dtype=np.uint8)
     return lz4.frame
 

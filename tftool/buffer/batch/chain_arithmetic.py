@@ -26,12 +26,13 @@ from tftool.geometry.rigid_arrays import Floats
 from tftool.geometry.soa import QuaternionRows, VectorRows, chain, rotate, tan_ratio
 
 BLOCK = 1 << 15
-"""Times solved together, as a block. Larger blocks do not fit into the processor's cache; with
-smaller blocks threads wait for each other, because only one can run Python between two operations.
+"""Number of times in a block, which are solved together. Larger blocks do not fit into the
+processor's cache; with smaller blocks threads wait for each other, because only one can run Python
+between two operations.
 """
 
 GROUP = 6
-"""Links whose fractions are computed together, in fewer and longer operations."""
+"""Number of edges whose fractions are computed together, in fewer and longer operations."""
 
 # Histories up to this length get one table of all intervals, which needs 136 bytes each.
 MOST_INTERVALS = 1 << 16

@@ -134,7 +134,7 @@ def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
         np.array(authorities, dtype=np.object_)[kind],
     )
     for array in columns:
-        # Users get copies: writing into one would not change the buffer, so it raises.
+        # Users get read-only arrays, because writing into a copy would not change the buffer.
         array.flags.writeable = False
     return SampleColumns(frame.name, is_static, *columns)
 

@@ -146,7 +146,7 @@ class _Batch:
             if len(column) > kernel.MOST_INTERVALS:
                 self.sorts = True
         self.rows_at_once = SECTION if self.sorts else CHUNK
-        # Then the intervals are computed for each block, which needs memory too.
+        # For sorted times the intervals are computed for each block, which needs memory too.
         self.block = kernel.BLOCK // 2 if self.sorts else kernel.BLOCK
         # By the link's id: a link that is on both sides is prepared once.
         self.ready: dict[int, kernel.Edge] = {}

@@ -304,7 +304,7 @@ class _Job:
         tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
         alike = len(tapes) == len(self._tapes) and self._container == "db3"
         one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
-        # Not if messages must be compressed again, or damaged rows must be skipped.
+        # Copying is impossible if messages must be compressed again, or damaged rows be skipped.
         packed = self._mode == "message" or any(one.mode == "message" for one in self._inputs)
         damaged = any(one.damage for one in self._inputs) or any(tape.damage for tape in tapes)
         if not alike or not one_to_one or packed or damaged or self._heads.wanted:
