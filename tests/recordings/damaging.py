@@ -1,9 +1,9 @@
-"""Cut and flip recordings, and ask each copy everything.
+"""Cut and change recordings, and read each copy completely.
 
 `python -m tests.recordings.damaging FILE… [--cuts 1000] [--flips 1000] [--seed 0]`
 
-Each copy has to be refused with a sentence, or answered; in bounded time and memory, and never
-with any other exception. What is not is kept, with the words that reproduce it.
+Each copy must be refused with a sentence, or read, in limited time and memory, and never with
+another exception. Copies that fail are stored, with the words that reproduce the failure.
 """
 
 import argparse
@@ -22,7 +22,7 @@ MEGABYTES = 2000
 
 
 def damaged(raw: bytes, kind: str, draw: random.Random) -> bytes:
-    """A copy that ends somewhere, or in which one byte is another."""
+    """Return a copy that is cut, or in which one byte is changed."""
     if kind == "cut":
         return raw[: draw.randrange(len(raw))]
     changed = bytearray(raw)
@@ -31,7 +31,7 @@ def damaged(raw: bytes, kind: str, draw: random.Random) -> bytes:
 
 
 def attempt(path: Path) -> str:
-    """What comes of one copy, in a word."""
+    """Return the result of reading one copy, in a word."""
 
     def too_long(*_: object) -> None:
         raise TimeoutError(f"not within {SECONDS} s")
@@ -47,7 +47,7 @@ def attempt(path: Path) -> str:
 
 
 def main(words: list[str]) -> int:
-    """Try every file; how many copies came to no good."""
+    """Try every file; return the number of copies that failed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="+", type=Path)
     parser.add_argument("--cuts", type=int, default=1000)

@@ -1,4 +1,4 @@
-"""Messages cut twice: natively, and in numpy."""
+"""Messages read twice: with native code, and with numpy."""
 
 import struct
 
@@ -18,17 +18,17 @@ POSE = Transform((1.0, -2.0, 3.5), (0.0, 0.0, 0.6, 0.8))
 
 
 def is_native():
-    """Whether there are two to compare."""
+    """Return whether the native code is installed."""
     return SCAN is not None
 
 
 def cdr(transforms):
-    """A message of (stamp, parent, child) as ROS 2 writes it."""
+    """Return a message of (stamp, parent, child) in ROS 2's layout."""
     return encode_transforms([TransformStamped(*one, POSE) for one in transforms])
 
 
 def ros1(transforms):
-    """The same as ROS 1 writes it."""
+    """Return the same message in ROS 1's layout."""
     parts = [struct.pack("<I", len(transforms))]
     for stamp, *names in transforms:
         parts.append(struct.pack("<III", 0, *divmod(stamp, 10**9)))
@@ -38,7 +38,7 @@ def ros1(transforms):
 
 
 def both(layout, messages, at_once=64):
-    """The columns of some messages, cut in numpy and natively."""
+    """Return the columns of some messages, read with numpy and with native code."""
     found = []
     for kind in (TemplateCutter, ScanCutter):
         table = Table()
@@ -59,7 +59,7 @@ def both(layout, messages, at_once=64):
 
 
 def same(first, second):
-    """Assert that two sets of columns are the same to the last bit."""
+    """Assert that two sets of columns are equal to the last bit."""
     assert first.damage == second.damage
     assert first.log_times.tolist() == second.log_times.tolist()
     assert [(e.parent, e.child, e.slashed) for e in first.edges] == [

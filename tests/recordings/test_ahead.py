@@ -1,4 +1,4 @@
-"""Pieces that are unpacked ahead: what comes is what unpacking them then and there gives."""
+"""Tests of chunks that are unpacked ahead: the result equals that of unpacking on demand."""
 
 import bz2
 import threading
@@ -20,7 +20,7 @@ PACK = {
 
 
 def outcome(give):
-    """What comes of it: bytes, or the sentence."""
+    """Return the result of a call: its bytes, or the text of its error."""
     try:
         return bytes(give())
     except InputError as error:
@@ -28,7 +28,7 @@ def outcome(give):
 
 
 def taken(pieces):
-    """Of each piece what comes of it, unpacked ahead where that is done on this machine."""
+    """Return the result for each chunk, unpacked ahead if this machine does so."""
     found = []
 
     def packed(number):
@@ -87,7 +87,7 @@ def test_who_would_have_to_wait_unpacks_a_piece_behind():
     def read():
         if threading.current_thread() is asking:
             helped.set()
-        # The threads come no further alone.
+        # Without the calling thread's help, the other threads block here.
         assert helped.wait(20)
         return bz2.compress(b"text")
 

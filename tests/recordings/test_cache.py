@@ -1,4 +1,4 @@
-"""Columns that are kept for the next question to a large recording."""
+"""Tests of columns that are cached for the next lookup in a large recording."""
 
 import json
 import os
@@ -40,7 +40,7 @@ def cache(tmp_path):
 
 
 def transforms_of(file, cache=None):
-    """The transforms, and whether the file's own were read."""
+    """Return the transforms, and whether they were read from the file itself."""
     read = []
     with open_recording(file, cache=cache, progress=lambda *_: read.append(1)) as recording:
         return recording.transforms, bool(read)
@@ -95,7 +95,7 @@ def test_garbage_in_the_cache_is_as_if_it_were_not_there(file, cache, seed):
     elif seed % 4 == 1:
         data = draw.randbytes(draw.randrange(5000))
     else:
-        # Columns are padded to a grid of 8; what stands between them is not read.
+        # Columns are padded to multiples of 8 bytes, and the padding is not read.
         data[draw.randrange(2000 if seed % 4 == 2 else 200)] ^= 1 << draw.randrange(8)
     entry.write_bytes(data)
 
@@ -214,6 +214,6 @@ def test_the_command_keeps_columns_unless_told_not_to(tmp_path, file, capsys, mo
 def test_the_folder_is_the_users(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert default_folder() == tmp_path / "tftool"
-    # A relative one counts as none, as the specification of XDG says.
+    # A relative path counts as none, as the specification of XDG requires.
     monkeypatch.setenv("XDG_CACHE_HOME", "relative")
     assert default_folder().is_absolute()

@@ -1,4 +1,4 @@
-"""The same content in every container gives the same columns, and they are what was sent."""
+"""Tests that the same content in every container gives the same columns."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ SENT = content()
 
 
 def rows(sent):
-    """Every transform as sent: (parent, child, static) to (stamp, seven numbers, log time)."""
+    """Return all sent transforms: (parent, child, static) to (stamp, seven numbers, log time)."""
     found = {}
     for one in sent:
         for stamp, parent, child, seven in one.transforms:

@@ -1,4 +1,4 @@
-"""Whatever is cut off or changed in a file: an answer or a sentence, never anything else."""
+"""Tests that any damage of a file leads to a result or a sentence, and to nothing else."""
 
 import bz2
 import errno
@@ -38,14 +38,14 @@ SINGLE = [name for name in CONTAINERS if "split" not in name]
 
 
 def file_of(path):
-    """The one file with the messages."""
+    """Return the only file with messages."""
     if path.is_file():
         return path
     return next(one for one in path.iterdir() if one.name != "metadata.yaml")
 
 
 def asked(path):
-    """Ask a recording everything; how many transforms it has, None if it is refused."""
+    """Read a recording completely; return its number of transforms, or None if it is refused."""
     try:
         with open_recording(path) as recording:
             assert recording.buffer.frames() is not None
@@ -140,7 +140,7 @@ def test_a_chunk_that_rosbag_had_open_is_read_to_the_end_of_the_file(tmp_path):
     path.write_bytes(raw)
     with open_recording(path) as recording:
         whole = len(recording.transforms)
-    # rosbag writes a chunk's two sizes, and the indexes after it, when it closes the chunk.
+    # rosbag writes a chunk's two sizes, and the following indexes, when it closes the chunk.
     size = raw.index(b"size=", start) + len(b"size=")
     raw[size : size + 4] = raw[data - 4 : data] = bytes(4)
     path.write_bytes(raw)
@@ -152,7 +152,7 @@ def test_a_chunk_that_rosbag_had_open_is_read_to_the_end_of_the_file(tmp_path):
 
 @pytest.fixture
 def locked(monkeypatch):
-    """Names of files that the system refuses to open; root may open every other."""
+    """Return a set; files whose names are in the set cannot be opened, even by root."""
     names, opens = set(), Path.open
 
     def refusing(path, *words, **more):
@@ -282,17 +282,18 @@ def test_a_chunk_that_cannot_be_unpacked_is_told_once(tmp_path, name):
 def test_a_message_that_is_shorter_than_its_head_is_told(tmp_path, is_chunked):
     path = CONTAINERS["mcap none" if is_chunked else "mcap unchunked"](tmp_path, SENT)
     raw = path.read_bytes()
-    # The head of a message in the middle, by its channel and sequence, of which its body follows.
+    # The header of a message in the middle, by channel and sequence; the body of the message
+    # follows.
     place = raw.index(b"\x00\x01\x00\x00", len(raw) // 3) - 31
     assert raw[place] == 0x05
     changed = bytearray(raw)
     changed[place + 1 : place + 9] = (7).to_bytes(8, "little")
-    # Without the summary it is walked through.
+    # Without the summary, the whole file is read.
     path.write_bytes(changed[:-37])
 
     with open_recording(path) as recording:
         assert len(recording.transforms) > 30
-        # In a chunk its index is found wrong first.
+        # In a chunk, the wrong index is found first.
         told = "message index points" if is_chunked else "message record has only 7 bytes"
         assert any(told in one for one in recording.damage)
 
@@ -305,7 +306,7 @@ def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
     while raw[place] != 0x06:
         place += 9 + int.from_bytes(raw[place + 1 : place + 9], "little")
     raw[place + 25 : place + 33] = size.to_bytes(8, "little")
-    # Without the summary the chunk's own head counts.
+    # Without the summary, the chunk's own header is used.
     path.write_bytes(raw[:-37])
 
     with open_recording(path) as recording:
@@ -400,7 +401,7 @@ def test_a_file_that_is_written_over_while_it_is_read_is_said_to_have_changed(
         path.write_bytes(path.read_bytes()[:-100] + bytes(7))
         read(self, *words, **named)
         self.close()
-        # What numpy and struct say of numbers that are none any more.
+        # Errors of numpy and struct for numbers out of range
         raise OverflowError("int too large to convert")
 
     monkeypatch.setattr(Recording, "__init__", overwritten)

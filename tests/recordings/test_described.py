@@ -1,4 +1,4 @@
-"""Recordings with the description of their robot: joint states to the frames that tf lacks."""
+"""Tests of recordings with a robot description: joint states become frames that tf lacks."""
 
 import math
 
@@ -16,7 +16,7 @@ HOOK = (1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def states(moments, names=("turn", "reach"), topic="/joint_states"):
-    """Joint states a tenth of a second apart, with the position that `moments` says."""
+    """Return joint states a tenth of a second apart, with the positions in `moments`."""
     return [
         Sent(
             START + number * SECOND // 10 + 5,
@@ -33,7 +33,7 @@ MOVES = states([(0.1 * n, 1.0 + 0.2 * n) for n in range(10)])
 
 @pytest.fixture
 def recorded(tmp_path):
-    """Write messages, and open them."""
+    """Return a function that writes messages, and opens the recording."""
 
     def write(sent, writer=write_mcap, **words):
         place = tmp_path / ("run" if writer is write_rosbag2 else "run.file")
@@ -79,7 +79,7 @@ def test_a_mimic_has_its_own_position_where_the_message_says_one(recorded):
         eye = recording.buffer.lookup_transform("claw", "eye", START)
 
     assert claw.transform.rotation == pytest.approx(tftool.quaternion_from_rpy(0, 0.25, 0))
-    # look follows grip, by the position that grip really has.
+    # look mimics grip, with the position that grip really has.
     assert eye.transform.rotation == pytest.approx(tftool.quaternion_from_rpy(0, 3 * 0.25 + 1, 0))
 
 

@@ -1,4 +1,4 @@
-"""Which kind of source a word names is decided by what is in it."""
+"""Tests that the content of a file decides which kind of source it is."""
 
 import os
 import sqlite3

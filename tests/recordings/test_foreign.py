@@ -1,4 +1,4 @@
-"""Transforms in other shapes than ROS's own lists."""
+"""Tests of transforms in other types than ROS's own lists."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""Recordings that are still written, were never closed, or are made to do harm."""
+"""Tests of recordings that are still written, were never closed, or are malicious."""
 
 import os
 import pickle
@@ -29,7 +29,7 @@ SENT = content(40)
 
 
 def database(path, sent):
-    """A database as rosbag2's recorder writes it, in the mode that keeps a log beside it."""
+    """Write a database as rosbag2's recorder does, in the mode with a log in a second file."""
     base = sqlite3.connect(path)
     base.execute("pragma journal_mode=wal")
     base.execute(
@@ -52,7 +52,7 @@ def database(path, sent):
 
 def test_what_stands_in_a_write_ahead_log_is_read_and_nothing_is_written(tmp_path):
     base = database(tmp_path / "live.db3", SENT)
-    # As a recorder that was killed leaves them.
+    # The state that a killed recorder leaves
     place = tmp_path / "killed"
     place.mkdir()
     for name in ("live.db3", "live.db3-wal"):
@@ -145,7 +145,7 @@ def test_a_message_outside_of_chunks_that_is_too_large_is_left_out_and_told(tmp_
     (channel,) = struct.unpack_from("<H", data, data.index(b"\x03\x00\x00\x00/tf\x03") - 4)
     large = struct.pack("<BQHIQQ", 5, 22 + 300_000, channel, 0, 10**18, 10**18)
     large += bytes(300_000)
-    # In front of the record that ends the data.
+    # Before the record that ends the data
     end = data.rindex(struct.pack("<BQ", 0x0F, 4))
     path.write_bytes(data[:end] + large + data[end:])
     monkeypatch.setattr(container, "LARGEST", 1 << 18)
@@ -175,7 +175,7 @@ def test_what_tells_of_a_topic_in_too_many_bytes_is_not_taken(
 
 
 def first_index(data, code):
-    """Where the first record of a code lies in an MCAP file."""
+    """Return the position of the first record with a code in an MCAP file."""
     place = 8
     while data[place] != code:
         place += 9 + struct.unpack_from("<Q", data, place + 1)[0]
@@ -183,14 +183,14 @@ def first_index(data, code):
 
 
 def changed_mcap(data):
-    """The first channel in a chunk has another number, and an index is wrong: it is walked."""
+    """Give the first channel in a chunk another number, and damage an index."""
     place = data.index(b"\x0a\x00\x00\x00/tf_static") - 4
     data[place : place + 2] = b"\x63\x00"
     data[first_index(data, 7)] = 0x70
 
 
 def changed_bag(data):
-    """As of MCAP, of a connection."""
+    """Change a connection's number in a bag in the same way."""
     chunk = data.index(b"op=\x05")
     place = data.index(b"conn=", data.index(b"op=\x07", chunk) - 40) + 5
     data[place] = 99
@@ -214,7 +214,7 @@ def test_what_a_damaged_chunk_tells_of_topics_changes_none_that_are_known(tmp_pa
         counts = {topic.name: topic.count for topic in recording.topics}
         assert len(recording.transforms)
         assert recording.damage
-        # Of none more is known, and each can still be asked for.
+        # No other topics are known, and each of these can still be read.
         assert {topic.name: topic.count for topic in recording.topics} == counts
         assert list(counts) == before
         assert sum(1 for _ in recording.source.messages(before))
@@ -264,7 +264,7 @@ def test_a_database_whose_rows_are_made_up_is_no_recording(tmp_path, statements)
 
 
 def test_of_a_database_that_is_no_recording_nothing_is_left_open(tmp_path, monkeypatch):
-    # To read what stands in the log beside it alone, a copy of both is made.
+    # To read the data that is only in the log beside the file, both are copied.
     copies = tmp_path / "copies"
     copies.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(copies))
@@ -342,7 +342,7 @@ def test_large_messages_of_a_database_are_not_held_all_at_once(tmp_path):
 
 
 def largest_held(path):
-    """Bytes that Python holds at most while every message of /tf is read."""
+    """Return the most bytes that Python allocates while every message of /tf is read."""
     with open_recording(path) as recording:
         tracemalloc.start()
         assert sum(1 for _ in recording.raw_messages("/tf")) == 60

@@ -1,4 +1,4 @@
-"""MCAP as we write it, read by the format's own package with every CRC checked."""
+"""Tests of MCAP files, read by the format's own package with every CRC checked."""
 
 import os
 
@@ -29,7 +29,7 @@ def sample(stamp, parent, child, seed):
 
 
 def write(path, messages=40, **options):
-    """A drive of so many messages; the samples by edge."""
+    """Write a drive of so many messages; return the samples by edge."""
     sent = {}
     with tftool.write_recording(path, **options) as recording:
         mount = sample(0, "base_link", "laser", 7)
@@ -107,7 +107,7 @@ def test_the_strict_reader_reads_small_chunks_none_and_attachments(
         two = writer.channel(Channel("/b", "Kind", "json", "jsonschema", b"{}"))
         for number in range(20):
             writer.write((one, two)[number % 2], 100 + number, b"%d" % number, 90, number)
-        # As it lies in another file: two times, two names behind their lengths, what it holds.
+        # The record as in another file: two times, two names with their lengths, the content
         other = tmp_path / "other"
         other.write_bytes(notes.end())
         body = other.read_bytes()[RECORD.size :]

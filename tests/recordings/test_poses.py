@@ -1,4 +1,4 @@
-"""Pose files as FROM: each format's rows become the frames they say, or a sentence."""
+"""Tests of pose files as FROM: each format's rows become frames, or cause an error."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ TUM = "1.000000001 1 2 3 0 0 0 1\n2.5 2 2 3 0 0 0.6 0.8\n"
 
 @pytest.fixture
 def in_folder(tmp_path, monkeypatch):
-    """The working directory is the test's."""
+    """Change to the folder of the test."""
     monkeypatch.chdir(tmp_path)
 
 
@@ -24,7 +24,7 @@ TURN = Rotation.from_quat([0.0, 0.0, 0.6, 0.8])
 
 
 def rows(path, text, **options):
-    """Every row of the one moving link of a file: stamps, translations, quaternions."""
+    """Return the rows of the only moving edge of a file: stamps, translations, quaternions."""
     path.write_text(text)
     with open_frames(path, **options) as frames:
         (edge,) = frames.recording.edges
@@ -143,7 +143,7 @@ def test_kitti_calibration_has_cameras_and_the_velodyne(tmp_path):
 
     assert right.translation == pytest.approx((0.54, 0, 0))
     assert laser.translation == pytest.approx((0.1, 0.2, 0.3))
-    # Forward for the laser is the camera's z.
+    # The laser's forward axis is the camera's z axis.
     assert Rotation.from_quat(laser.rotation).apply([1, 0, 0]) == pytest.approx([0, 0, 1])
 
 

@@ -1,4 +1,4 @@
-"""A recording is asked like any buffer, over its whole length."""
+"""Tests that a recording answers like a buffer, over its whole length."""
 
 import math
 
@@ -28,7 +28,7 @@ def opened(tmp_path, sent):
 
 
 def told(sent):
-    """A buffer that was told the same, one transform after the other."""
+    """Return a buffer into which the same transforms were inserted one by one."""
     buffer = Buffer(seconds(10_000))
     for one in sent:
         for stamp, parent, child, seven in one.transforms:

@@ -1,4 +1,4 @@
-"""Recordings that grow: files that begin with all statics, rings, kills and full disks."""
+"""Tests of growing recordings: initial static transforms, rings, kills and full disks."""
 
 import os
 
@@ -32,7 +32,7 @@ def take(rolling, channel, now, *samples):
 
 
 def drive(rolling, ticks, period=seconds(0.1)):
-    """Two statics at the beginning, one of them again later, and a frame that moves."""
+    """Record two static frames at the beginning, one of them again later, and a moving frame."""
     take(rolling, STATIC, START, sample(0, "base", "laser", 1.0), sample(0, "base", "imu", 2.0))
     for tick in range(ticks):
         now = START + tick * period
@@ -144,7 +144,7 @@ def test_of_a_recorder_that_was_killed_a_second_is_missing_at_most(tmp_path):
     rolling = RollingRecording(tmp_path / "a.mcap")
     drive(rolling, 57)
 
-    # Nothing is closed: what a kill leaves is what is in the file at that moment.
+    # The recorder does not close the file, so this is the file that a kill would leave.
     left = tmp_path / "a.mcap.active"
     found = moving(left)
 

@@ -1,4 +1,4 @@
-"""The native scan against its twin in numpy: the same columns, whatever the messages are."""
+"""Tests that the native scan gives the same columns as numpy, for any messages."""
 
 import itertools
 import random
@@ -56,7 +56,7 @@ def test_finds_the_same_in_damaged_messages(layout, encode):
 
 
 def big(second, parent, child):
-    """A message of one transform in the other byte order."""
+    """Return a message of one transform in big-endian byte order."""
     head = b"\x00\x00\x00\x00" + struct.pack(">IiI", 1, second, 4)
     for name in (parent + b"\x00", child + b"\x00"):
         head += bytes(-len(head) % 4) + struct.pack(">I", len(name)) + name
@@ -91,7 +91,8 @@ def test_keeps_the_same_edges_where_there_are_more_than_are_kept(monkeypatch, at
     draw = random.Random(8)
     messages = []
     for number in range(900):
-        # Of many lengths, some in the other byte order, some with more than there is room for.
+        # Names of many lengths, some messages in big-endian order, some with more rows than
+        # reserved
         names = [("a" * draw.randrange(1, 9), f"{draw.randrange(3 + number // 9)}") for _ in "ab"]
         sent = [(number, *pair) for pair in names[: draw.randrange(3)]]
         if number % 50 == 7:
@@ -112,12 +113,12 @@ def test_keeps_the_same_edges_where_there_are_more_than_are_kept(monkeypatch, at
 
 
 def alike(count):
-    """Names that were made to share one place in the scan's table, by turning its hash round."""
+    """Return names with the same hash in the scan's table, found by inverting the hash function."""
     factor, words = 0x9E3779B97F4A7C15, 2**64
     back = pow(factor, -1, words)
 
     def name(number):
-        # Both halves are equal, so that their difference, which is kept, is zero.
+        # Both halves are equal, so that their difference, which the hash uses, is zero.
         mixed = (number << 32 | number) * back % words
         word = mixed ^ mixed >> 29 ^ mixed >> 58
         return (word * back % words ^ 8).to_bytes(8, "little")
@@ -135,14 +136,14 @@ def test_finds_the_same_among_names_that_were_made_to_look_alike():
 
 
 def take(pairs, payload, ask, *, start=0, length=None, is_cdr=False):
-    """One message, whose number is 7."""
+    """Scan one message, whose number is 7."""
     buffer = np.frombuffer(payload, dtype=np.uint8)
     places = np.array([start]), np.array([len(payload) if length is None else length])
     return pairs.take(buffer, *places, np.array([7], dtype=np.int32), is_cdr, ask)
 
 
 def room(rows):
-    """Columns for so many transforms, and the state of an edge without any."""
+    """Return columns for so many transforms, and the state of an edge without any."""
     state = array("q", (0, -1, 1, 0, 0, 0))
     return np.zeros((rows, 8), dtype=np.int64), np.zeros(rows, dtype=np.int32), state
 
@@ -184,7 +185,7 @@ def test_asks_where_the_transforms_of_a_pair_go_and_for_room():
     left_out, odd = take(pairs, payload, ask)
 
     assert (left_out, odd) == (1, b"")
-    # The third of an edge finds no room.
+    # There is no room for the third sample of an edge.
     assert asked == [(0, 7, 0), (1, 7, 1), (0, 7, 3), (2, 7, 4), (3, 7, 5)]
     assert columns[0][:4, 0].tolist() == [5, 7, 7, 8]
     assert columns[1][:4].tolist() == [7] * 4
@@ -278,7 +279,7 @@ def test_refuses_an_index_that_points_at_no_message():
 
 
 def ros1_message(connection, payload, code=b"\x02"):
-    """A message's record in a ROS 1 chunk: its code is at byte 7 of its header, its owner at 17."""
+    """Return a message's record in a ROS 1 chunk; the connection is at byte 17 of its header."""
     fields = [b"op=" + code, b"conn=" + struct.pack("<I", connection), b"time=" + bytes(8)]
     header = b"".join(struct.pack("<I", len(one)) + one for one in fields)
     return struct.pack("<I", len(header)) + header + struct.pack("<I", len(payload)) + payload

@@ -1,4 +1,4 @@
-"""MCAP of which little is wanted: its messages are read one by one, of many chunks at once."""
+"""Tests of MCAP files of which few messages are needed, read singly from many chunks at once."""
 
 import struct
 
@@ -20,7 +20,7 @@ SECOND = 10**9
 
 @pytest.fixture
 def path(tmp_path):
-    """Two transforms a chunk, beside an image of 100 KB."""
+    """Write a file with two transforms per chunk, beside an image of 100 KB."""
     path = tmp_path / "big.mcap"
     with path.open("wb") as stream:
         writer = writers.McapWriter(stream, 100_000, writers.CompressionType.NONE)
@@ -45,7 +45,7 @@ def stamps(path):
 
 
 def indexes(raw):
-    """Where the message indexes of the channel with transforms lie."""
+    """Return the positions of the message indexes of the channel with transforms."""
     head = b"\x07" + struct.pack("<QH", 6 + 2 * 16, 1)
     places, place = [], raw.find(head)
     while place >= 0:
@@ -71,7 +71,7 @@ def test_a_chunk_whose_index_lies_is_walked_in_its_place(path, number):
     raw = bytearray(path.read_bytes())
     places = indexes(raw)
     assert len(places) == CHUNKS
-    # The second message of the chunk: three bytes behind where it begins.
+    # The index of the chunk's second message points three bytes behind its beginning.
     raw[places[number] + 15 + 24] += 3
     path.write_bytes(raw)
 

@@ -1,4 +1,4 @@
-"""sqlite's pages read natively against sqlite itself: the same messages, also of damaged files."""
+"""Tests that the native reader of sqlite pages gives the messages that sqlite gives."""
 
 import random
 import sqlite3
@@ -17,7 +17,7 @@ TOPICS = ["/tf", "/image", "/tf_static"]
 
 
 def database(path, page_size=4096, rows=900, key="id INTEGER PRIMARY KEY"):
-    """A recording with short and long messages, and ids that leave gaps."""
+    """Write a recording with short and long messages, and ids with gaps."""
     draw = random.Random(page_size)
     base = sqlite3.connect(path)
     base.execute(f"pragma page_size = {page_size}")
@@ -43,7 +43,7 @@ def database(path, page_size=4096, rows=900, key="id INTEGER PRIMARY KEY"):
 
 
 def read(path, wanted, scan):
-    """The messages of some topics as (log time, topic, payload), and what is told of damage."""
+    """Return the messages of some topics as (log time, topic, payload), and the reported damage."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sqlite, "SCAN", scan)
         try:
@@ -88,7 +88,7 @@ def test_gives_the_same_of_damaged_files(tmp_path):
     for turn in range(60):
         changed = bytearray(raw)
         for _ in range(1 + turn % 4):
-            # At the beginning of a page stands what holds it together.
+            # The beginning of a page contains its structure.
             place = draw.randrange(len(raw) // 4096) * 4096 + draw.randrange(60)
             changed[place] ^= 1 << draw.randrange(8)
         path.write_bytes(changed[: draw.choice((len(raw), draw.randrange(len(raw))))])
@@ -97,7 +97,8 @@ def test_gives_the_same_of_damaged_files(tmp_path):
 
         assert (native is None) == (plain is None)
         if plain is not None:
-            # What sqlite refuses, for a page it need not look at, may be read all the same.
+            # If sqlite refuses a file because of a page that is not needed, the native reader may
+            # read it.
             assert set(plain) <= set(native)
 
 
@@ -121,7 +122,7 @@ def test_gives_what_sqlite_gives_where_the_id_is_not_the_rows_own_number(tmp_pat
     base.commit()
     base.close()
 
-    # Rows are asked for by their id, which none has.
+    # Rows are selected by their id, which no row has.
     assert read(path, [0, 1, 2], sqlite.SCAN) == read(path, [0, 1, 2], None) == []
 
 

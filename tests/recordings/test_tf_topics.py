@@ -1,4 +1,4 @@
-"""Several robots in one recording, each with transforms on topics of its own."""
+"""Tests of several robots in one recording, each with its own topics of transforms."""
 
 import pytest
 
@@ -17,7 +17,7 @@ def pose(x):
 
 
 def two_robots(root="map"):
-    """Two robots of which one is 10 m ahead; each has a laser of the same name, 1 and 2 m up."""
+    """Return two robots, one 10 m ahead; each has a laser of the same name, 1 m or 2 m up."""
     sent = []
     for number, robot in enumerate(("r1", "r2")):
         mount = (0.0, 0.0, 1.0 + number, 0.0, 0.0, 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""Every container that `tftool.write_recording` names, read by its own people's reader and ours."""
+"""Tests that files of `tftool.write_recording` can be read by other readers and by tftool."""
 
 import os
 

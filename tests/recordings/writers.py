@@ -1,4 +1,4 @@
-"""The same content written into every container, by other people's writers."""
+"""The same content written to every container by other libraries."""
 
 import io
 from collections.abc import Callable, Sequence
@@ -37,7 +37,7 @@ SECOND = 10**9
 
 @dataclass(frozen=True)
 class Sent:
-    """One message: transforms as (stamp, parent, child, seven numbers), or something else."""
+    """One message: transforms as (stamp, parent, child, seven numbers), or another message."""
 
     log_time: int
     topic: str
@@ -58,14 +58,14 @@ class Sent:
 
 
 def numbers(seed: int) -> tuple:
-    """A pose whose quaternion is of length one, of either sign."""
+    """Return a random pose; its quaternion has length one and either sign."""
     draw = np.random.default_rng(seed)
     turn = draw.normal(size=4)
     return (*draw.normal(size=3).tolist(), *(turn / np.linalg.norm(turn)).tolist())
 
 
 def content(count: int = 60) -> list[Sent]:
-    """A robot that drives for some time: statics, one to three frames a message, scans."""
+    """Return a drive: static frames, one to three frames per message, scans."""
     start = 1_750_000_000 * SECOND
     mounts = ((0, "base_link", "laser", numbers(1)), (0, "base_link", "camera", numbers(2)))
     sent = [Sent(start, "/tf_static", mounts, node="/state_publisher")]
@@ -84,7 +84,7 @@ def content(count: int = 60) -> list[Sent]:
 
 
 def payload(sent: Sent, store=ROS2) -> bytes:
-    """A message's bytes, by rosbags."""
+    """Return a message's bytes, written by rosbags."""
     types = store.types
 
     def time(stamp: int):
@@ -146,7 +146,7 @@ def payload(sent: Sent, store=ROS2) -> bytes:
 
 
 def latched(topic: str) -> list[Qos]:
-    """What a publisher of statics offers."""
+    """Return the QoS profile that a publisher of static transforms offers."""
     durability = QosDurability.TRANSIENT_LOCAL if "static" in topic else QosDurability.VOLATILE
     never = QosTime(2**31 - 1, 0)
     return [
@@ -165,7 +165,7 @@ def latched(topic: str) -> list[Qos]:
 
 
 def write_mcap(path: Path, sent: Sequence[Sent], chunk_size: int = 4096, **options) -> Path:
-    """An MCAP file by the format's own writer."""
+    """Write an MCAP file with the format's own writer."""
     stream = io.BytesIO()
     writer = McapWriter(stream, chunk_size=chunk_size, **options)
     writer.start(profile="ros2")
@@ -204,7 +204,7 @@ def write_mcap(path: Path, sent: Sequence[Sent], chunk_size: int = 4096, **optio
 def write_rosbag2(
     path: Path, sent: Sequence[Sent], mode=CompressionMode.NONE, plugin=StoragePlugin.SQLITE3
 ) -> Path:
-    """A rosbag2 folder by rosbags."""
+    """Write a rosbag2 folder with rosbags."""
     writer = Rosbag2Writer(path, version=9, storage_plugin=plugin)
     if mode is not CompressionMode.NONE:
         writer.set_compression(mode, CompressionFormat.ZSTD)
@@ -220,7 +220,7 @@ def write_rosbag2(
 
 
 def write_split(path: Path, sent: Sequence[Sent], parts: int = 3) -> Path:
-    """A rosbag2 folder of several MCAP files, as a recorder splits them."""
+    """Write a rosbag2 folder of several MCAP files, as a recorder splits them."""
     path.mkdir()
     size = -(-len(sent) // parts)
     names = [f"{path.name}_{part}.mcap" for part in range(parts)]
@@ -232,7 +232,7 @@ def write_split(path: Path, sent: Sequence[Sent], parts: int = 3) -> Path:
 
 
 def write_rosbag1(path: Path, sent: Sequence[Sent], compression=None, chunk_size=4096) -> Path:
-    """A ROS 1 bag by rosbags."""
+    """Write a ROS 1 bag with rosbags."""
     writer = Rosbag1Writer(path)
     writer.chunk_threshold = chunk_size
     if compression is not None:

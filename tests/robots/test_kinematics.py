@@ -1,4 +1,4 @@
-"""Forward kinematics against yourdfpy, another implementation, at random joint vectors."""
+"""Tests of forward kinematics against yourdfpy, with random joint positions."""
 
 import io
 
@@ -14,14 +14,14 @@ COUNT = 1000
 
 
 def arm(seed, joints=7):
-    """An arm whose joints lie any way round, with a gripper whose fingers mimic each other."""
+    """Return an arm with joints in any directions, and a gripper whose fingers mimic each other."""
     draw = np.random.default_rng(seed)
     links = [f'<link name="link{n}"/>' for n in range(joints + 1)]
     parts = []
     for n in range(joints):
         kind = ("revolute", "continuous", "prismatic", "fixed")[int(draw.integers(4)) if n else 0]
         xyz, rpy, way = draw.normal(size=(3, 3))
-        # A slide along an axis that is not of length one means something else there.
+        # yourdfpy treats a slide along an axis that is not a unit vector differently.
         way /= np.linalg.norm(way)
         xyz, rpy, axis = (" ".join(map(repr, one.tolist())) for one in (xyz, rpy, way))
         parts.append(

@@ -1,4 +1,4 @@
-"""Which files of a machine the page may see: meshes inside of known folders, and nothing else."""
+"""Tests that the page can read only meshes in known folders."""
 
 import pytest
 
@@ -15,7 +15,7 @@ def package(tmp_path):
 
 @pytest.fixture
 def secret(tmp_path):
-    """A mesh, and something else, outside of the package."""
+    """Write a mesh and another file outside of the package."""
     (tmp_path / "secret.stl").write_bytes(stl())
     (tmp_path / "passwd").write_text("root:x:0:0")
     return tmp_path / "secret.stl"
@@ -28,7 +28,7 @@ def no_ros(monkeypatch):
 
 
 def where(package, how):
-    """The folders as somebody has them who starts like this."""
+    """Return the folders for a user who starts the command in some way."""
     return {
         "beside": lambda: MeshFolders(package / "urdf" / "arm.urdf"),
         "given": lambda: MeshFolders(given=[package]),

@@ -132,7 +132,7 @@ def test_a_robots_buffer_answers_lookups_between_any_links(crane):
 
     found = buffer.lookup_transform("base", "claw").transform
 
-    # Two quarter turns: the boom's y axis, along which the hook slides, points to -x.
+    # After two quarter turns, the boom's y axis, along which the hook slides, points to -x.
     assert found.translation == pytest.approx((-4, 0, 2))
 
 
@@ -147,7 +147,7 @@ def test_forward_kinematics_agrees_with_another_implementation(tmp_path):
     for turn, reach in random.uniform(-5, 5, (50, 2)):
         other.update_cfg({"turn": turn, "reach": reach})
         ours = robot.buffer({"turn": turn, "reach": reach})
-        # It follows one mimic, not a chain of them, so the eye is left out.
+        # yourdfpy follows one mimic joint, but no chain of them, so the eye is left out.
         expected = other.get_transform("claw", "base")
         found = ours.lookup_transform("base", "claw").transform.matrix()
         assert np.allclose(found, expected, atol=1e-12)

@@ -1,4 +1,4 @@
-"""Launch files and scripts of static transforms, read without running them."""
+"""Tests of launch files and scripts of static transforms, read without running them."""
 
 import pytest
 

@@ -325,7 +325,7 @@ def test_xacro_finds_the_packages_of_its_workspace(tmp_path):
             '<robot xmlns:xacro="http://ros.org/wiki/xacro">'
             f'<xacro:macro name="{name}"><link name="{name}"/></xacro:macro></robot>'
         )
-    # Installed, description/parts is parts/, beside package.xml.
+    # After installation, description/parts is parts/, beside package.xml.
     own = tmp_path / "ws" / "src" / "arms" / "arm_bringup"
     (own / "CMakeLists.txt").write_text(
         "install(\n  DIRECTORY description/parts\n  DESTINATION share/arm_bringup\n)\n"

@@ -3,7 +3,7 @@ import pytest
 
 @pytest.fixture
 def node(ros_runtime):
-    """A node for the test itself, in a world that has begun."""
+    """Create a node for the test itself, in a world that is running."""
     import rclpy
 
     rclpy.init()

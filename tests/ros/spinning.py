@@ -1,8 +1,8 @@
-"""Serving nodes in tests."""
+"""Spinning of nodes in tests."""
 
 
 def spin(node, seconds):
-    """Serve a node for so many seconds."""
+    """Spin a node for so many seconds."""
     import rclpy
     from rclpy.task import Future
 

@@ -331,7 +331,7 @@ def test_the_services_and_topics_that_ros_2_makes_of_an_action_are_there(client)
         rclpy.spin_until_future_complete(node, future, timeout_sec=30)
         return future.result()
 
-    # One's own client's goal is seen there too, under the id that its handle has.
+    # The goal of this node's own client is in the list too, with the id of its handle.
     handle = finish(client, client.send_goal_async(order(2)))
     assert answer(ask.call_async(made.GetResultService.Request(goal_id=handle.goal_id))).status == 4
     assert [one.goal_id for one in fed] == [handle.goal_id]

@@ -1,4 +1,4 @@
-"""Where rclpy and launch refuse or order things in a way that is easy to miss."""
+"""Tests of refusals and orders in rclpy and launch that are easy to overlook."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""asyncio in users' programs."""
+"""Tests of asyncio in users' programs."""
 
 import pytest
 
@@ -110,7 +110,7 @@ given_up = Future()
 
 
 async def within(callback_ran):
-    # A coroutine of the executor's, while a task of asyncio spins it.
+    # The executor runs this coroutine, while a task of asyncio spins the executor.
     await client.call_async(AddTwoInts.Request())
     callback_ran.append('within')
 

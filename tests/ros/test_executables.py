@@ -1,4 +1,4 @@
-"""Nodes of ours under the names ROS 2 has for them."""
+"""Tests of tftool's own nodes with their names in ROS 2."""
 
 import math
 
@@ -233,8 +233,8 @@ def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "session"))
     monkeypatch.setattr(commands, "PATIENCE", 1.0)
     file = tmp_path / "a.launch.py"
-    # Both the shell and what it runs ignore the first signal, the second one also the next. Nothing
-    # is sent before both have said that they do.
+    # The shell and its command ignore the first signal; the command also ignores the second one. No
+    # signal is sent before both have reported this.
     file.write_text(
         "from launch import LaunchDescription\nfrom launch.actions import *\n"
         "from launch.event_handlers import OnProcessIO\n"

@@ -1,4 +1,4 @@
-"""Executors, tasks, futures and coroutines."""
+"""Tests of executors, tasks, futures and coroutines."""
 
 import pytest
 
@@ -146,7 +146,7 @@ def test_a_busy_multi_threaded_executor_goes_on_in_its_next_turn(
     ros_runtime.start(main)
     ros_runtime.sleep(2.0)
 
-    # Until 1.15 both threads sleep; the timer is late then, and on its grid again after that.
+    # Until 1.15 both threads sleep, so the timer is late, and then runs at its usual times again.
     assert trace == [0.25, 0.5, 1.15, 1.25, 1.5, 1.75, 2.0]
 
 
@@ -183,7 +183,7 @@ def test_an_executor_can_be_shut_down(node):
 
 
 class Counting(Context):
-    """Knows who is to be told of its end."""
+    """Context that stores the registered callbacks for its shutdown."""
 
     def __init__(self):
         super().__init__()
@@ -290,7 +290,7 @@ def test_a_future_that_is_set_while_the_executor_looks_wakes_it(node, ros_runtim
     future = Future()
 
     class Late(ReentrantCallbackGroup):
-        """Sets the future between the executor's look at it and its wait."""
+        """Future that is completed between the executor's check and its wait."""
 
         def can_execute(self, entity):
             if not future.done():

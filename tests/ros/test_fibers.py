@@ -12,7 +12,7 @@ from tftool.world.clock import SimClock, WallClock, run
 
 
 def drive(clock, *bodies, strict=True, **settings):
-    """Run bodies side by side; the fibers, once all have ended."""
+    """Run functions side by side; return the fibers once all have ended."""
     made = [
         Fiber(f"fiber {index}", body, strict=strict, **settings)
         for index, body in enumerate(bodies)

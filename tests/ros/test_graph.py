@@ -1,4 +1,4 @@
-"""What a node can ask about the others, and single messages waited for."""
+"""Tests of queries for other nodes, and of waits for single messages."""
 
 import pytest
 
@@ -50,7 +50,7 @@ def test_topics_are_told_by_types_ends_and_numbers(node, ros_runtime):
     assert reader.endpoint_type is TopicEndpointTypeEnum.SUBSCRIPTION
     assert node.get_publishers_info_by_topic("silent") == []
     assert (node.count_publishers("chatter"), node.count_subscribers("chatter")) == (1, 1)
-    # The simulator declares nothing, but sends.
+    # The simulator creates no publisher of rclpy, but sends.
     assert node.count_publishers("turtle1/pose") == 1
     assert node.count_subscribers("turtle1/cmd_vel") == 1
     assert node.count_publishers("silent") == node.count_subscribers("silent") == 0

@@ -1,4 +1,4 @@
-"""What people write, and slip up on, in ROS nodes."""
+"""Tests of common code, and common mistakes, in ROS nodes."""
 
 import pytest
 

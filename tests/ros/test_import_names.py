@@ -1,4 +1,4 @@
-"""Names and modules that people import from where ROS 2 has them too."""
+"""Tests of names and modules that programs import from the same places as in ROS 2."""
 
 import importlib
 import os
@@ -90,7 +90,7 @@ def test_a_packages_modules_are_there_after_no_more_than_importing_it(use):
 def test_our_own_modules_are_no_package_of_interfaces(ros_runtime):
     from tftool.messages.classes import INTERFACES
 
-    # The simulator of the turtles brings interfaces of its own with it.
+    # The turtle simulator contains interfaces of its own.
     from tftool.world.nodes.trail import KIND
 
     assert KIND.interface__.startswith("tftool_interfaces/srv/")

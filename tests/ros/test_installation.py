@@ -1,4 +1,4 @@
-"""Parts of a package that ROS 2 would not find once it is built."""
+"""Tests of parts of a package that ROS 2 would not find after a build."""
 
 import json
 import shutil
@@ -8,7 +8,7 @@ import pytest
 
 @pytest.fixture
 def package(tftool, tmp_path, monkeypatch):
-    """A package as `tftool new` makes it, in the src of a workspace."""
+    """Create a package with `tftool new`, in the src folder of a workspace."""
     (tmp_path / "src").mkdir()
     monkeypatch.chdir(tmp_path / "src")
     tftool("new", "chase")

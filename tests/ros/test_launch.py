@@ -1,4 +1,4 @@
-"""Launch files, on simulated time."""
+"""Tests of launch files on simulated time."""
 
 import pytest
 
@@ -22,7 +22,7 @@ for module in (launch, launch.actions, launch.conditions, launch.event_handlers,
 
 
 def described(tmp_path, *actions, seconds=2.0, arguments=None, start=TUTORIAL) -> Launched:
-    """Launch a Python file made of these actions."""
+    """Launch a Python file with these actions."""
     file = tmp_path / "some.launch.py"
     body = ",\n        ".join(actions)
     file.write_text(
@@ -109,7 +109,7 @@ def test_two_simulators_live_in_namespaces():
     assert {"turtlesim1/turtle1/pose", "turtlesim2/turtle1/pose"} <= set(done.topics)
 
 
-# What actions do
+# Effects of actions
 
 
 def test_parameters_of_the_scope_the_file_and_the_node_are_set(tmp_path):
@@ -428,7 +428,7 @@ def test_what_handlers_do_knows_their_event(tmp_path):
     ]
 
 
-# What is wrong
+# Errors
 
 
 @pytest.mark.parametrize(
@@ -640,7 +640,7 @@ def test_the_tutorial_runs_live_too():
         Launch(world, TUTORIAL / "launch" / "turtle_following.launch.py", workspace=workspace)
         first = run(world.clock, until_driven(world))
 
-    # The first command is the tutorial's, from where both turtles stand at the start.
+    # This is the tutorial's first command, for the turtles' initial poses.
     assert first.linear.x == pytest.approx(1.933157795, abs=1e-6)
     assert first.angular.z == pytest.approx(1.159866862, abs=1e-4)
 

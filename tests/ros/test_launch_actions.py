@@ -1,4 +1,4 @@
-"""Actions and parameters that only some launch files use, on simulated time."""
+"""Tests of actions and parameters that only some launch files use, on simulated time."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from tests.ros.tutorial import TUTORIAL, launch
 
 @pytest.fixture
 def brief(tmp_path):
-    """A package with a node that tells its parameters and ends after 0.7 s."""
+    """Create a package with a node that logs its parameters and ends after 0.7 s."""
     nodes = tmp_path / "mine" / "scripts"
     nodes.mkdir(parents=True)
     (tmp_path / "mine" / "package.xml").write_text("<package><name>mine</name></package>")

@@ -1,4 +1,4 @@
-"""One content in Python, XML and YAML; and what each says of its mistakes."""
+"""Tests of one launch file in Python, XML and YAML, and of errors in each format."""
 
 import re
 from pathlib import Path
@@ -87,7 +87,7 @@ def test_show_args_is_laid_out_as_ros2_launch_does(ending):
     with ros_free():
         shown = show_arguments(FILES / f"whole.launch.{ending}", Workspace(TUTORIAL))
 
-    # What the included file is given is none of the arguments of this one.
+    # Arguments that are passed to the included file are not arguments of this file.
     assert shown == (
         "Arguments (pass arguments as '<name>:=<value>'):\n\n"
         "    'colour':\n        How blue. Valid choices are: ['7', '9']\n        (default: '7')\n\n"

@@ -1,4 +1,4 @@
-"""Whatever a launch file in XML or YAML holds, it is launched or refused with a sentence."""
+"""Tests that any launch file in XML or YAML is launched, or refused with a sentence."""
 
 import tempfile
 from pathlib import Path
@@ -14,7 +14,7 @@ from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch.arguments import show_arguments
 
 FILES = Path(__file__).parent / "launch_files"
-# Without the command of the system: who knows what would be left of its name.
+# The texts contain no system command, because a part of its name could be another command.
 TEXTS = {
     ending: "\n".join(
         line
@@ -32,7 +32,7 @@ PIECES = [
 
 @st.composite
 def changed(draw):
-    """A launch file's text with pieces of it left out, doubled or put in."""
+    """Return the text of a launch file with parts removed, repeated or inserted."""
     ending = draw(st.sampled_from(sorted(TEXTS)))
     text = TEXTS[ending]
     for _ in range(draw(st.integers(1, 4))):

@@ -1,4 +1,4 @@
-"""Launches on the wall clock, where programs' threads run side by side."""
+"""Tests of launches on the wall clock, where programs' threads run side by side."""
 
 import asyncio
 
@@ -41,7 +41,7 @@ def launch_live(file, start) -> Launched:
 
 
 def package(folder, **scripts):
-    """A package `pkg` with these scripts."""
+    """Create a package `pkg` with these scripts."""
     place = folder / "pkg" / "scripts"
     place.mkdir(parents=True)
     (folder / "pkg" / "package.xml").write_text("<package><name>pkg</name></package>")
@@ -52,7 +52,8 @@ def package(folder, **scripts):
 def test_nodes_of_one_name_live_side_by_side(tmp_path):
     package(
         tmp_path,
-        # Each stays until all have seen the last: a name that somebody has left is free again.
+        # Each program runs until all have seen the last one, because the name of an ended node is
+        # free again.
         same="import pathlib\nimport time\nimport uuid\n"
         "import rclpy\nfrom rclpy.lifecycle import LifecycleNode\nrclpy.init()\n"
         "node = LifecycleNode('same')\nnode.get_logger().info('here')\n"
@@ -67,7 +68,7 @@ def test_nodes_of_one_name_live_side_by_side(tmp_path):
 
     assert done.failed == []
     assert done.texts("same") == 8 * ["here"]
-    # Each line is said of the process it comes from, whatever the node's name.
+    # Each line is logged with the label of its process, whatever the node's name.
     assert all(done.said(f"same.py-{number}").count("here") == 1 for number in range(1, 9))
     named = [text for who in range(1, 9) for text in done.said(f"same.py-{who}") if "shown" in text]
     assert len(named) == 7

@@ -1,4 +1,4 @@
-"""Parts of launch and launch_ros that official tutorials and larger systems use."""
+"""Tests of parts of launch and launch_ros that official tutorials and larger systems use."""
 
 import pytest
 

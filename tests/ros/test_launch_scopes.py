@@ -1,4 +1,4 @@
-"""What launch_ros's own tests hold: parameters, scopes and components."""
+"""Tests of launch_ros's parameters, scopes and components, after its own tests."""
 
 import io
 from pathlib import Path
@@ -13,7 +13,7 @@ from tftool.ros.host.importing import ros_free
 
 
 def evaluated(*parameters):
-    """What a node's parameters are when the launch runs."""
+    """Return a node's parameters when the launch runs."""
     with ros_free():
         from launch import LaunchContext
         from launch_ros.utilities import evaluate_parameters, normalize_parameters
@@ -236,7 +236,7 @@ def test_a_container_that_answers_is_asked_to_load_components(tmp_path):
 
 
 def container_launch(tmp_path, code, *more):
-    """A launch file whose container is a program of a package, and has a component to load."""
+    """Write a launch file with a container, a program of a package, and a component to load."""
     package(tmp_path, box=code)
     file = tmp_path / "own.launch.xml"
     file.write_text(

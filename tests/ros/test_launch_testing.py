@@ -1,10 +1,10 @@
-"""launch_testing, launch_testing_ros and launch_pytest: packages' own launch tests."""
+"""Tests of launch_testing, launch_testing_ros and launch_pytest: packages' own launch tests."""
 
 import re
 
 import pytest
 
-# Before the runs inside tests, each of which forgets the modules that it has imported.
+# Imported before the inner test runs, each of which removes the modules that it has imported.
 import tftool.ros.launch_plugin
 from tftool.ros.launch_testing.text import build_line_match, build_text_match, expect_output
 
@@ -154,7 +154,7 @@ class TestAfter(unittest.TestCase):
 
 @pytest.fixture
 def run(pytester):
-    """Run files with `pytest --ros-free` and further words; the result."""
+    """Return a function that runs files with `pytest --ros-free` and further words."""
 
     def tested(*words, **files):
         pytester.makepyfile(talker=TALKER, **files)

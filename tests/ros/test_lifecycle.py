@@ -11,7 +11,7 @@ def rclpy(ros_runtime):
 
 @pytest.fixture
 def camera(rclpy):
-    """A lifecycle node that notes what it is told, and answers what `said` says."""
+    """Create a lifecycle node that records its callbacks, and returns the results in `said`."""
     from rclpy.lifecycle import Node, TransitionCallbackReturn
 
     class Camera(Node):
@@ -163,7 +163,7 @@ def test_others_ask_for_the_state_and_change_it(rclpy, camera, ros_runtime):
     constants = {
         getattr(Transition, name) for name in dir(Transition) if name.startswith("TRANSITION_")
     }
-    # Creation, destruction and what callbacks say are numbered too, and are no ways.
+    # Creation, destruction and results of callbacks have numbers too, but are no transitions.
     assert numbers == constants - {0, 8, 97, 98, 99}
     assert events == ["configuring", "inactive", "activating", "active"]
     assert "state 'active' has no transition 'cleanup'" in ros_runtime.log("camera")[-1]

@@ -1,4 +1,4 @@
-"""Locks, conditions, semaphores and queues of users' programs, on simulated time."""
+"""Tests of locks, conditions, semaphores and queues of users' programs, on simulated time."""
 
 import threading
 
@@ -31,7 +31,7 @@ def other(work):
 
 
 def told(ros_runtime, tmp_path, body):
-    """What a program logs, run for twenty simulated seconds."""
+    """Return the log of a program that runs for twenty simulated seconds."""
     file = tmp_path / "locking.py"
     file.write_text(PROGRAM + body)
     program = ros_runtime.start(file)

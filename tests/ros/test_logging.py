@@ -1,4 +1,4 @@
-"""A node's log."""
+"""Tests of a node's log."""
 
 import pytest
 

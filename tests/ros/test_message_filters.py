@@ -51,7 +51,7 @@ def test_equal_stamps_belong_together(filters):
     feed(filters[0], 1, 2, 3)
     feed(filters[1], 3, 1, 2)
 
-    # The queue of two had dropped the first.
+    # The queue of length two had dropped the first message.
     assert heard == [[3, 3], [2, 2]]
 
 

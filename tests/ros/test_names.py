@@ -92,7 +92,7 @@ def test_a_rename_may_hold_for_one_node_alone():
     ("pattern", "fits"),
     [
         ("/**", True),
-        # As in ROS 2, a node without a namespace.
+        # As in ROS 2, this is a node without a namespace.
         ("node", False),
         ("/space/node", True),
         ("/*/node", True),

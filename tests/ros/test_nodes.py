@@ -1,4 +1,4 @@
-"""Starting, naming and ending nodes."""
+"""Tests of the start, the names and the end of nodes."""
 
 import pytest
 
@@ -156,7 +156,7 @@ def test_a_node_of_another_process_of_the_same_name_is_warned_of(ros_runtime):
 
     rclpy.init()
     ros_runtime.world.know_far_nodes(["space/talker", "other", "_ros2cli"])
-    # Of a hidden one, a tool, there may be many.
+    # Several hidden nodes, such as tools, may have the same name.
     for name, namespace in [("talker", "space"), ("talker", ""), ("_ros2cli", "")]:
         rclpy.create_node(name, namespace=namespace)
 

@@ -1,4 +1,4 @@
-"""sensor_msgs_py: points to clouds and back."""
+"""Tests of sensor_msgs_py: points to clouds and back."""
 
 import math
 import struct

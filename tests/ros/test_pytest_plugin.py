@@ -61,7 +61,7 @@ def test_a_program_beside_the_test_that_fails_fails_the_test():
             with pytest.raises(NodeFailed, match=told):
                 runtime.sleep(1)
 
-    test()  # told once, it is quiet at its end
+    test()  # the failure was raised already, so its end is quiet
 
 
 def test_a_failure_the_test_never_waits_for_is_told_at_its_end():

@@ -1,4 +1,4 @@
-"""Quality of service between nodes of one process: who hears whom, and who is told."""
+"""Tests of quality of service between nodes of one process: delivery and warnings."""
 
 import pytest
 

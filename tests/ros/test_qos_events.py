@@ -1,4 +1,4 @@
-"""rclpy.event_handler and qos_overriding_options."""
+"""Tests of rclpy.event_handler and qos_overriding_options."""
 
 import pytest
 

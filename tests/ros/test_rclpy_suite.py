@@ -1,4 +1,4 @@
-"""What ROS 2's own tests of rclpy hold, and people's code uses."""
+"""Tests of behaviour that ROS 2's own tests of rclpy check and that programs use."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""tf2_ros: a buffer that another node keeps."""
+"""Tests of tf2_ros's lookups in another node's buffer."""
 
 import pytest
 

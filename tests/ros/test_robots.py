@@ -1,4 +1,4 @@
-"""robot_state_publisher and joint_state_publisher as launch files and `tftool run` start them."""
+"""Tests of robot_state_publisher and joint_state_publisher in launch files and `tftool run`."""
 
 import pytest
 
@@ -62,7 +62,7 @@ rclpy.spin(Asker())
 
 @pytest.fixture
 def launched(tmp_path):
-    """Launch both nodes with a description that is written as given, and a node that asks."""
+    """Launch both nodes with the given description, and a node that looks frames up."""
 
     def run(text):
         program = tmp_path / "asker.py"

@@ -1,4 +1,4 @@
-"""`ros2` as launch files and people call it."""
+"""Tests of `ros2` commands in launch files and on the command line."""
 
 import re
 
@@ -15,7 +15,7 @@ SIM = "Node(package='turtlesim', executable='turtlesim_node', name='sim')"
 
 
 def ran(ros_runtime, tmp_path, *words, seconds=5.0):
-    """Run a command beside the simulator; its status and lines."""
+    """Run a command beside the simulator; return its status and lines."""
     from tftool.ros.host.program import Program
 
     lines, ended = [], []
@@ -176,7 +176,7 @@ def test_topics_are_found_by_their_type(ros_runtime, tmp_path):
 def test_the_bandwidth_of_a_topic_is_measured(ros_runtime, tmp_path):
     _, lines = ran(ros_runtime, tmp_path, "topic", "bw", "/turtle1/pose", seconds=2.5)
 
-    # A pose is five floats behind CDR's four bytes of header, 62.5 times a second.
+    # A pose has five floats after CDR's header of four bytes, 62.5 times a second.
     assert re.fullmatch(r"1\.5\d KB/s from 6\d messages", lines[0])
     assert lines[1] == "\tMessage size mean: 24 B min: 24 B max: 24 B"
 

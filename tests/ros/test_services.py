@@ -1,4 +1,4 @@
-"""Services and their clients."""
+"""Tests of services and their clients."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Whole files, as different people write them; what each says is what it would say in ROS 2."""
+"""Tests of whole files in different styles; each logs what it would log in ROS 2."""
 
 import pytest
 

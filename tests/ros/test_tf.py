@@ -534,7 +534,7 @@ def test_a_rotation_that_ros_would_refuse_is_told_once_where_it_is_sent(
     said = [line for line in ros_runtime.log("probe") if "the rotation of 'robot'" in line]
     assert len(said) == 1
     assert told in said[0]
-    # What the buffer refuses again and again it says ever more rarely.
+    # The buffer logs repeated refusals less and less often.
     assert len(ros_runtime.log("buffer")) in (0, 4)
 
 

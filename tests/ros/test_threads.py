@@ -1,4 +1,4 @@
-"""Threads of the user's own."""
+"""Tests of threads in users' programs."""
 
 import pytest
 

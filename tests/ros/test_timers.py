@@ -1,4 +1,4 @@
-"""Timers and rates."""
+"""Tests of timers and rates."""
 
 import pytest
 

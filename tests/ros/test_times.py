@@ -1,4 +1,4 @@
-"""Times, durations and clocks."""
+"""Tests of times, durations and clocks."""
 
 import pytest
 

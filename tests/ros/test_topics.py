@@ -1,4 +1,4 @@
-"""Publishers and subscriptions."""
+"""Tests of publishers and subscriptions."""
 
 import pytest
 
@@ -68,7 +68,7 @@ def test_messages_can_be_had_and_sent_as_their_bytes(node):
     heard = []
     node.create_subscription(Int32, "numbers", heard.append, 10, raw=True)
     sender = node.create_publisher(Int32, "numbers", 10)
-    # Plain CDR, little endian: a header of four bytes, then the number's four.
+    # Plain CDR, little endian: a header of four bytes, and the number's four bytes.
     data = b"\x00\x01\x00\x00\x2a\x00\x00\x00"
     sender.publish(Int32(data=42))
     sender.publish(data)

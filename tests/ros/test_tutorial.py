@@ -1,4 +1,4 @@
-"""The tutorial's own nodes, held against the reference numbers, on simulated time."""
+"""Tests of the tutorial's own nodes against reference numbers, on simulated time."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ def case(group, name):
 
 
 def the_tutorial(runtime, *extra):
-    """The simulator, two broadcasters, and more of the package's executables."""
+    """Start the simulator, two broadcasters, and further executables of the package."""
 
     def begin():
         world = runtime.world
@@ -39,7 +39,7 @@ def the_tutorial(runtime, *extra):
 
 
 def commands(runtime, turtle="turtle2"):
-    """What a turtle was told, and where it was then: (t, x, y, theta, linear, angular)."""
+    """Return a turtle's commands and its poses then: (t, x, y, theta, linear, angular)."""
     rows = []
     world = runtime.world
 

@@ -1,4 +1,4 @@
-"""The tutorial's own files, unmodified, held against the reference's vectors on simulated time."""
+"""Tests of the tutorial's unmodified files against the reference's vectors, on simulated time."""
 
 import math
 
@@ -94,7 +94,7 @@ def test_the_launch_file_starts_up_and_steers_as_the_reference_does(case, tmp_pa
 
 
 def stage(last, steps, *, turtles=(), square=False, times=()):
-    """A world in which the broadcasters begin at t = 0; other programs at their own times."""
+    """Create a world with broadcasters from t = 0, and programs that start at other times."""
     world = new_world()
     loop = Loop(world, HEAD_START)
 
@@ -109,7 +109,7 @@ def stage(last, steps, *, turtles=(), square=False, times=()):
         if square:
             DrawSquare(world, reset=False)
 
-    # What happens in one instant happens before the simulator's tick of that instant.
+    # These steps run before the simulator's tick of the same instant.
     begun = [(HEAD_START + t, lambda words=words: start(world, *words)) for t, words in steps]
     Before(world, *sorted([*begun, (HEAD_START, begin)], key=lambda step: step[0]), name="stage")
     loop.sim = Turtlesim(world, turtles=turtles)
@@ -118,7 +118,7 @@ def stage(last, steps, *, turtles=(), square=False, times=()):
 
 
 def listener(period, source_frame="turtle1"):
-    """The tutorial's listener, and when it begins to have its first look at t = 0."""
+    """Return the tutorial's listener, and its start time for a first lookup at t = 0."""
     words = ("turtle_following", "--ros-args", "-r", "__node:=listener", "-p", f"period:={period}")
     return -3 * period, (*words, "-p", f"source_frame:={source_frame}")
 
@@ -181,7 +181,7 @@ def test_a_lost_leader_is_followed_blindly_until_the_cache_forgets():
 @pytest.mark.parametrize("case", VECTORS["control_law"], ids=lambda case: str(case["turtle1"]))
 def test_one_look_at_the_leader_gives_the_command_of_the_reference(case):
     world, loop = stage(0, [listener(1.0)])
-    # Only where they are to each other counts, and the field has no places below zero.
+    # Only the relative position counts, and the field has no negative positions.
     aside = max(0.0, -min(case["turtle1"][:2]))
 
     async def place():
@@ -195,7 +195,7 @@ def test_one_look_at_the_leader_gives_the_command_of_the_reference(case):
     command = loop.commands[0.0]
 
     assert close(command.linear.x, case["linear"], "linear")
-    # Straight behind, either way round is the shorter one.
+    # The target is straight behind, so both directions are equally short.
     angular = abs(command.angular.z) if case["angular"] > 3.14159 else command.angular.z
     assert close(angular, case["angular"], "angular")
 
@@ -223,7 +223,7 @@ def test_the_fixed_carrot_hangs_where_the_reference_says():
 def test_the_dynamic_carrot_jumps_as_the_reference_says():
     case = VECTORS["carrot"]["dynamic"]
     sent = {round(one.stamp / 1e9 - 1000, 6): one for one in sent_by("dynamic_carrot", 3.0)}
-    # The clock starts at an even second; the carrot is sent ten times a second.
+    # The clock starts at an even second, and the carrot is sent ten times a second.
     told = [row for row in rows(case) if row["clock_seconds"] in sent]
 
     assert len(sent) == 3 * case["rate_hz"]
@@ -280,7 +280,7 @@ def test_euler_angles_turn_as_the_reference_says(case):
 
     found = quaternion_from_euler(*case["rpy"])
 
-    # Either sign is the same rotation.
+    # Both signs are the same rotation.
     assert abs(sum(a * b for a, b in zip(found, case["xyzw"], strict=True))) == pytest.approx(
         1.0, abs=1e-8
     )

@@ -30,7 +30,7 @@ console_scripts =
 TOML = """
 [project]
 name = "from_toml"
-[project.scripts]  # what to run
+[project.scripts]  # program to run
 node = "mod:main"
 "quoted-one" = 'mod:other'
 [tool.x]

@@ -1,4 +1,4 @@
-"""What strangers put into a workspace, changed at random: read, skipped or refused, no more."""
+"""Tests that randomly changed files in a workspace are read, skipped or refused."""
 
 import random
 
@@ -72,7 +72,7 @@ def mutant(text, chance):
 
 
 def read(name):
-    """Make a class of an interface, as its import does."""
+    """Create the class of an interface, as an import does."""
     folder, _, file = name.partition("/")
     if file:
         INTERFACES.find("mutant_msgs", folder, file.partition(".")[0])

@@ -1,4 +1,4 @@
-"""The tutorial's package, and running it on simulated time."""
+"""The tutorial's package, and functions that run it on simulated time."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,7 +20,7 @@ TUTORIAL = Path(__file__).parent.parent / "tutorial" / "pkg_tf"
 
 @dataclass
 class Launched:
-    """What a launch did."""
+    """Result of a launch."""
 
     lines: list = field(default_factory=list)
     records: list = field(default_factory=list)
@@ -31,16 +31,16 @@ class Launched:
     elapsed: float = 0.0
 
     def said(self, who):
-        """What the launch said of a process, or of itself."""
+        """Return what the launch logged about a process, or about itself."""
         return [text for _, one, text in self.lines if one == who]
 
     def texts(self, node):
-        """What a node logged."""
+        """Return the log of a node."""
         return [record.text for record in self.records if record.node == node]
 
 
 def launch(file, *, seconds, arguments=None, start=TUTORIAL):
-    """Launch a file on simulated time and see what happens."""
+    """Launch a file on simulated time; return the result."""
     done = Launched()
     with ros_free():
         workspace = Workspace(start)
@@ -76,7 +76,7 @@ def launch(file, *, seconds, arguments=None, start=TUTORIAL):
 
 
 def see(world, done):
-    """Note where everything stands."""
+    """Store the world's nodes and topics, and the turtles' poses, in the result."""
     done.nodes = {node.name: node for node in world.nodes}
     done.topics = dict(world.topics())
     for node in world.nodes:

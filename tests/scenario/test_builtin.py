@@ -1,4 +1,4 @@
-"""The scenarios that come with tftool: found, read, and true."""
+"""Tests of the built-in scenarios: each is found, read, and meets its expectations."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Expectations: what holds passes, what does not says what was expected, found, and when."""
+"""Tests of expectations: a failed one names the expected value, the found value and the time."""
 
 import pytest
 
@@ -21,7 +21,7 @@ expect:
 
 
 def judge(*expectations):
-    """The outcomes of expectations in the world above."""
+    """Return the outcomes of expectations in the world above."""
     text = WORLD + "".join(f"  - {one}\n" for one in expectations)
     return run_scenario(parse(text, "s.yaml")).outcomes
 
@@ -242,7 +242,7 @@ def test_the_last_moment_is_looked_at_even_off_the_grid():
 
 
 def test_expectations_are_judged_after_everything_else_of_their_instant():
-    # The script acts at the very moment at which the expectation looks.
+    # The script acts at the same time at which the expectation is checked.
     (outcome,) = judge("{at: 4 s, lookup: {target: post, source: bird, time: now}, value: {z: 1}}")
 
     assert outcome.ok

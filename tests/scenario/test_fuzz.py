@@ -1,4 +1,4 @@
-"""Whatever a scenario file holds, it is read or refused with sentences; nothing else happens."""
+"""Tests that any scenario file is read, or refused with sentences."""
 
 from pathlib import Path
 
@@ -65,7 +65,7 @@ scenarios = st.fixed_dictionaries(
 
 
 def read(text: str) -> None:
-    """Read a text; what is refused must be refused in sentences that a terminal can take."""
+    """Read a text; check that a refusal consists of printable sentences."""
     refused = None
     try:
         scenario = load.parse(text, "fuzz.yaml")

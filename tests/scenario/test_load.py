@@ -1,4 +1,4 @@
-"""Scenario files in: what they mean, and every mistake in them at once."""
+"""Tests of reading scenario files: their meaning, and all mistakes at once."""
 
 from pathlib import Path
 
@@ -14,19 +14,19 @@ SMALLEST = "duration: 1 s\n"
 
 
 def mistakes(text):
-    """What is wrong with a text, as (line, column, sentence)."""
+    """Return the mistakes in a text as (line, column, sentence)."""
     with pytest.raises(ScenarioError) as refused:
         load.parse(text, "s.yaml")
     return [(one.line, one.column, one.text) for one in refused.value.mistakes]
 
 
 def told(text):
-    """The sentences alone."""
+    """Return the sentences only."""
     return [sentence for _, _, sentence in mistakes(text)]
 
 
 def node(yaml):
-    """The parameters of the only node of a scenario."""
+    """Return the parameters of the only node of a scenario."""
     (entry,) = load.parse(f"duration: 1 s\nnodes:\n  - {yaml}\n", "s.yaml").nodes
     return entry.parameters
 
@@ -171,7 +171,7 @@ expect:
         ("0.001000001 s", 1_000_001),
         ("'2 s'", 2 * 10**9),
         (".5", 5 * 10**8),
-        # YAML 1.1 would have read this as a number with base 8.
+        # YAML 1.1 would read this as an octal number.
         ("010", 10 * 10**9),
     ],
 )
@@ -379,7 +379,7 @@ def test_the_shown_line_is_safe_and_the_caret_stands_right():
 
     shown, marks = refused.value.mistakes[1].shown, refused.value.mistakes[1].marks
     assert shown == 'nodes: ["\ufffd車", trutle]'
-    # The wide sign takes two cells, so the caret stands one cell further than the column.
+    # The wide character takes two cells, so the caret is one cell further than the column.
     assert marks == " " * 15 + "^" * 6
 
 

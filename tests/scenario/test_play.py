@@ -1,4 +1,4 @@
-"""Worlds built from scenarios: the same every time, and everything a script can do."""
+"""Tests of worlds made from scenarios: equal in every run, with all actions of a script."""
 
 import asyncio
 import subprocess
@@ -21,7 +21,7 @@ from tftool.world.world import TransformMessage
 
 
 def play(text, *, by_hand=False):
-    """Live through a scenario on simulated time."""
+    """Run a scenario on simulated time."""
     clock = SimClock()
     scenario = parse(text, "s.yaml")
     played = build(left_to_a_person(scenario) if by_hand else scenario, clock)
@@ -30,12 +30,12 @@ def play(text, *, by_hand=False):
 
 
 def logged(played):
-    """What was said, and by whom."""
+    """Return the log messages, with their nodes."""
     return [(record.node, record.text) for record in played.world.log.records]
 
 
 def history(name):
-    """Everything a scenario broadcasts, publishes and says, to the last bit."""
+    """Return all transforms, messages and logs of a scenario, to the last bit."""
     clock = SimClock()
     played = build(load(builtin.path_of(name)), clock)
     heard = []
@@ -105,7 +105,7 @@ ONE_SIMULATOR = "duration: 5 s\nnodes: [turtlesim]\nexpect:\n  - {at: 1 s, turtl
 
 
 class Failing(Node):
-    """Fails at once."""
+    """Node that fails at once."""
 
     async def run(self):
         raise TftoolError("its port is taken")
@@ -113,7 +113,7 @@ class Failing(Node):
 
 @contextmanager
 def with_one_that_fails(world):
-    """A scenario's world, with a node in it that fails."""
+    """Create a scenario's world with a node that fails."""
     Failing(world, "second")
     yield
 
@@ -184,12 +184,12 @@ FIELD = "duration: 5 s\nnodes:\n  - turtlesim\n  - broadcaster: {turtle: turtle1
 
 
 def pose(played, turtle="turtle1"):
-    """Where a turtle ended up."""
+    """Return the final pose of a turtle."""
     return played.world.topic(f"{turtle}/pose", Pose).latest
 
 
 def test_a_drive_moves_for_its_time_and_stops():
-    # 2 m/s for a second are 62 or 63 ticks of 16 ms; from 1 s to 2 s there are 62.
+    # 2 m/s for a second is 62 or 63 ticks of 16 ms; from 1 s to 2 s there are 62.
     played = play(FIELD + "  - {at: 1.008 s, drive: {linear: 2 m/s}, for: 992 ms}\n")
 
     assert pose(played).x == pytest.approx(5.544445 + 62 * 0.032, abs=1e-5)
@@ -199,7 +199,7 @@ def test_a_drive_moves_for_its_time_and_stops():
 def test_keys_reach_the_turtle_through_teleop():
     played = play(FIELD + "  - {at: 1 s, keys: up left, every: 2 s}\n")
 
-    # One key moves for 63 ticks, so 2.016 m, and turns by 2.016 rad.
+    # One key moves the turtle for 63 ticks, so by 2.016 m, and turns it by 2.016 rad.
     assert pose(played).x == pytest.approx(5.544445 + 2.016, abs=1e-5)
     assert pose(played).theta == pytest.approx(2.016, abs=1e-5)
     assert "teleop" in [node.name for node in played.world.nodes]
@@ -306,7 +306,7 @@ def test_clear_and_reset_are_called():
 def test_a_rotation_turns_the_turtle():
     played = play(FIELD + "  - {at: 1 s, rotate: {theta: 90 deg}}\n")
 
-    # It stops up to 0.02 rad short.
+    # The rotation stops up to 0.02 rad before the goal.
     assert pose(played).theta == pytest.approx(1.552, abs=1e-4)
 
 
@@ -341,7 +341,7 @@ def test_a_stopped_node_says_no_more():
     played.world.topic("tf", TransformMessage).subscribe(heard.append)
     run(clock, played.live())
 
-    # 2 s are 125 ticks, the first at the start.
+    # 2 s are 125 ticks after the first one at the start.
     assert [message.authority for message in heard] == ["b"] * 126
     assert ("script", "b is gone") in logged(played)
 

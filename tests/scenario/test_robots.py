@@ -1,4 +1,4 @@
-"""The node `robot` of scenarios: an arm from its description, with no tricks."""
+"""Tests of the scenario node `robot`: an arm from its description."""
 
 import pytest
 
@@ -11,7 +11,7 @@ from tftool.scenario.load import load
 
 @pytest.fixture
 def scenario(tmp_path):
-    """Write a scenario with a robot beside its description."""
+    """Return a function that writes a scenario with a robot beside its description."""
     (tmp_path / "crane.urdf").write_text(FIXED)
 
     def write(robot, expect="[]"):
@@ -25,7 +25,7 @@ def scenario(tmp_path):
 
 
 def checked(path):
-    """Whether a scenario holds what it expects."""
+    """Return whether a scenario meets its expectations."""
     return main(["check", str(path)])
 
 

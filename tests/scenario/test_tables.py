@@ -1,4 +1,4 @@
-"""The tables that say what a scenario may hold agree with the code and with the page about them."""
+"""Tests that the tables of scenario contents agree with the code and with its page."""
 
 import inspect
 

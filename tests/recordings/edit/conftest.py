@@ -1,4 +1,4 @@
-"""The recording that most tests of editing begin with."""
+"""Recording with which most tests of edits begin."""
 
 import pytest
 

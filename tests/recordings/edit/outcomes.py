@@ -1,4 +1,4 @@
-"""What recordings hold that were written anew."""
+"""Contents of edited recordings."""
 
 from mcap.reader import SeekingReader
 from mcap.stream_reader import StreamReader
@@ -13,7 +13,7 @@ NEW_POSE = (1.0, 2.0, 3.0, 0.0, 0.0, 1.0, 0.0)
 
 
 def messages(path):
-    """Every message: log time and payload, by topic."""
+    """Return log time and payload of every message, by topic."""
     with open_recording(path) as recording:
         assert recording.damage == ()
         return {
@@ -23,7 +23,7 @@ def messages(path):
 
 
 def edges(path):
-    """Every transform: stamp and seven numbers, by (parent, child)."""
+    """Return stamp and seven numbers of every transform, by (parent, child)."""
     with open_recording(path) as recording:
         return {
             (edge.parent, edge.child): [
@@ -40,7 +40,7 @@ def edges(path):
 
 
 def strictly_read(path):
-    """How many messages others find who check all CRCs and indexes."""
+    """Return the number of messages that another reader finds that checks all CRCs and indexes."""
     files = sorted(path.iterdir()) if path.is_dir() else [path]
     for file in files:
         if file.suffix == ".mcap":

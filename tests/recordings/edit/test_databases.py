@@ -1,4 +1,4 @@
-"""sqlite files written anew: only the rows that change."""
+"""Tests of edited sqlite files, in which only the changed rows are written."""
 
 import sqlite3
 from contextlib import closing
@@ -17,7 +17,7 @@ from tftool.recordings.edit.rewrite import edit
 
 
 def rows(path):
-    """Every row of a database: its number, its topic and its bytes."""
+    """Return number, topic and bytes of every row of a database."""
     with closing(sqlite3.connect(path)) as base:
         asked = (
             "select messages.id, name, timestamp, data from messages "
@@ -28,7 +28,7 @@ def rows(path):
 
 @pytest.fixture
 def database(tmp_path):
-    """A sqlite file whose numbers begin late and have gaps, with a table of someone else's."""
+    """Write a sqlite file whose row numbers begin late and have gaps, with a foreign table."""
     path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
     with closing(sqlite3.connect(path)) as base:
         base.execute("pragma journal_mode = wal")
@@ -83,7 +83,7 @@ def test_what_is_dropped_from_a_database_is_not_in_its_file_any_more(database, t
 
 
 def damage(path):
-    """Make zeros of the page in the middle of a database."""
+    """Overwrite the page in the middle of a database with zeros."""
     raw = bytearray(path.read_bytes())
     size = int.from_bytes(raw[16:18], "big")
     number = len(raw) // size // 2
@@ -121,7 +121,7 @@ def test_texts_of_a_damaged_database_may_be_any_bytes(tmp_path):
 
 
 def test_a_database_of_many_pages_becomes_another_container_message_by_message(tmp_path):
-    """Its pages are read in pieces, and several of those are at hand at once."""
+    """Check a database whose pages are read in parts, several of which are in memory at once."""
     path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
     rows_of_a_page = [
         (number, bytes([0, 1, 0, 0]) + number.to_bytes(3000)) for number in range(1600)

@@ -1,4 +1,4 @@
-"""Recordings written anew: what is asked for changes, everything else stays byte for byte."""
+"""Tests of edits: requested changes are made, everything else stays equal byte for byte."""
 
 import random
 import shutil
@@ -139,7 +139,7 @@ for path in sys.argv[1:]:
     ]
 
 
-# What is changed
+# Requested changes
 
 
 def test_links_are_dropped_renamed_prefixed_and_shifted(tmp_path, mcap):
@@ -461,7 +461,7 @@ def test_a_broken_chunk_costs_only_what_lies_behind_the_break_in_it(tmp_path):
     data = bytearray(path.read_bytes())
     payload = next(raw for _, raw in before["/tf"] if raw in data[chunk.chunk_start_offset :])
     broken = data.index(payload, chunk.chunk_start_offset) - 31
-    # The length of a record, which then goes on behind the chunk's end.
+    # The length of a record, which then extends beyond the end of the chunk
     data[broken + 1 : broken + 9] = b"\xff\xff\xff\x00\x00\x00\x00\x00"
     path.write_bytes(data)
 
@@ -483,7 +483,7 @@ def test_a_chunk_that_announces_too_much_is_unpacked_once(tmp_path, monkeypatch,
         place = path.read_bytes().index(b"size=", 4100) + 5
     else:
         write_mcap(path, SENT, compression=CompressionType.LZ4)
-        # Two stamps stand before it in the chunk's record.
+        # Two stamps precede the name in the chunk's record.
         place = path.read_bytes().index(b"\x03\x00\x00\x00lz4") - 12
     raw = bytearray(path.read_bytes())
     raw[place : place + 4] = (0xF0000000).to_bytes(4, "little")
@@ -511,7 +511,7 @@ def test_a_message_of_a_channel_that_nothing_describes_is_left_out(tmp_path, is_
     data = bytearray(path.read_bytes())
     place = data.index(before["/tf"][3][1])
     data[place - 22 : place - 20] = b"\xff\xff"
-    # Without the summary every message is looked at.
+    # Without the summary, every message is read.
     path.write_bytes(data[:-37])
 
     report = edit([str(path)], out, Edits())
@@ -573,7 +573,7 @@ def test_a_message_may_say_that_it_was_sent_at_any_time(tmp_path):
 
 
 def test_a_schema_that_is_defined_twice_is_the_same_one_after_an_edit(tmp_path):
-    # The last definition before a channel names it counts, and none after that.
+    # The last definition before a channel that uses it is valid, and no later one.
     path = tmp_path / "twice.mcap"
     path.write_bytes(
         b"".join(
@@ -613,12 +613,12 @@ def schema(number, name):
 
 
 def humble_range(path, ranges):
-    """An MCAP file without definitions, as recorders of Humble's sqlite files leave them out."""
+    """Write an MCAP file without definitions, as recorders of Humble's sqlite files do."""
     writer = McapWriter(path)
     number = writer.channel(Channel("/sonar", "sensor_msgs/msg/Range", "cdr", "ros2msg", b""))
     for stamp, metres in enumerate(ranges, start=1):
         head = struct.pack("<iII6s", stamp, 0, 6, b"sonar\0")
-        # One byte follows the name at once; numbers of four bytes are aligned.
+        # One byte directly follows the name; numbers of four bytes are aligned.
         payload = b"\0\1\0\0" + head + struct.pack("<Bx4f", 0, 0.5, 0.1, 4.0, metres)
         writer.write(number, stamp * 10**9, payload)
     writer.finish()

@@ -1,4 +1,4 @@
-"""What is refused when a recording is written anew, and what an end before the end leaves."""
+"""Tests of refused edits, and of the files that an interrupted edit leaves."""
 
 import os
 import signal

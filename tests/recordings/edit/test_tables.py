@@ -1,4 +1,4 @@
-"""Messages changed all at once become what they become one by one, byte for byte."""
+"""Tests that messages changed in bulk equal messages changed one by one, byte for byte."""
 
 import random
 from pathlib import Path
@@ -40,7 +40,7 @@ EDITS = {
 
 
 def payload(number: int, draw: random.Random) -> bytes:
-    """A message of one of several kinds; some are odd."""
+    """Return a message of one of several kinds; some are unusual."""
     now = START + number * SECOND // 100
     pose = Transform((number / 7.0, draw.random(), 0.0))
     rows = [TransformStamped(now, "odom", "base_link", pose)]
@@ -52,7 +52,7 @@ def payload(number: int, draw: random.Random) -> bytes:
         rows = []
     found = bytearray(encode_transforms(rows))
     if rows and number % 2:
-        # Padding between a name and the numbers, which some writers leave as it was in memory.
+        # Padding between a name and the numbers, which some writers do not set to zero
         place = found.index(b"base_link\x00") + len(b"base_link\x00")
         if not any(found[place : place + 2]) and (place - 4) % 8:
             found[place] = draw.randrange(256)
@@ -61,7 +61,7 @@ def payload(number: int, draw: random.Random) -> bytes:
 
 @pytest.fixture(scope="module")
 def recorded(tmp_path_factory) -> Path:
-    """Transforms, statics, and messages of other lengths and types between them."""
+    """Record transforms, static ones, and messages of other lengths and types between them."""
     path = tmp_path_factory.mktemp("tables") / "run.mcap"
     draw = random.Random(4)
     writer = McapWriter(path, compression="lz4", chunk_size=8000)
@@ -86,7 +86,7 @@ def recorded(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory) -> Path:
-    """Such messages as a ROS 1 bag, but for those that are damaged."""
+    """Write the same messages, without the damaged ones, to a ROS 1 bag."""
     path = tmp_path_factory.mktemp("tables") / "run.bag"
     whole = path.with_suffix(".mcap")
     writer = McapWriter(whole, compression="none", chunk_size=8000)
@@ -110,7 +110,7 @@ def test_at_once_and_one_by_one_are_the_same(source, suffix, name, request, tmp_
     path = request.getfixturevalue(source)
     fast, slow = tmp_path / f"fast{suffix}", tmp_path / f"slow{suffix}"
     reports = [edit([str(path)], fast, EDITS[name])]
-    # No index, no kinds, and no writing of many: every message takes the way of odd ones.
+    # Without indexes, kinds and bulk writing, every message is processed like an unusual one.
     monkeypatch.setattr(chunked.ChunkedReader, "indexed_table", lambda self, chunk: None)
     monkeypatch.setattr(tables.Kinds, "groups", lambda self, table, which: ([], which))
     for writer in (McapWriter, Rosbag1Writer):
@@ -139,7 +139,7 @@ def test_names_change_and_stamps_and_numbers_stay(recorded, tmp_path):
 
 
 def rows(path):
-    """The messages of a database."""
+    """Return the messages of a database."""
     with open_recording(path) as recording:
         return [
             (one.log_time, one.sender.topic, one.payload)
