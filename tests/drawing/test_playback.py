@@ -7,6 +7,7 @@ from tftool.drawing.playback_line import (
     after,
     before,
     finding_line,
+    keys,
     line,
     passed,
 )
@@ -16,11 +17,15 @@ HALF = Playback(seconds(10), seconds(20), 1.5)
 
 
 def test_the_line_of_a_wide_terminal_tells_all():
-    assert line(HALF, 100).plain == (
-        "▶ 10.00 / 20.00 s  ×1.5  ━━━━───── "
-        " space pause  → next  [ ] 1 s  { } 10 s  ↑↓ rate  0 start  q quit"
-    )
-    assert "n N findings" in line(Playback(0, seconds(20), marks=[GAP]), 140).plain
+    assert line(HALF, 100).plain == ("▶ 10.00 / 20.00 s  ×1.5  " + "━" * 38 + "─" * 37)
+
+
+def test_keys_that_jump_to_findings_are_offered_if_there_are_findings():
+    offered = [does for _, does in keys(Playback(0, seconds(20), marks=[GAP]))]
+
+    assert {"pause", "findings", "rate", "quit"} <= set(offered)
+    assert "findings" not in [does for _, does in keys(HALF)]
+    assert all(key.isascii() for key, _ in keys(HALF, ascii_only=True))
 
 
 @pytest.mark.parametrize("ascii_only", [False, True])
@@ -33,19 +38,17 @@ def test_the_line_fits_into_every_terminal(ascii_only):
         assert told.isascii() or not ascii_only
 
 
-def test_a_narrow_terminal_keeps_the_time_and_how_to_quit():
-    assert line(HALF, 44).plain == "▶ 10.00 / 20.00 s  ×1.5  ━━━━━━─────  q quit"
+def test_a_narrow_terminal_keeps_the_time_without_a_bar():
+    assert line(HALF, 30).plain == "▶ 10.00 / 20.00 s  ×1.5"
 
 
 def test_paused_in_ascii():
     paused = Playback(seconds(0), seconds(20), 1.0, True, 1)
-    assert line(paused, 60, ascii_only=True, with_keys=False).plain == (
-        "||  0.00 / 20.00 s  x1  lap 2  " + "." * 27
-    )
+    assert line(paused, 58, ascii_only=True).plain == ("||  0.00 / 20.00 s  x1  lap 2  " + "." * 27)
 
 
 def test_a_recording_of_one_moment_is_played_whole():
-    assert "━" * 8 in line(Playback(0, 0), 60, with_keys=False).plain
+    assert "━" * 8 in line(Playback(0, 0), 60).plain
 
 
 GAP = PlaybackMark(seconds(5), seconds(10), "no data", is_error=True)
@@ -53,7 +56,7 @@ STEP = PlaybackMark(seconds(15), seconds(15), "it steps")
 
 
 def test_findings_are_parts_of_a_longer_bar_in_the_colour_of_their_severity():
-    text = line(Playback(0, seconds(20), marks=[GAP, STEP]), 80, with_keys=False)
+    text = line(Playback(0, seconds(20), marks=[GAP, STEP]), 80)
     told = text.plain
     start = told.index("●")
     bar = told[start:]
@@ -94,7 +97,7 @@ def test_the_head_is_seen_on_a_bar_full_of_findings(ascii_only):
     whole = PlaybackMark(0, seconds(20), "stops", is_error=True)
     playing = Playback(seconds(5), seconds(20), marks=[whole])
 
-    bar = line(playing, 80, with_keys=False, ascii_only=ascii_only).plain.split()[-1]
+    bar = line(playing, 80, ascii_only=ascii_only).plain.split()[-1]
 
     assert bar.strip("!=█═") in "|●"
     assert bar.index(bar.strip("!=█═")) == pytest.approx(0.25 * len(bar), abs=1)

@@ -104,13 +104,14 @@ def over_time(
     low, high = span or _span(drawn, shaded)
     told = [visible(one) for one in reasons(shaded)]
     text = Text(no_wrap=True, overflow="crop")
-    if len(found) == 1:
-        # With several pairs, each curve has its own name instead of a title.
+    is_named = len(found) == 1 and not look.numbered
+    if is_named:
+        # With several pairs, each curve has its own name; a live plot has a title bar.
         pair = visible(f"{found[0].source} in {found[0].target}")
         text.append(f"{fitted(pair, look.width)}\n", style="bold")
     tall, taller = ROWS, 0
     if look.height is not None:
-        around = 2 + len(told) + (len(found) == 1)
+        around = 2 + len(told) + is_named
         room = look.height - around - len(drawn)
         tall = max(LEAST_ROWS, room // max(1, len(drawn)))
         # With an odd number of lines, a tick in the middle line is exactly in the middle.

@@ -24,9 +24,7 @@ KEYS = (
 """Keys of the player with their meanings, the most important first."""
 
 _ASCII = {"→": "right", "↑↓": "up/down"}
-_SHORTEST_BAR, _LONGEST_BAR = 8, 30
-_LONGEST_TIMELINE = 120
-"""Longest bar in cells if it shows findings, whose positions should be distinct."""
+_SHORTEST_BAR, _LONGEST_BAR = 8, 120
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,16 +69,14 @@ def line(
     playback: Playback,
     width: int,
     *,
-    with_keys: bool = True,
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
 ) -> Text:
-    """Return the position as a line of at most `width` cells: state, seconds, rate, bar, keys.
+    """Return the position as a line of at most `width` cells: state, seconds, rate, bar.
 
     Args:
         playback: State of the player.
         width: Longest line in cells.
-        with_keys: Whether to show as many keys as fit.
         ascii_only: Whether to draw in ASCII.
         palette: Colours of the screen, for the findings.
     """
@@ -91,19 +87,19 @@ def line(
     words += f"  {'x' if ascii_only else '×'}{playback.rate:.3g}"
     if playback.laps:
         words += f"  lap {playback.laps + 1}"
-    shortest = 3 * _SHORTEST_BAR if playback.marks else _SHORTEST_BAR
-    # Without findings, the keys that jump between findings would have no effect.
-    shown = [(key, does) for key, does in KEYS if playback.marks or key != "n N"]
-    keys = _keys(shown, width - len(words) - shortest - 4, ascii_only) if with_keys else ""
-    longest = _LONGEST_TIMELINE if playback.marks else _LONGEST_BAR
-    room = min(width - len(words) - len(keys) - 4, longest)
+    room = min(width - len(words) - 2, _LONGEST_BAR)
     text = Text(words, no_wrap=True, overflow="crop")
     if room >= _SHORTEST_BAR:
         text.append("  ").append_text(_bar(playback, room, ascii_only, palette))
-    text.append(f"  {keys}")
-    text.rstrip()
     text.truncate(max(width, 0))
     return text
+
+
+def keys(playback: Playback, *, ascii_only: bool = False) -> list[tuple[str, str]]:
+    """Return the keys of the player with their meanings, the most important first."""
+    # Without findings, the keys that jump between findings would have no effect.
+    shown = [(key, does) for key, does in KEYS if playback.marks or key != "n N"]
+    return [(_ASCII.get(key, key) if ascii_only else key, does) for key, does in shown]
 
 
 def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette) -> Text:
@@ -180,10 +176,3 @@ def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
 def before(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
     """Return the begin of the last mark before a position; None if there is no such mark."""
     return max((one.since for one in marks if one.since < now), default=None)
-
-
-def _keys(shown: Sequence[tuple[str, str]], room: int, ascii_only: bool) -> str:
-    """Return the keys with their meanings that fit in a width; at least `q`, if that fits."""
-    *first, last = [f"{_ASCII.get(key, key) if ascii_only else key} {word}" for key, word in shown]
-    texts = ("  ".join([*first[:count], last]) for count in range(len(first), -1, -1))
-    return next((text for text in texts if len(text) <= room), "")

@@ -5,6 +5,7 @@ import os
 import shutil
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from rich.console import Console
@@ -12,7 +13,7 @@ from rich.text import Text
 
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.plain_text import visible
+from tftool.base.plain_text import count, visible
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.play import PlayOptions
 from tftool.commands.shared.connection import Connection, open_from
@@ -29,6 +30,7 @@ from tftool.drawing.playback_line import (
     after,
     before,
     finding_line,
+    keys,
     line,
     passed,
 )
@@ -36,6 +38,8 @@ from tftool.frames.source_options import At
 from tftool.opener import named
 from tftool.recordings.recording import Recording
 from tftool.recordings.timeline import Timeline
+from tftool.screens.terminal.panel_text import Hint, bar, footer
+from tftool.screens.terminal.text_style import Look
 from tftool.world.clock import Clock, FollowedClock, Phase
 from tftool.world.clock import run as run_loop
 from tftool.world.endpoints import PUBLISHER
@@ -61,7 +65,7 @@ AT: Final = seconds(0.5)
 """Nanoseconds after a finding's start within which the key "N" seeks to the one before it."""
 
 _ERASE = "\r\x1b[2K"
-_ERASE_TWO = f"{_ERASE}\x1b[1A\x1b[2K"
+_ERASE_ABOVE = "\x1b[1A\x1b[2K"
 
 
 def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> None:
@@ -105,16 +109,20 @@ _SEEKS: Final[dict[str, Duration]] = {
 
 
 class Display:
-    """Lines on stderr with the playback's position and a finding, if stderr is a terminal."""
+    """Title, position, finding and keys of the playback on stderr, if stderr is a terminal."""
 
-    def __init__(self, player: "Player", clock: Clock, marks: Sequence[PlaybackMark] = ()) -> None:
+    def __init__(
+        self, player: "Player", clock: Clock, title: str, marks: Sequence[PlaybackMark] = ()
+    ) -> None:
         """Start without drawing.
 
         Args:
             player: Player whose position is shown.
             clock: Clock that times the drawing.
+            title: Title above the position.
             marks: Findings of the doctor.
         """
+        self._title = title
         self._marks = marks
         self._done: Duration = -1
         self._player = player
@@ -156,14 +164,22 @@ class Display:
         # The last column stays empty, because some terminals wrap there.
         width = shutil.get_terminal_size().columns - 1
         style: Any = {"ascii_only": self._ascii_only, "palette": self._palette}
-        lines = [line(now, width, with_keys=self.has_keys, **style)]
+        look = Look(self._palette, self._ascii_only)
+        found = count(len(now.marks), "finding") if now.marks else ""
+        state = (
+            ("paused", look.palette.warning) if now.is_paused else ("playing", look.palette.accent)
+        )
+        lines = [bar(self._title, found, state, width, look), line(now, width, **style)]
         if now.marks:
             lines.append(finding_line(now, width, **style))
+        if self.has_keys:
+            hints = [Hint(*one) for one in keys(now, ascii_only=self._ascii_only)]
+            lines.append(footer(hints, width, look))
         with self._console.capture() as captured:
             self._console.print(Text("\n").join(lines), end="", soft_wrap=True, highlight=False)
         sys.stderr.write(self._erase + captured.get())
         sys.stderr.flush()
-        self._erase = _ERASE if len(lines) == 1 else _ERASE_TWO
+        self._erase = _ERASE + _ERASE_ABOVE * (len(lines) - 1)
 
     def clear(self) -> None:
         """Erase the lines with the playback's position and a finding."""
@@ -247,7 +263,8 @@ async def _play(
             is_restamped=is_restamped,
             feed=_feed(recording, timeline, link) if options.everything else None,
         )
-        display = Display(player, pace, marks)
+        title = f"tftool play {visible(Path(options.file).name)}"
+        display = Display(player, pace, title, marks)
         stop_telling = world.log.listen(display.tell, "console")
         try:
             with keyboard(lambda key: press(player, key, marks)) as display.has_keys:

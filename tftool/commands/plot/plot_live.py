@@ -5,13 +5,17 @@ from rich.live import Live
 from rich.text import Text
 
 from tftool.base.errors import InputError, TransformException, UsageError
+from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.plot import PlotOptions
 from tftool.commands.plot.command import drawn
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.terminal import keyboard, left_while_stopped
+from tftool.drawing import theme
 from tftool.frames.pair_samples import Moments, sample
+from tftool.screens.terminal.panel_text import Hint, footer, title_bar
+from tftool.screens.terminal.text_style import Look
 from tftool.world.clock import Phase
 from tftool.world.stopper import leave_screen
 from tftool.world.world import World
@@ -24,6 +28,15 @@ FARTHEST_BACK = 4
 
 NEAREST = seconds(0.2)
 """Smallest visible time span, nanoseconds."""
+
+KEYS = (
+    Hint("+ -", "zoom"),
+    Hint("left right", "time"),
+    Hint("0", "all"),
+    Hint("1-9", "hide a curve"),
+    Hint("q", "quit"),
+)
+"""Keys of a live plot with their meanings."""
 
 _STEP = 1.5
 """Magnification of one step of the zoom."""
@@ -67,10 +80,9 @@ class PlotSight:
         return now - self._back - self._span, now - self._back
 
     @property
-    def hint(self) -> str:
-        """Line with the keys, and how long before the present the shown time is."""
-        back = f"{as_seconds(self._back):.1f} s back   " if self._back else ""
-        return f"{back}q quit  + - zoom  left right time  0 all  1-9 hide a curve"
+    def back(self) -> Duration:
+        """Nanoseconds between the newest and the shown time."""
+        return self._back
 
 
 def plot_live(connection: Connection, options: PlotOptions, pairs: list[tuple[str, str]]) -> None:
@@ -82,6 +94,9 @@ def plot_live(connection: Connection, options: PlotOptions, pairs: list[tuple[st
     start = min(world.clock.now(), world.clock.epoch) or world.clock.now()
 
     sight = PlotSight(options.window)
+    ascii_only = options.ascii_only or console.options.ascii_only
+    look = Look(theme.LIGHT if options.light else theme.DARK, ascii_only)
+    title = "tftool plot: " + ", ".join(visible(f"{of} in {to}") for to, of in pairs)
 
     async def draw() -> None:
         with (
@@ -93,11 +108,13 @@ def plot_live(connection: Connection, options: PlotOptions, pairs: list[tuple[st
             end = None if options.lasting is None else due + options.lasting
             world.clock.limit(end)
             while not sight.ended and (end is None or due <= end):
-                height = console.height - takes_keys
+                height = console.height - 1 - takes_keys
                 text = _newest(world, options, pairs, start, sight, console, height)
+                elapsed, back = as_seconds(due - start), as_seconds(sight.back)
+                head = title_bar(title, elapsed, console.width, look, behind=back)
+                text = head.append("\n").append_text(text)
                 if takes_keys:
-                    hint = sight.hint[: console.width - 1]
-                    text.append(hint, "yellow" if sight.span(due)[1] < due else "dim")
+                    text.append_text(footer(KEYS, console.width, look))
                 live.update(text, refresh=True)
                 due = max(due + seconds(0.2), world.clock.now())
                 await world.clock.sleep_until(due, Phase.WATCH)

@@ -288,25 +288,35 @@ def scenarios(
 
 def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:
     """Return the top line: the title, the time, and whether that is the present."""
-    palette = look.palette
-    clock = f"{as_seconds(moment.elapsed):.1f} s"
-    if moment.behind:
+    elapsed, behind = as_seconds(moment.elapsed), as_seconds(moment.behind)
+    return title_bar(title, elapsed, width, look, behind=behind, rate=rate)
+
+
+def title_bar(
+    title: str, elapsed: float, width: int, look: Look, *, behind: float = 0.0, rate: float = 1.0
+) -> Text:
+    """Return a line above a picture: its title, seconds since the start, and "live".
+
+    Args:
+        title: Title at the left.
+        elapsed: Seconds since the start.
+        width: Width in cells.
+        look: Colours and characters to use.
+        behind: Seconds before the present; 0 if live.
+        rate: Seconds of the world per real second.
+    """
+    if behind:
         sign = "<<" if look.ascii_only else "◀◀"
-        state, ink = f"{sign} {as_seconds(moment.behind):.1f} s ago", palette.warning
+        state, ink = f"{sign} {behind:.1f} s ago", look.palette.warning
     else:
-        state, ink = ("* live" if look.ascii_only else "● live"), palette.accent
+        state, ink = ("* live" if look.ascii_only else "● live"), look.palette.accent
     if rate != 1.0 and math.isfinite(rate):
         state += f" {'x' if look.ascii_only else '×'}{rate:g}"
-    return _bar(title, clock, (state, ink), width, look)
+    return bar(title, f"{elapsed:.1f} s", (state, ink), width, look)
 
 
-def title_bar(title: str, elapsed: float, width: int, look: Look) -> Text:
-    """Return a line above a live picture: its title, and seconds since the start."""
-    state = "* live" if look.ascii_only else "● live"
-    return _bar(title, f"{elapsed:.1f} s", (state, look.palette.accent), width, look)
-
-
-def _bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Look) -> Text:
+def bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Look) -> Text:
+    """Return a line with a title at the left, and at the right a clock and a coloured state."""
     words, ink = state
     right = Text.assemble(
         (clock + "  ", look.ink(look.palette.text)), (words, look.ink(ink, bold=True)), " "
