@@ -1,4 +1,4 @@
-"""Values that hypothesis draws: rotations, poses, stamps."""
+"""Random values for hypothesis: rotations, poses, stamps."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""A real terminal that can be asked what is on it: tmux."""
+"""A real terminal, tmux, whose contents a test can read."""
 
 import os
 import shlex
@@ -21,15 +21,16 @@ taken at what shows nothing."""
 
 
 class Terminal:
-    """A tmux with one window, in which a command runs and then its exit status stands."""
+    """A tmux with one window, in which a command runs; afterwards its exit status is printed."""
 
     def __init__(self, place, width, height, words, environment):
         self.socket = str(place / "tmux")
         self.pid_file = place / "pid"
         command = shlex.join([sys.executable, *words])
-        # exec, so that the number in the file is the command's own.
+        # exec, so that the number in the file is the number of the command itself
         line = f"sh -c {shlex.quote(f'echo $$ > {self.pid_file}; exec {command}')}"
-        # Ctrl-C is a signal for everything in the window; what waits for the command outlives it.
+        # Ctrl-C is a signal for all programs of the window, and the shell that waits must survive
+        # it.
         line = f'trap : INT; {line}; echo "ended with $?"; exec cat'
         kept = {
             key: os.environ[key]
@@ -44,7 +45,7 @@ class Terminal:
             **environment,
         }
         self.tmux("new-session", "-d", "-x", str(width), "-y", str(height), line)
-        # What is written to the terminal comes here too, so that a look can wait for it.
+        # The terminal's output is also copied to this file, so that a test can wait for output.
         copy = place / "written"
         os.mkfifo(copy)
         self.written = os.open(copy, os.O_RDONLY | os.O_NONBLOCK)
@@ -70,7 +71,7 @@ class Terminal:
             self.tmux("send-keys", key)
 
     def until(self, condition, what, *, pressing=()):
-        """Look at the screen until it is as it should be; before each look press the next key."""
+        """Look at the screen until `condition` accepts it; press the next key before each look."""
         keys = cycle(pressing)
         return self._seen(
             self.screen,
@@ -84,7 +85,7 @@ class Terminal:
         return self.until(lambda screen: words in screen, words)
 
     def has_shown(self, words):
-        """Wait for words that may have left the screen at its top since."""
+        """Wait for words that may have scrolled off the screen."""
         self._seen(
             lambda: self.tmux("capture-pane", "-p", "-J", "-S", "-"),
             lambda text: words in text,
@@ -92,7 +93,7 @@ class Terminal:
         )
 
     def _seen(self, look, condition, what, before=lambda: None, patience=PATIENCE):
-        """Look again whenever something was written, until what is seen is as it should be."""
+        """Look again after every output, until `condition` accepts the result of `look`."""
         silent = 0.0
         for _ in range(LOOKS):
             before()
@@ -112,7 +113,7 @@ class Terminal:
                 pass
 
     def facts(self):
-        """Whether the other screen is on, the cursor seen, the mouse caught."""
+        """Return whether the alternate screen is on, the cursor visible, the mouse reported."""
         asked = "#{alternate_on} #{cursor_flag} #{mouse_any_flag}"
         return self.tmux("display-message", "-p", asked).split()
 
@@ -120,9 +121,9 @@ class Terminal:
         os.kill(int(self.pid_file.read_text()), number)
 
     def stops(self):
-        """Wait until the command is stopped: it leaves the screen before, and says no more."""
+        """Wait until the command is suspended; it restores the screen before, and is quiet."""
         state = Path("/proc", self.pid_file.read_text().strip(), "stat")
-        # The state is what follows the name, which may hold anything, in parentheses.
+        # The state follows the name, which is in parentheses and may contain any characters.
         self._seen(
             lambda: state.read_text().rpartition(") ")[2],
             lambda told: told.startswith("T"),
@@ -131,7 +132,7 @@ class Terminal:
         )
 
     def ended(self, status):
-        """Wait for the end; the terminal is then as it was before."""
+        """Wait for the end of the command, and check that the terminal is restored."""
         screen = self.shows(f"ended with {status}")
         assert self.facts() == ["0", "1", "0"]
         # Typed keys are echoed again.

@@ -1,4 +1,4 @@
-"""The pages in docs/ name what is there, and what they say a command prints is what it prints."""
+"""Tests that pages in docs/ name existing files, and show the real output of commands."""
 
 import re
 import tomllib
@@ -31,7 +31,7 @@ EXCERPT = re.compile(r"^<!-- From (\S+)\. -->\n```\w+\n(.*?)^```$", re.MULTILINE
 
 
 def excerpts(page):
-    """The parts of files that a page shows: (name, text)."""
+    """Return the parts of files that a page shows: (name, text)."""
     return EXCERPT.findall(page.read_text(encoding="utf-8"))
 
 
@@ -40,7 +40,7 @@ WITH_BLOCKS = [page for page in sorted(DOCS.rglob("*.md")) if blocks(page)]
 
 @pytest.mark.parametrize("page", WITH_BLOCKS, ids=named)
 def test_a_page_can_be_followed_line_by_line(page, tmp_path, monkeypatch):
-    """Its commands print what it says, its programs too; files begin with their own name."""
+    """Check commands and programs of a page against the output below them."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "sessions"))
@@ -59,7 +59,7 @@ def test_a_page_can_be_followed_line_by_line(page, tmp_path, monkeypatch):
 
 
 def test_every_program_of_a_page_has_its_output_below_it():
-    # architecture.md shows parts of files to add; the other pages, programs.
+    # architecture.md shows parts of files to add; the other pages show programs.
     for page in DOCS.glob("*/*.md"):
         kinds = [kind for kind, _ in blocks(page)]
         shown = [text for _, text in excerpts(page)]
@@ -91,7 +91,7 @@ def test_the_picture_of_the_turtles_frames_is_what_the_program_draws(tmp_path):
     drawn = tmp_path / "turtles.svg"
     assert main(["tree", "turtles", "-o", str(drawn)]) == 0
 
-    # To draw it anew: tftool tree turtles -o docs/learn/turtles.svg
+    # The command to draw it again: tftool tree turtles -o docs/learn/turtles.svg
     assert (DOCS / "learn" / "turtles.svg").read_text("utf-8") == drawn.read_text("utf-8")
 
 
@@ -101,7 +101,7 @@ def test_the_site_is_built_without_a_warning(tmp_path):
     from sphinx.cmd.build import build_main
 
     with warnings.catch_warnings():
-        # Warnings of the build itself are errors (-W); those of its libraries are theirs.
+        # Warnings of the build are errors (-W); warnings of its libraries are ignored.
         warnings.simplefilter("ignore")
         words = ["-q", "-W", "--keep-going", "-d", str(tmp_path / "kept")]
         status = build_main([*words, str(DOCS), str(tmp_path / "site")])
@@ -110,7 +110,7 @@ def test_the_site_is_built_without_a_warning(tmp_path):
     front = (tmp_path / "site" / "index.html").read_text(encoding="utf-8")
     scene = re.search(r'<iframe src="([^"#]+)#', front)[1]
     assert "<title>tftool view</title>" in (tmp_path / "site" / scene).read_text("utf-8")
-    # Nothing is fetched from elsewhere.
+    # The page fetches nothing from other servers.
     assert not re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"(?:https?:)?//", front)
 
 
@@ -148,7 +148,8 @@ def test_every_file_and_folder_named_is_there():
     }
 
     assert len(named) > 40
-    # A room is named without the package it lies in; a page's own files stand in its blocks.
+    # Pages omit the package `tftool/` before a room; files of a page begin with their name in its
+    # blocks.
     places = (ROOT, ROOT / "tftool", ROOT / "examples" / "learning_tf" / "learning_tf")
     own = {
         text.partition("\n")[0][2:]

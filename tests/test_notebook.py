@@ -1,4 +1,4 @@
-"""What values look like in a notebook: the one in docs/ is run, in IPython's own kernel."""
+"""Tests of values in a notebook; the notebook in docs/ is run in IPython's own kernel."""
 
 import importlib.util
 import json
@@ -61,7 +61,7 @@ def test_the_notebook_of_the_docs_runs_and_shows_trees_and_tables(tmp_path):
     (shown,) = [one["data"] for one in poses if one["output_type"] == "execute_result"]
     table = "".join(shown["text/html"])
     assert "laser in world: 20 poses, 17 valid" in table
-    # The header, five rows of each end, and a row of dots between.
+    # The header, five rows of each end, and a row of dots between them
     assert table.count("<tr>") == 12
     assert "newest" in "".join(why[0]["text"]) or "ended" in "".join(why[0]["text"])
     (shown,) = [one["data"] for one in view if one["output_type"] == "execute_result"]

@@ -1,4 +1,4 @@
-"""The one door to frames: what Python opens, and that the command line answers from the same."""
+"""Tests of `tftool.open` for all sources, and of commands that read the same sources."""
 
 import asyncio
 import json
@@ -29,7 +29,7 @@ STATICS = "ros2 run tf2_ros static_transform_publisher 0 0 1 0 0 0 base laser\n"
 
 
 def run_of(path: Path, first: int = 0, count: int = 50, x: float = 0.0) -> Path:
-    """A recording of `base` in `map` at 10 Hz, from `first` seconds after 100 s on."""
+    """Write a recording of `base` in `map` at 10 Hz that begins `first` seconds after 100 s."""
     buffer = Buffer(seconds(1000))
     for step in range(count):
         pose = Transform((x + 0.1 * step, 0.0, 0.0), quaternion_from_rpy(0.0, 0.0, 0.01 * step))
@@ -42,7 +42,7 @@ def run_of(path: Path, first: int = 0, count: int = 50, x: float = 0.0) -> Path:
 
 
 def several(folder: Path) -> Path:
-    """Two recordings whose names are not in the order of time."""
+    """Write two recordings whose names are not in the order of time."""
     folder.mkdir()
     run_of(folder / "a.mcap", first=20, x=7.0)
     run_of(folder / "b.mcap", first=0)
@@ -136,7 +136,7 @@ def test_a_recording_knows_its_span_and_a_description_has_none(tmp_path):
 
 
 def test_several_recordings_are_joined_in_the_order_of_time(tmp_path):
-    """What comes last counts of a static, whatever the files are called."""
+    """Check that the last static transform in time is used, whatever the names of the files."""
     with library.open(several(tmp_path / "runs")) as frames:
         assert (frames.start, frames.end) == (seconds(100), seconds(124.9))
         mount = frames.buffer.lookup_transform("base", "laser").transform

@@ -13,7 +13,7 @@ import tftool
 from tests import typed_program
 from tftool.opener import open_frames
 
-# What whoever builds on tftool may rely on. Adding a name is a promise, taking one away breaks it.
+# Names on which users' code may rely. Adding a name is a promise; removing one breaks it.
 PROMISED = [
     "BackwardExtrapolationException",
     "Buffer",
@@ -107,7 +107,7 @@ def test_every_promised_name_is_in_the_help_and_on_its_page(name):
 
 
 def test_a_users_typed_program_runs(tmp_path):
-    """The project's type check holds it to mypy --strict."""
+    """Check a program with mypy --strict, and run it."""
     found = typed_program.main(tmp_path)
 
     assert found["farthest"] == pytest.approx(2.0)
@@ -123,7 +123,7 @@ def test_another_name_is_refused_as_python_does():
 
 @pytest.mark.parametrize("name", PROMISED)
 def test_type_checkers_find_every_promised_name(name):
-    """Nothing is imported while it runs: what they read stands under TYPE_CHECKING."""
+    """Check the names for type checkers; nothing is imported at run time under TYPE_CHECKING."""
     known = set()
     for statement in ast.parse(Path(tftool.__file__).read_text(encoding="utf-8")).body:
         if isinstance(statement, ast.If) and ast.unparse(statement.test) == "TYPE_CHECKING":
@@ -135,7 +135,7 @@ def test_type_checkers_find_every_promised_name(name):
 
 @pytest.mark.parametrize("name", ["diagnose", "diff", "explain", "export", "view"])
 def test_what_takes_a_recording_names_it(name):
-    """A protocol does not do: pyright takes no cached property for a property of one."""
+    """Check the class itself: pyright accepts no cached property for a protocol's one."""
     takes = next(iter(inspect.signature(getattr(tftool, name)).parameters.values())).annotation
     if isinstance(takes, str):
         takes = eval(takes, {known: getattr(tftool, known) for known in PROMISED})
@@ -157,7 +157,7 @@ def test_the_scalar_path_imports_neither_numpy_nor_asyncio():
 
 
 def test_a_class_name_stands_for_one_thing():
-    """Faces of ROS's own names apart, which stand where ROS has them."""
+    """Check that no two classes share a name, except classes with ROS's names in ROS's modules."""
     faces = ("ros/rclpy/", "ros/tf2/", "ros/launch/", "ros/share/")
     root = Path(tftool.__file__).parent
     named = Counter(

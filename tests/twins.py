@@ -1,7 +1,7 @@
-"""The same package twice in one process: as it runs here, and in plain Python.
+"""The same package twice in one process: the native version, and plain Python.
 
-The second copy of `tftool.buffer` is imported under TFTOOL_PURE=1. Both share everything else,
-`TransformStamped` and the exceptions included, so that their answers can be compared.
+The second copy of `tftool.buffer` is imported under TFTOOL_PURE=1. Both copies share everything
+else, such as `TransformStamped` and the exceptions, so that their results can be compared.
 """
 
 import importlib
@@ -22,13 +22,13 @@ _copies: dict[str, object] = {}
 
 
 def is_native() -> bool:
-    """Whether there are two to compare."""
+    """Return whether the native version is installed."""
     return IS_NATIVE
 
 
 @contextmanager
 def pure() -> Iterator[None]:
-    """Inside, `tftool.buffer` is the plain copy, for what imports it and for what it imports."""
+    """Make `tftool.buffer` the plain copy inside this block, for all later imports."""
     ours = {name: module for name, module in sys.modules.items() if _is_twin(name)}
     package, switch = tftool.buffer, os.environ.get(SWITCH)
     for name in ours:
@@ -55,7 +55,7 @@ def _is_twin(name: str) -> bool:
 
 
 class Twins:
-    """Two buffers of one kind, this process's own and a plain one, that are told the same."""
+    """Two buffers, the native one and a plain one, on which the same calls are made."""
 
     def __init__(self, *arguments: object, **options: object) -> None:
         self.logs: tuple[list[tuple[str, str]], list[tuple[str, str]]] = ([], [])
@@ -75,7 +75,7 @@ class Twins:
         assert type(self.pair[0]) is not type(self.pair[1]), "both are of one class"
 
     def ask(self, call: str, *words: object, **options: object) -> tuple[object, object]:
-        """What both answer to a call of a buffer: a value, or an exception's kind and text."""
+        """Return both results of a call: a value, or an exception's class and text."""
         ours = _outcome(getattr(self.pair[0], call), words, options)
         with pure():
             return ours, _outcome(getattr(self.pair[1], call), words, options)
@@ -89,15 +89,15 @@ def _outcome(call, words, options):
 
 
 def worst(count: int, links: int = 5) -> tuple[int, float, float]:
-    """The largest difference of both in so many lookups of one batch.
+    """Return the largest difference between both versions in so many lookups of one batch.
 
     Args:
-        count: How many.
-        links: How many lie between the two frames.
+        count: Number of lookups.
+        links: Number of edges between the two frames.
 
     Returns:
-        How many were compared, and the difference: of places, by the length of the way, and of
-        rotations. Every thousandth is asked singly as well.
+        Number of compared lookups, and the differences of positions (relative to the length of the
+        path) and of rotations. Every thousandth lookup is also made singly.
     """
     import numpy as np
 
@@ -107,7 +107,7 @@ def worst(count: int, links: int = 5) -> tuple[int, float, float]:
         stamps = 10**9 + np.arange(samples) * 10**7 + random.integers(0, 10**6, samples)
         places = np.cumsum(random.normal(0.0, 0.1, (samples, 3)), axis=0)
         way += float(np.linalg.norm(places, axis=1).max())
-        # Neighbours are from hardly turned to wholly turned round.
+        # Neighbouring rotations differ from hardly at all to completely.
         turns = np.cumsum(random.normal(0.0, 10.0 ** -(link + 1), (samples, 4)), axis=0)
         turns[:, 3] += 1.0 if link else 0.0
         twins.ask("set_transforms", f"f{link}", f"f{link + 1}", stamps, places, turns)

@@ -1,4 +1,4 @@
-"""A program as a user writes it, which mypy --strict takes and Python runs."""
+"""A user's program, which passes mypy --strict and runs."""
 
 from pathlib import Path
 
@@ -22,12 +22,12 @@ from tftool import (
 
 
 class Circling(Node):
-    """A frame on a circle about the origin."""
+    """Node that broadcasts a frame on a circle about the origin."""
 
     radius: float = 2.0
 
     async def run(self) -> None:
-        """Say where it is, twenty times a second."""
+        """Broadcast the frame twenty times a second."""
         async for now in self.every(seconds(0.05)):
             angle = (now - self.world.clock.epoch) / seconds(1)
             turn = Quaternion.from_rpy(0.0, 0.0, angle)
@@ -36,7 +36,7 @@ class Circling(Node):
 
 
 def driven() -> Buffer:
-    """Let the node run for two seconds."""
+    """Return the buffer of a world in which the node has run for two seconds."""
     world = World(SimClock())
     Circling(world, "circling")
     world.run(seconds(2))
@@ -50,7 +50,7 @@ def farthest(path: TransformArray) -> float:
 
 
 def main(folder: Path) -> dict[str, float]:
-    """Drive, write, read again, and measure."""
+    """Run the node, write a recording, read it, and measure."""
     buffer = driven()
     latest: TransformStamped = buffer.lookup_transform("map", "car")
     written = tftool.export(buffer, path=folder / "run.mcap")

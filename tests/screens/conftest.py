@@ -14,7 +14,7 @@ from tftool.world.world import World
 
 
 class Looker(Node):
-    """Looks as often as a screen does, on simulated time."""
+    """Node that updates a scene as often as a screen does, on simulated time."""
 
     phase = Phase.WATCH
 
@@ -29,7 +29,7 @@ class Looker(Node):
 
 
 class Driver(Node):
-    """Presses teleop's keys at their seconds."""
+    """Node that presses teleop's keys at given seconds."""
 
     def __init__(self, world, teleop, presses):
         super().__init__(world, "driver")
@@ -47,7 +47,7 @@ DANCE = tuple((4.0 + 0.5 * n, "left" if n % 3 == 2 else "up") for n in range(20)
 
 @pytest.fixture(scope="session")
 def turtles():
-    """Make the turtles' world as it is after some seconds: its scene, looked at all along."""
+    """Return a function that returns the turtles' scene after a time, updated throughout."""
 
     def make(lasting=14.0, presses=DANCE, *, followed=True, extra=lambda world: None):
         world = World(SimClock())
@@ -69,13 +69,13 @@ def turtles():
 
 @pytest.fixture(scope="session")
 def danced(turtles):
-    """The turtles after 14 s; whoever uses it only looks."""
+    """Return the turtles' scene after 14 s; tests only read it."""
     return turtles()
 
 
 @pytest.fixture
 def frames():
-    """Make a world with nothing but frames: name -> (parent, x, y), all static."""
+    """Return a function that creates a world of static frames: name -> (parent, x, y)."""
 
     def make(links):
         from tftool.buffer.sample import TransformStamped

@@ -1,4 +1,4 @@
-"""Screens as one SVG that moves: every line is drawn once, and shown while it is on the screen."""
+"""Screens as one animated SVG: each line is drawn once, and shown while it is on the screen."""
 
 from collections.abc import Sequence
 from html import escape
@@ -10,13 +10,13 @@ FONTS = "ui-monospace, SFMono-Regular, Menlo, Consolas, 'DejaVu Sans Mono', mono
 
 
 def animated(screens: Sequence[Sequence], period: float, ground: str, title: str) -> str:
-    """An SVG of some screens, one after the other, again and again.
+    """Return an SVG that shows screens one after the other, repeatedly.
 
     Args:
-        screens: Each a list of textual's strips, all of one size.
-        period: Seconds for which each is shown.
-        ground: The colour of what has none.
-        title: What the picture is called.
+        screens: Screens as lists of textual's strips, all of one size.
+        period: Seconds for which each screen is shown.
+        ground: Background colour of cells without one.
+        title: Title of the picture.
     """
     first = screens[0]
     width, height = first[0].cell_length * WIDE, len(first) * HIGH
@@ -37,7 +37,7 @@ def animated(screens: Sequence[Sequence], period: float, ground: str, title: str
 
 
 def _line(strip, row: int, ground: str, classes: dict[str, str]) -> str:
-    """The signs of a line, and what is below them."""
+    """Return the characters of a line, and the backgrounds below them."""
     below, above, column = [], [], 0
     for fill, back, bold, text in _runs(strip, ground):
         cells = cell_len(text)
@@ -60,7 +60,7 @@ def _line(strip, row: int, ground: str, classes: dict[str, str]) -> str:
 
 
 def _runs(strip, ground: str) -> list[tuple[str, str, bool, str]]:
-    """What looks the same, side by side; blanks look like what stands before them."""
+    """Yield neighbouring cells of one style; blanks have the style of the cell before them."""
     runs: list[tuple[str, str, bool, str]] = []
     for segment in strip:
         style = segment.style
@@ -75,7 +75,7 @@ def _runs(strip, ground: str) -> list[tuple[str, str, bool, str]]:
 
 
 def _shown(drawn: str, numbers: Sequence[int], count: int, total: float) -> str:
-    """A line that is seen in the screens of these numbers."""
+    """Return a line that is visible in the screens with these numbers."""
     if not drawn:
         return ""
     if len(numbers) == count:

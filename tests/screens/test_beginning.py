@@ -1,4 +1,4 @@
-"""Frames that are all there are first shown at a moment at which they have come."""
+"""Tests that a screen first shows static frames at a moment at which they have arrived."""
 
 import pytest
 
@@ -12,7 +12,7 @@ BEGIN, END = seconds(100), seconds(160)
 
 
 def coming_at(*moments):
-    """A buffer whose frames come at these seconds after the beginning, and stay to the end."""
+    """Return a buffer whose frames arrive at these seconds after the beginning."""
     buffer = Buffer(cache_time=seconds(1000))
     for number, moment in enumerate(moments):
         for stamp in (BEGIN + seconds(moment), END):

@@ -1,4 +1,4 @@
-"""Bytes on the keyboard that are no text."""
+"""Tests of keyboard bytes that are not valid text."""
 
 import sys
 
@@ -8,7 +8,7 @@ from tftool.screens.terminal.world_app import input_events, tolerant
 
 
 class Broken:
-    """A driver that reads once what is no UTF-8, and then nothing more."""
+    """Terminal driver that reads invalid UTF-8 once, and then nothing more."""
 
     def __init__(self):
         self.told = []

@@ -150,7 +150,7 @@ def test_an_old_link_turns_amber_and_then_red():
     assert theme.hexadecimal(theme.DARK.text) in inks(0.0)
     assert amber in inks(10.0)
     assert red in inks(19.9)
-    # After a second of silence, the rate alone is amber.
+    # After a second without messages, only the rate is amber.
     assert not {amber, red} & inks(0.9)
 
 
@@ -316,7 +316,7 @@ def log(journal, until=60, width=40, height=5, look=PLAIN, back=0):
 
 
 def test_what_was_said_before_the_beginning_has_no_time():
-    # As where the screen then follows a recording's clock, years away.
+    # The screen follows a recording's clock, which is years away.
     assert log(Journal([record(-399_099_416, "line")])) == ["     - sim: line"]
 
 

@@ -1,4 +1,4 @@
-"""The pictures in the README and the pages: TFTOOL_PICTURES=1 draws them anew."""
+"""Pictures of the README and the pages; TFTOOL_PICTURES=1 draws them again."""
 
 import asyncio
 import io
@@ -38,7 +38,7 @@ BEGIN, COUNT, STEP = seconds(18.0), 16, seconds(0.4)
 
 
 class Looker(Node):
-    """Looks as often as a screen does."""
+    """Node that updates the scene as often as a screen does."""
 
     phase = Phase.WATCH
 
@@ -53,7 +53,7 @@ class Looker(Node):
 
 
 def taken():
-    """The carrot's demo, drawing by itself: a picture of it, and one that moves as it does."""
+    """Return a picture of the carrot's demo drawing by itself, and an animated one."""
     play = build(left_to_a_person(scenario_named("carrot")), SimClock())
     world = play.world
     IdleDrawing(world)
@@ -76,7 +76,7 @@ def taken():
     async def story():
         start = world.clock.now() + BEGIN
         living = asyncio.ensure_future(play.live(start + COUNT * STEP))
-        # The screen has a loop of its own, and the world waits for it.
+        # The screen has its own event loop, and the world waits for it.
         with ThreadPoolExecutor(1) as beside:
             for number in range(COUNT):
                 await world.clock.sleep_until(start + number * STEP, Phase.WATCH)
@@ -92,13 +92,13 @@ def taken():
 
 
 def own_fonts(svg):
-    """The picture with the reader's fonts: nothing is fetched."""
+    """Return the picture with fonts of the reader's machine, so that no font is fetched."""
     svg = re.sub(r"@font-face \{.*?\}", "", svg, flags=re.DOTALL)
     return svg.replace("font-family: Fira Code, monospace", f"font-family: {FONTS}")
 
 
 def printed(*words, width):
-    """What a command prints to a terminal of that width."""
+    """Return the output of a command on a terminal of that width."""
     told = {"FORCE_COLOR": "1", "COLORTERM": "truecolor", "COLUMNS": str(width), "TERM": "xterm"}
     done = subprocess.run(
         [sys.executable, "-m", "tftool", *words],
@@ -111,7 +111,7 @@ def printed(*words, width):
 
 
 def drawn_anew(place, svg):
-    """Write a picture where it is missing, or is to be made anew; return the one that is there."""
+    """Write a missing picture, or one to draw again; return the existing one."""
     if os.environ.get("TFTOOL_PICTURES") or not place.exists():
         place.write_text(svg, encoding="utf-8")
     return place.read_text(encoding="utf-8")
@@ -143,7 +143,7 @@ def test_the_pictures_in_the_readme_are_this_screen(pictures):
     still, moving, light = pictures
     assert theme.hexadecimal(theme.LIGHT.ground) in light
     assert len(still.encode()) < 300_000
-    # Slow frames leave trails, too.
+    # Slow frames have trails too.
     assert len(moving.encode()) < 750_000
 
 

@@ -1,4 +1,4 @@
-"""Which pair of frames a screen begins with, where the one it would show is not there."""
+"""Tests of the pair that a screen shows first if its usual pair does not exist."""
 
 from tftool import Transform, TransformStamped, seconds
 from tftool.screens.terminal.question import SceneQuestion
@@ -8,7 +8,7 @@ from tftool.world.world import World
 
 
 def pairs_shown(*links):
-    """The pair shown after each link has come: seconds after the start, parent, child."""
+    """Return the shown pair after each edge: seconds after the start, parent, child."""
     world = World(SimClock())
     clock, begin = world.clock, world.clock.now()
     scene = Scene(world)

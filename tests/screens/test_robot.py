@@ -16,7 +16,7 @@ from tftool.screens.terminal.sliders import Sliders, tip_of
 
 
 class Mover:
-    """Joints that go where they are put, as JointStatePublisher's do."""
+    """Joints that move to their positions at once, as JointStatePublisher's do."""
 
     def __init__(self, robot):
         self.robot = robot
@@ -43,7 +43,7 @@ def mover(robot):
 
 @pytest.fixture
 def shown(robot, mover):
-    """The screen after some keys."""
+    """Return the screen after some keys."""
 
     def show(*keys, size=(80, 24), resized=None, mover=mover, heard=None, **setting):
         world = new_world()
@@ -228,7 +228,7 @@ def columns_of(lines, sign):
 
 @pytest.fixture
 def arm(shown):
-    """The picture of a rod that stands on the ground, after some keys."""
+    """Return the picture of a rod on the ground, after some keys."""
     described = Robot(parse_description(ARM))
     solids, _ = solids_of(described.links.values(), MeshFolders())
 
@@ -259,7 +259,7 @@ def arm(shown):
 
 @pytest.fixture
 def long_names():
-    """The screen of 80 × 24 for an arm with a joint of 19 letters."""
+    """Return the screen of 80 × 24 cells for an arm with a joint name of 19 letters."""
     robot = Robot(parse_description(ARM.replace('"turn"', '"shoulder_lift_joint"')))
     return screen_of(RobotApp(new_world(), Sliders(robot, Mover(robot)), setting=Setting()))
 

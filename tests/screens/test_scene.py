@@ -21,7 +21,7 @@ from tftool.world.world import World
 
 
 class At(Node):
-    """Does something at a second."""
+    """Node that does something at a second."""
 
     def __init__(self, world, second, what):
         super().__init__(world, f"at{second}")
@@ -80,7 +80,7 @@ def test_an_earlier_trail_ends_where_its_turtle_was(danced):
         for t in moment.picture.frames
         if t.is_turtle
     ]
-    # As far as a turtle comes between two looks.
+    # The distance that a turtle moves between two looks
     assert max(ends) < 0.15
     assert len(moment.picture.pen.strokes) < len(danced.simulator.trail.segments)
 
@@ -175,7 +175,7 @@ def test_other_frames_stand_in_the_same_picture(turtles):
 
 
 def test_every_frame_stands_where_a_lookup_in_the_fixed_frame_says(danced):
-    """Whichever frame is fixed, and then and now."""
+    """Check this for every fixed frame, at present and in the past."""
     buffer = danced.world.buffer
     past = danced.world.clock.now() - seconds(2.7)
 
@@ -238,7 +238,7 @@ def test_two_trees_that_are_joined_are_one_picture_that_agrees_with_the_lookup()
 
     picture = scene.moment(None, "turtle2", "turtle1").picture
 
-    # What the scenario expects of the frames: 10 m from map to world, the turtle in the centre.
+    # The scenario's own expectation: 10 m from map to world, with the turtle in the centre
     places = {one.name: (one.x, one.y) for one in picture.frames}
     assert picture.fixed == "map"
     assert places["turtle1"] == pytest.approx((15.544445, 5.544445))
@@ -249,7 +249,7 @@ def test_two_trees_that_are_joined_are_one_picture_that_agrees_with_the_lookup()
 
 
 class Circling(Node):
-    """Broadcasts a frame on a circle of two metres, a turn in four seconds."""
+    """Node that broadcasts a frame on a circle of two metres, one turn in four seconds."""
 
     async def run(self):
         async for now in self.every(seconds(0.05)):
@@ -271,16 +271,16 @@ def test_a_frame_that_moves_leaves_a_trail_by_lookup(turtles):
     assert live.ends.min((0, 1)) == pytest.approx([-2, -2, 0], abs=0.02)
     assert live.ends.max((0, 1)) == pytest.approx([2, 2, 0], abs=0.02)
     assert len(earlier.ends) < len(ends) - 25
-    # Seen from itself it stands still, and map goes round.
+    # Seen from itself, the frame does not move, and map moves on a circle.
     inks = [(ink >> 16, ink >> 8 & 255, ink & 255) for ink in own.trails.colors.tolist()]
     away = [math.dist(ink, theme.of_name("map")) for ink in inks]
-    # It fades with its age: the newest part has the frame's own colour.
+    # The trail fades with its age; its newest part has the frame's own colour.
     assert away[-1] < 10 < away[0]
     assert away == sorted(away, reverse=True)
 
 
 class Climbing(Node):
-    """Sends how `drone` rises over `map`, by one metre a second."""
+    """Node that sends the pose of `drone`, which rises over `map` by a metre per second."""
 
     async def run(self):
         async for now in self.every(seconds(0.05)):
@@ -339,14 +339,14 @@ def test_a_frame_far_beyond_the_map_is_said_and_not_drawn(frames, x):
 
 def test_age_counts_from_when_a_stamp_last_changed(turtles):
     class Late(Node):
-        """Sends an old stamp, then nothing."""
+        """Node that sends an old stamp, then nothing."""
 
         async def run(self):
             old = self.clock.now() - seconds(5)
             self.broadcast(TransformStamped(old, "world", "late", Transform()))
 
     scene = turtles(1.0, (), followed=False, extra=lambda world: Late(world, "late"))
-    # The screen looked at it while it was fresh.
+    # The screen looked at the frame while it was fresh.
     assert scene.moment(None, "", "").ages["late"] == pytest.approx(6.0)
 
     world = scene.world
@@ -390,7 +390,7 @@ def test_what_no_moment_can_be_asked_for_any_more_is_forgotten(turtles):
 
     scene = turtles(15.0, (), followed=False, extra=lambda world: At(world, 3, paint))
 
-    # At 2 s it had another colour, but the buffer reaches back to 5 s.
+    # At 2 s it had another colour, but the buffer begins at 5 s.
     long_ago = scene.start + seconds(2)
     assert scene.oldest() > long_ago
     assert scene.moment(long_ago, "", "").picture.field.color == Color(1, 86, 255)

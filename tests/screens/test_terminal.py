@@ -1,4 +1,4 @@
-"""The screen of the turtles: what is on it, and its keys."""
+"""Tests of the turtles' screen: its contents and its keys."""
 
 import asyncio
 
@@ -228,7 +228,7 @@ def test_the_key_help_says_how_it_closes(danced):
 
 
 def test_the_key_help_names_no_key_that_does_nothing(danced):
-    """As of a recording: nothing can be driven there, and no other scenario chosen."""
+    """Check a recording: nothing can be driven, and no other scenario chosen."""
     quiet = "\n".join(shown(danced, keys=("?",), press=None))
     full = "\n".join(shown(danced, keys=("?",), press=lambda key: None, scenarios=lambda: OFFERED))
 
@@ -324,7 +324,7 @@ def test_what_a_terminal_sends_for_a_key_drives(danced, case):
     pressed = []
 
     async def steps(app, pilot):
-        # As the terminal's driver does it, from the bytes on.
+        # The bytes pass through the terminal's driver.
         for event in input_events(sent):
             app.post_message(event)
         await settled(pilot)
@@ -372,7 +372,7 @@ def test_for_teleop_the_field_fills_the_screen(danced):
     assert "L log" in text
     assert "Tree" not in text
     small = shown(danced, (80, 24), drive_only=True)
-    # Title, log and keys take a row each; the picture has all others, its border included.
+    # Title, log and keys have a row each; the picture has all other rows, with its border.
     assert sum(line.startswith("│") for line in small) == 19
 
 
@@ -400,7 +400,7 @@ def test_a_world_without_turtles_shows_its_frames_and_a_pair_of_them(frames):
 
     assert "laser in map" in text
     assert "Frames in map" in text
-    # In the picture, in the tree and in the echo.
+    # In the picture, in the tree and in the echo
     assert text.count("laser") == 3
 
 
@@ -471,7 +471,7 @@ def test_only_lines_that_changed_are_painted(turtles, monkeypatch):
             Panel, "refresh", lambda self, *regions, **how: painted.extend(r.y for r in regions)
         )
         app.panel("field").show([*app.panel("field")._strips[:3]])
-        # Before the app's own next look paints the field again.
+        # Before the app's next update draws the field again
         monkeypatch.undo()
 
     visit(scene, (100, 30), steps)
@@ -480,7 +480,7 @@ def test_only_lines_that_changed_are_painted(turtles, monkeypatch):
 
 
 def test_the_tree_lists_the_frames_that_the_picture_draws(frames, monkeypatch):
-    # Only the looks of this test, however long one takes.
+    # Only this test updates the screen, however long an update takes.
     monkeypatch.setattr(turtle_app, "LOOKS_PER_SECOND", 1e-6)
     monkeypatch.setattr(turtle_app, "REST", 0.0)
     scene = frames({})

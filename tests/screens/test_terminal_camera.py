@@ -1,4 +1,4 @@
-"""What of the picture the screen of the turtles shows."""
+"""Tests of the part of the picture that the turtles' screen shows."""
 
 from tests.screens.visiting import screen, settled, shown, visit
 from tftool.screens.terminal.world_app import input_events
@@ -18,7 +18,7 @@ def test_the_picture_is_drawn_in_the_frame_that_is_chosen(danced):
 
 
 def scale_of(lines):
-    """The metres below the picture, and those at its left."""
+    """Return the metres below the picture, and those at its left."""
     below = next(line for line in lines if line.startswith("│ m"))
     return [float(one) for one in below.split("│")[1].split()[1:]]
 
@@ -44,7 +44,7 @@ def test_the_picture_is_moved(danced):
 
 
 def mouse(app, *sent):
-    """Hand over what a terminal sends for its mouse: SGR codes, from the bytes on."""
+    """Pass the codes that a terminal sends for its mouse (SGR), as bytes."""
     for code in sent:
         for event in input_events(f"\x1b[<{code}"):
             app.post_message(event)
@@ -72,7 +72,7 @@ def test_a_click_picks_the_frame_under_it(danced):
         lines = screen(app)
         row = next(row for row, line in enumerate(lines) if "├─ turtle1" in line)
         column = lines[row].index("├─ turtle1") + 5
-        # The row above it is world's; a terminal counts from 1.
+        # The row above belongs to world; a terminal counts from 1.
         mouse(app, f"0;{column};{row}M", f"0;{column};{row}m")
         await settled(pilot)
         assert "world in turtle2" in "\n".join(screen(app))

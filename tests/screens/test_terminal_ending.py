@@ -1,4 +1,4 @@
-"""How the screen of the turtles ends, and its world with it."""
+"""Tests of the end of the turtles' screen and its world."""
 
 import asyncio
 
@@ -28,14 +28,14 @@ def test_q_ends_it(danced):
 
 
 class Waiting(Node):
-    """Lives for ever."""
+    """Node that runs for ever."""
 
     async def run(self):
         await self.clock.sleep(seconds(1e6))
 
 
 class Failing(Node):
-    """Fails at once."""
+    """Node that fails at once."""
 
     async def run(self):
         await self.clock.sleep(1)

@@ -1,4 +1,4 @@
-"""The screen of the turtles at another moment than now."""
+"""Tests of the turtles' screen at a past moment."""
 
 import pytest
 
@@ -39,7 +39,7 @@ def test_an_earlier_moment_is_marked_in_the_plots(danced):
 
 
 def test_scrubbed_to_a_moment_the_tree_shows_the_rates_of_that_moment(turtles):
-    """Of a link that begins at 2 s, 100 ms later: six samples in 80 ms, as tf2 counts."""
+    """Check an edge that begins at 2 s, 100 ms later: six samples in 80 ms, as tf2 counts."""
     scene = turtles(9.0, (), followed=True)
     spawned = scene.world.buffer.samples("turtle2").stamps[0]
 

@@ -1,4 +1,4 @@
-"""Screens in a real terminal: tmux is one that can be asked what is on it."""
+"""Tests of screens in a real terminal, tmux, whose contents a test can read."""
 
 import re
 import shutil
@@ -44,25 +44,25 @@ DEMO = ("-m", "tftool", "demo", "--still")
 
 
 def apart(screen):
-    """How far turtle1 is from turtle2, as the echo says."""
+    """Return the distance from turtle1 to turtle2 on the echo."""
     found = re.search(r"(\d+\.\d{3}) m\b", screen)
     return float(found[1]) if found else None
 
 
 def marked(screen):
-    """The name of the marked row in the list of scenarios, None while there cannot be joined."""
+    """Return the name of the marked scenario in the list; None while no row is marked."""
     found = re.search(r"│▸ (\w+)", screen)
     return found and found[1]
 
 
 def together(screen):
     distance = apart(screen)
-    # None is a distance not shown; nought, which is no less false, is the closest there is.
+    # None means no distance on the screen; 0, which is also false, is the smallest distance.
     return distance is not None and distance < 0.1
 
 
 def scale_of(screen):
-    """The numbers below the picture; beside them stands the time of the plots, which goes on."""
+    """Return the numbers below the picture, without the changing time beside them."""
     lines = [line for line in screen.splitlines() if line.startswith("│ m ")]
     return lines[0].partition("││")[0] if lines else ""
 
@@ -71,7 +71,7 @@ def scale_of(screen):
 def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, width, height):
     demo = terminal(width, height, *DEMO, "--rate", "8")
 
-    # Panels are painted one after the other, on a large terminal in several writes.
+    # Panels are painted one after the other; a large terminal gets several writes.
     parts = ("Frames in", "├─ turtle1")
     screen = demo.until(
         lambda text: apart(text) is not None and all(part in text for part in parts),
@@ -80,7 +80,8 @@ def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, wi
     assert all(len(line) <= width for line in screen.splitlines())
 
     demo.until(together, "turtle2 at turtle1")
-    # Driven on, round and round, until it is seen: turtle2 would have caught up between two looks.
+    # The turtle drives in circles until the test sees the distance: turtle2 could catch up between
+    # two looks.
     demo.until(
         lambda text: (apart(text) or 0.0) > 0.5,
         "turtle1 driving off",
@@ -135,7 +136,7 @@ def test_what_is_drawn_live_leaves_the_terminal_while_it_is_stopped(terminal, wo
 
 
 def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal, tmp_path):
-    # As scenario `two_trees`, but joined only when the two have been seen.
+    # Like the scenario `two_trees`, but the trees are joined only after the test has seen both.
     file = tmp_path / "two.yaml"
     file.write_text(
         "duration: 10 s\nnodes: [turtlesim, broadcaster: {turtle: turtle1},\n"
@@ -146,7 +147,7 @@ def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal, tmp_p
     demo.shows("apart: map, 2 frames")
     with Process("static", "--x", "10", "--frame-id", "map", "--child-frame-id", "world"):
         demo.until(lambda text: "Frames in map" in text and "apart" not in text, "one tree")
-    # The echo of the pair the picture is about: 10 m from map to world, the turtle in the centre.
+    # The echo of the picture's pair: 10 m from map to world, with the turtle in the centre.
     demo.until(lambda text: "turtle1 in world" in text, "turtle1 in world")
     demo.press("k", "Enter", "k", "k", "k", "Enter", "j", "j", "j")
     demo.until(
@@ -155,7 +156,7 @@ def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal, tmp_p
     )
     scale = next(line for line in demo.screen().splitlines() if line.startswith("│ m "))
     row = next(line for line in demo.screen().splitlines() if "▐→▌" in line)
-    # Its arrow stands between the numbers on either side of 15.5 m.
+    # Its arrow is between the numbers on either side of 15.5 m.
     assert scale.index("15") < row.index("→") < scale.index("20")
 
     demo.press("q")
@@ -193,8 +194,8 @@ def test_one_fixes_a_frame_zooms_and_shows_another_scenario(terminal):
 
     demo.press("o")
     demo.shows("A robot: odometry that drifts")
-    # One step at a time: keys pressed ahead would go on past the row that is looked for. Only
-    # the marked row is compared, since the clock above the list changes by itself.
+    # One key at a time, because further keys would move past the wanted row. Only the marked row is
+    # compared, since the clock above the list changes.
     while (row := marked(demo.shows("▸"))) != "robot":
         demo.press("Down")
         demo.until(lambda text, row=row: marked(text) not in (None, row), "the next row")
@@ -215,7 +216,7 @@ def test_letters_turn_to_the_heading_at_which_they_lie(terminal, tmp_path):
     for key, arrow in zip("trdcb", "↗↑←↙↘", strict=True):
         demo.press(key)
         demo.shows(f"▐{arrow}▌")
-    # Pressed again and again: in a world at 8 times real time a press may be a short turn.
+    # The key is pressed repeatedly: in a world at 8 times real time, one press may be a short turn.
     demo.until(
         lambda text: any(f"▐{arrow}▌" in text for arrow in "→↗↑↖"),
         "a turn to the left",
@@ -300,7 +301,7 @@ def test_bytes_that_are_no_text_are_dropped_and_the_keys_go_on(terminal):
     demo.tmux("send-keys", "-H", "ff")
     # A key that is read together with such bytes is a key: here "?", which opens the help.
     demo.tmux("send-keys", "-H", "c3", "28", "3f")
-    # It is open when it shows what no footer says, and closed when that is gone.
+    # The help is open when it shows a text that no footer has, and closed when this text is gone.
     demo.shows("swap the two frames")
     demo.press("?")
     demo.until(lambda text: "swap the two frames" not in text, "the screen without its help")

@@ -1,4 +1,4 @@
-"""The screen of `tftool monitor`: curves of rates and delays."""
+"""Tests of the screen of `tftool monitor`: curves of rates and delays."""
 
 import asyncio
 
@@ -17,7 +17,7 @@ from tftool.screens.terminal.traffic_app import TrafficWatch
 
 
 def received(frames, now, later=0.0):
-    """Five seconds of messages: the first frame at 10 Hz, each other one at half of that.
+    """Return five seconds of messages: the first frame at 10 Hz, the others at half of that.
 
     The first frame's messages end `later` seconds before the messages of the others.
     """
@@ -67,7 +67,7 @@ def test_panels_take_all_rows_of_the_screen_between_title_and_keys():
         assert "Frames" in lines[1]
         assert lines[-2].startswith("╰")
         assert lines[-1].rstrip().endswith("q quit")
-        # Both curves share the rows of their panel.
+        # Both curves use the rows of their panel.
         tall = line_of(lines, "│odom ") - line_of(lines, "│base ")
         assert tall >= (size[1] - 14) // 2
 

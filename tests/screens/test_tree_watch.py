@@ -1,4 +1,4 @@
-"""The screen of `tftool tree --watch`: scrolled, sorted, filtered."""
+"""Tests of the screen of `tftool tree --watch`: scrolled, sorted, filtered."""
 
 import asyncio
 import shutil
@@ -29,7 +29,7 @@ def shown(*keys, frames=60, size=(80, 24), news="", framed=False, solids=None, *
     now = world.clock.now()
     for n in range(frames):
         pose = Transform((float(n), 0.0, 0.0))
-        # The last is the fastest and the newest.
+        # The last frame has the highest rate and the newest sample.
         samples = [
             TransformStamped(
                 now - seconds(0.1 * (frames - n) + step), "world", f"link_{n:02}", pose
@@ -64,7 +64,7 @@ def shown(*keys, frames=60, size=(80, 24), news="", framed=False, solids=None, *
 
 
 def test_a_frame_that_stopped_has_rate_zero():
-    # Link n has a rate of 200 / (200 - n) Hz and an age of (200 - n) / 10 s.
+    # Edge n has a rate of 200 / (200 - n) Hz and an age of (200 - n) / 10 s.
     old = next(line for line in shown(frames=200, size=(120, 24)) if "link_00" in line)
     new = next(line for line in shown("G", frames=200, size=(120, 24)) if "link_198" in line)
 
@@ -82,7 +82,7 @@ def test_what_does_not_fit_is_counted():
     assert lines[0].startswith("at 1000.000")
     assert lines[1] == "world"
     assert "link_20" not in "".join(lines)
-    # 61 frames, of which 21 have room between the heading and the two lines at the bottom.
+    # There are 61 frames, and room for 21 between the heading and the two lines at the bottom.
     assert lines[-2] == "↓ 40 more"
     assert lines[-1].startswith(" s sort: tree  / filter")
     assert lines[-1].endswith("q quit")
@@ -154,7 +154,7 @@ def test_it_fits_into_any_terminal(size, frames):
 
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux")
 def test_in_a_terminal_it_takes_keys_and_leaves_it_as_it_was(tmp_path):
-    # So low that no picture with the names of all frames is below the tree.
+    # The terminal is so low that no picture with the names of all frames fits below the tree.
     terminal = Terminal(tmp_path, 80, 18, ("-m", "tftool", "tree", "robot", "--watch"), {})
     try:
         terminal.shows("laser_point")

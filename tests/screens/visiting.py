@@ -1,4 +1,4 @@
-"""The screen of the turtles, shown in a test of some size and driven by keys."""
+"""The turtles' screen in a test, with some size and keys."""
 
 import asyncio
 
@@ -7,12 +7,12 @@ from tftool.screens.terminal.turtle_app import TurtleApp
 
 
 def screen(app):
-    """What is on the screen, line by line."""
+    """Return the lines on the screen."""
     return [strip.text for strip in app.screen._compositor.render_strips(app.size)]
 
 
 def visit(scene, size, steps, press=None, **setting):
-    """Show a scene on a screen of some size, and let `steps` press keys on it."""
+    """Show a scene on a screen of some size; `steps` presses keys on it."""
     app = TurtleApp(scene, press, Setting(title="tftool demo turtles", **setting))
 
     async def main():
@@ -33,7 +33,7 @@ async def settled(pilot):
 
 
 def shown(scene, size=(100, 30), keys=(), press=None, **setting):
-    """The screen after some keys."""
+    """Return the screen after some keys."""
     lines = []
 
     async def steps(app, pilot):
@@ -46,5 +46,5 @@ def shown(scene, size=(100, 30), keys=(), press=None, **setting):
 
 
 def told(lines):
-    """The top line, and what stands beside the picture."""
+    """Return the top line, and the panels beside the picture."""
     return [lines[0], *(line.rpartition("││")[2] for line in lines[1:-2])]

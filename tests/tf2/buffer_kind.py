@@ -1,4 +1,4 @@
-"""Cases of kind `buffer`: samples set, questions asked, refusals to the letter."""
+"""Vectors of kind `buffer`: samples, lookups, and refusals with their exact texts."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -18,7 +18,7 @@ NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 
 def sample(step: Step) -> TransformStamped:
-    # Unchecked, as a message brings it.
+    # The pose is not checked, as when it comes from a message.
     pose = transform(tuple(step.get("xyz", (0.0, 0.0, 0.0))), tuple(step.get("q", NO_TURN)))
     return TransformStamped(step["stamp"], step["parent"], step["child"], pose)
 
@@ -30,7 +30,7 @@ def check_pose(found: TransformStamped, want: Step) -> None:
 
 
 class Runner:
-    """One buffer, and what it logged and called back during a step."""
+    """One buffer, with its log messages and callbacks during a step."""
 
     def __init__(self, case: Step) -> None:
         self.logged: list[str] = []
@@ -67,10 +67,11 @@ class Runner:
     def check_fired(self, step: Step) -> None:
         wanted = [tuple(one) for one in step["fires"]]
         if self.quirk and wanted == [("r", "failure")]:
-            # Upstream lets a request for the latest expire; ours is met.
+            # Upstream lets a request for the latest time expire; tftool fulfils it.
             wanted = [("r", "available")]
         if step.get("fires_unordered_ok"):
-            # Upstream's order comes of how it takes requests off its list; ours is theirs.
+            # Upstream's order depends on how it removes requests from its list; the set is the
+            # same.
             wanted.sort()
         assert self.fired == wanted
 
@@ -84,10 +85,10 @@ class Runner:
         fields(step)
         self.buffer.clear()
 
-    # Looking up
+    # Lookups
 
     def refused_or(self, step: Step, ask: Callable[[], Any]) -> Any:
-        """The answer; None if it was refused as wanted."""
+        """Return the result; None if the lookup was refused as wanted."""
         if "raises" not in step:
             return ask()
         with pytest.raises(TransformException) as refused:
@@ -102,7 +103,7 @@ class Runner:
     def do_lookup(self, step: Step) -> None:
         fields(step, "target", "source", "time", "want", "raises", "msg")
         target, source = step["target"], step["source"]
-        # Twice: the second time by the plan that the first may have left.
+        # The second lookup may use the plan that the first one stored.
         for _ in range(2):
             found = self.refused_or(
                 step, lambda: self.buffer.lookup_transform(target, source, step["time"])
@@ -141,7 +142,7 @@ class Runner:
             )
             assert found == step.get("want")
 
-    # Asking whether
+    # Checks of availability
 
     def do_can(self, step: Step) -> None:
         fields(step, "target", "source", "time", "want", "msg")
@@ -175,7 +176,7 @@ class Runner:
         fields(step, "id")
         self.buffer.cancel(self.handles[step["id"]])
 
-    # Velocity
+    # Velocities
 
     def check_velocity(self, step: Step, ask: Callable[[], Any]) -> None:
         found = self.refused_or(step, ask)
@@ -192,8 +193,8 @@ class Runner:
         question = step["tracking"], step["observation"], step["time"], step["interval"]
         self.check_velocity(step, lambda: self.buffer.lookup_velocity(*question))
         if self.quirk:
-            # Upstream's numbers stay under upstream's name; these are the physical ones: p at
-            # radius 1, turning 1 rad/s, is now at 0.5 rad.
+            # Upstream's numbers are in the fields named after upstream. These are the physical
+            # ones: p at radius 1, turning at 1 rad/s, is now at 0.5 rad.
             plain = self.buffer.lookup_twist(*question)
             assert close(plain.linear, (-math.sin(0.5), math.cos(0.5), 0.0), 2e-3)
             assert close(plain.angular, (0.0, 0.0, 1.0), VELOCITY)
@@ -204,7 +205,7 @@ class Runner:
             *("tracking", "observation", "reference", "point", "point_frame"),
             *("time", "interval", "want", "raises", "msg"),
         )
-        # The quirk's element-wise shift is upstream's formula, which keeps upstream's name.
+        # The element-wise shift is upstream's formula, in the field named after upstream.
         self.check_velocity(
             step,
             lambda: self.buffer.lookup_velocity_full(
@@ -218,7 +219,7 @@ class Runner:
             ),
         )
 
-    # Looking at the whole
+    # Whole buffer
 
     def do_frames(self, step: Step) -> None:
         fields(step, "want")
@@ -250,7 +251,7 @@ class Runner:
 
     def do_chain_upstream(self, step: Step) -> None:
         fields(step, *FULL, "want")
-        # ROS 2 loses frames; ours is the whole way, and holds what upstream has of it.
+        # ROS 2 loses frames; tftool returns the whole path, which contains upstream's frames.
         found = self.buffer.chain(step["target"], step["source"])
         if step["target"] == step["source"]:
             assert found == []

@@ -1,4 +1,4 @@
-"""Cases of kind `cache`: one link's history."""
+"""Vectors of kind `cache`: the history of one edge."""
 
 import math
 from collections.abc import Mapping
@@ -18,7 +18,7 @@ NAMES = {
 
 
 class Runner:
-    """One history, or one static link; parents are numbers here, in the order they come up."""
+    """One history, or one static edge; parents are numbered in the order of their first use."""
 
     def __init__(self, case: Step) -> None:
         self.link = StaticLink() if case.get("static") else History(case.get("cache_ns", CACHE))
@@ -61,7 +61,7 @@ class Runner:
         if isinstance(self.link, History):
             assert self.link.stamp_at(time) == want["stamp"]
         else:
-            # A static link has no stamp of its own; the moment asked about stands for it.
+            # A static edge has no stamp, so the requested time is compared.
             assert time == want["stamp"]
 
     def do_items(self, step: Step) -> None:

@@ -1,7 +1,7 @@
-"""Cases of kind `do_transform`: what becomes of points, poses and the rest.
+"""Vectors of kind `do_transform`: transformed points, poses and other data.
 
-They run on what nodes import as tf2_geometry_msgs and tf2_sensor_msgs. For a bare
-quaternion these have nothing in Python: there it is our own product.
+They use the modules that nodes import as tf2_geometry_msgs and tf2_sensor_msgs. These have no
+function for a bare quaternion, which tftool's own product transforms instead.
 """
 
 from collections.abc import Callable, Mapping
@@ -119,7 +119,7 @@ MOVE: dict[str, Callable[[Step, Any], list[float]]] = {
     "wrench": moved_wrench,
     "polygon": moved_polygon,
     "points": moved_cloud,
-    # A pose by another name.
+    # A pose with another name
     "transform": moved_pose,
     "quaternion": moved_quaternion,
 }

@@ -1,4 +1,4 @@
-"""The tf2 vectors, case by case, and how close is close enough."""
+"""The tf2 vectors, case by case, and their tolerance."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -11,7 +11,7 @@ FORMAT = "tf2-vectors/1"
 
 
 def load(text: str) -> dict[str, Any]:
-    """Read the vectors; the C parser, where there is one, is ten times as fast."""
+    """Read the vectors; the C parser, if it is installed, is ten times as fast."""
     vectors = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     if vectors["format"] != FORMAT:
         raise ValueError(f"vectors of format {vectors['format']} are not known")
@@ -26,18 +26,18 @@ VELOCITY: float = VECTORS["tolerance"]["velocity"]
 
 
 class Unknown(Exception):
-    """The vectors hold something no test knows; skipping it would hide it."""
+    """Error for contents of the vectors that no test reads."""
 
 
 def fields(step: Mapping[str, Any], *known: str) -> None:
-    """Refuse a step that says more than its runner reads."""
+    """Raise an error for fields of a step that its runner does not read."""
     more = set(step) - {"op", "note", "note_versions", "msg_jazzy_and_older", *known}
     if more:
         raise Unknown(f"fields nobody reads: {sorted(more)} in {step}")
 
 
 def close(found: Iterable[float], wanted: Iterable[float], tolerance: float = DEFAULT) -> bool:
-    """Whether all numbers are as near as the head of the file asks, and as many."""
+    """Return whether both lists have equal lengths, and values within the tolerance."""
     return all(
         abs(one - other) <= tolerance * max(1.0, abs(other))
         for one, other in zip(found, wanted, strict=True)

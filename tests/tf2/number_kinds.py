@@ -1,4 +1,4 @@
-"""Cases of kinds `math` and `time`: rotations, and seconds as nanoseconds and as text."""
+"""Vectors of kinds `math` and `time`: rotations, and seconds as nanoseconds and as text."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -41,7 +41,7 @@ NUMBERS: dict[str, tuple[tuple[str, ...], Callable[[Step], Any]]] = {
 
 
 def _values(step: Step) -> Step:
-    """With the lists of a file made the tuples that a program has."""
+    """Convert the lists of a step to the tuples that a program uses."""
     return {key: tuple(value) if isinstance(value, list) else value for key, value in step.items()}
 
 
@@ -50,7 +50,7 @@ def same_rotation(found: Any, wanted: Any) -> bool:
 
 
 def rpy_roundtrip(step: Step) -> None:
-    """At the poles upstream's angles mean another rotation; ours mean the same one."""
+    """Check angles at the poles, where only upstream's angles mean another rotation."""
     fields(step, "rpy", "want")
     turned = conversions.quaternion_from_rpy(*step["rpy"])
     angles = conversions.rpy_from_quaternion(turned)
@@ -59,7 +59,7 @@ def rpy_roundtrip(step: Step) -> None:
 
 
 def slerp_halves(step: Step) -> None:
-    """The half of a turn is as far from its start as from its end."""
+    """Check that the middle rotation is equally far from start and end."""
     fields(step, "ypr", "want")
     yaw, pitch, roll = step["ypr"]
     end = conversions.quaternion_from_euler((yaw, pitch, roll), "ryxz")

@@ -1,4 +1,4 @@
-"""Kinds that belong to the command-line tools: parsing, echo, monitor, view_frames, statics."""
+"""Vectors of the command-line tools: parsing, echo, monitor, view_frames, static transforms."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -23,7 +23,7 @@ Step = Mapping[str, Any]
 
 
 def only(case: Step, *operations: str) -> list[Step]:
-    """The steps, all of known operations."""
+    """Return the steps; raise an error for unknown operations."""
     for step in case["steps"]:
         if step["op"] not in operations:
             raise Unknown(f"operation {step['op']}")
@@ -34,7 +34,7 @@ def run_static_publisher_args(case: Step) -> None:
     for step in only(case, "parse"):
         fields(step, "argv", "want", "error", "quirk")
         if "error" in step or "quirk" in step:
-            # The quirk: upstream lets a lone Euler option slip through; ours refuses it.
+            # Upstream accepts a single Euler option by mistake; tftool refuses it.
             wanted = step.get(
                 "error", "Cannot specify both new-style (flags) and old-style (arguments)"
             )
@@ -67,7 +67,7 @@ def run_echo_format(case: Step) -> None:
 
 
 def frame(name: str, said: Mapping[str, Any] | None) -> FrameInfo:
-    """A frame as view_frames sees it: nothing but what the YAML says."""
+    """Return a frame with only the data that view_frames writes to YAML."""
     said = said or {}
     oldest = seconds(said.get("oldest_transform", 0.0))
     newest = seconds(said.get("most_recent_transform", 0.0))
@@ -130,8 +130,8 @@ def run_static_broadcaster(case: Step) -> None:
     for step in steps:
         fields(step, "variant", "sends", "latched")
         assert step["variant"] in ("replace", "keep_first", "last_only")
-        # Two of the three variants are faults that upstream had: whatever is sent, ours
-        # replaces in place, as C++ always did.
+        # Two of the three variants are faults of earlier upstream versions. tftool always replaces
+        # in place, as C++ does.
         assert step["sends"] == replacing["sends"]
         world = World(SimClock())
         latched = []

@@ -1,4 +1,4 @@
-"""Every case of the tf2 vectors, by the module that knows its kind."""
+"""Tests of every tf2 vector, each with the module for its kind."""
 
 import copy
 from collections import Counter
@@ -30,7 +30,7 @@ NOT_YET_COVERED: dict[str, str] = {}
 KNOWN = {
     *("id", "group", "kind", "from", "note", "note_versions", "ros1", "ros1_differs_at_steps"),
     *("quirk", "cache_ns", "static", "transform", "steps", "eval_time", "interpolation_space"),
-    # Ours has the exact sign everywhere.
+    # tftool returns the exact sign everywhere.
     "quat_sign_exact_from",
 }
 """What a case may say of itself."""

@@ -1,4 +1,4 @@
-"""Cases of kinds `async` and `time_jump`: waiting on simulated time, and clocks that fall back."""
+"""Vectors of kinds `async` and `time_jump`: waits on simulated time, and clocks that jump back."""
 
 import asyncio
 from collections.abc import Mapping
@@ -40,7 +40,7 @@ def run_time_jump(case: Step) -> None:
 
 
 class Waits:
-    """A world on simulated time, and whoever waits in it."""
+    """A world on simulated time, and the requests that wait in it."""
 
     def __init__(self) -> None:
         self.world = World(SimClock())
@@ -53,7 +53,7 @@ class Waits:
         await run_step(step)
 
     async def settle(self) -> None:
-        """Let everything that is due in this instant happen."""
+        """Run everything that is due at the present instant."""
         await self.world.clock.sleep(0)
 
     async def do_wait(self, step: Step) -> None:

@@ -1,4 +1,4 @@
-"""A clock that is told what time it is."""
+"""Tests of a clock whose time another process sets."""
 
 import asyncio
 
@@ -10,7 +10,7 @@ from tftool.world.world import World
 
 
 async def settled():
-    """Let everything run that is at hand."""
+    """Run everything that is pending on the event loop."""
     for _ in range(10):
         await WallClock().sleep(0)
 

@@ -1,4 +1,4 @@
-"""A live world's samples stay within a number of bytes, and what is forgotten is said."""
+"""Tests of the limit on the bytes of a live world's samples, and of its log messages."""
 
 import pytest
 

@@ -29,7 +29,7 @@ class Ticker(Node):
 
 
 class Script(Node):
-    """Does one thing at one moment."""
+    """Node that calls one function at one time."""
 
     phase = Phase.WATCH
 
@@ -223,7 +223,8 @@ def test_a_node_that_has_left_is_forgotten():
     Script(world, "host", seconds(1), come_and_go)
     Script(world, "looker", seconds(2), look)
 
-    # Without an end: it comes when all are done, those who left as they came as well.
+    # Without a given end, the world ends when all nodes have ended, including those that ended at
+    # once.
     lived(world)
 
     assert left[1] is None

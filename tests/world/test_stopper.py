@@ -1,4 +1,4 @@
-"""Nodes that do not end by themselves, in processes of their own."""
+"""Tests of nodes that do not end by themselves, in separate processes."""
 
 import os
 import signal
@@ -63,7 +63,7 @@ def line_with(text, program):
 
 
 class Program:
-    """A program with a node called busy, in a process of its own."""
+    """Program with a node named busy, in a separate process."""
 
     def __init__(self, folder, body, *, clock="WallClock", until="None", stdin=None):
         self.text = PROGRAM.format(body=body.strip(), clock=clock, until=until)
@@ -82,9 +82,9 @@ class Program:
         os.kill(self.process.pid, number)
 
     def ended(self):
-        """Its status, and what it still said on stdout and stderr."""
+        """Return the program's status, and its remaining output on stdout and stderr."""
         status = self.process.wait(PATIENCE)
-        # Not `communicate`, which passes over what came along with a line that was read before.
+        # `communicate` would lose output that arrived together with a line that was read before.
         return status, self.process.stdout.read(), self.process.stderr.read()
 
 
@@ -205,5 +205,6 @@ def test_what_a_node_publishes_that_never_pauses_is_not_kept(start):
     status, out, _ = program.ended()
     assert status == 0
     before, after = (int(line) for line in out.splitlines())
-    # Kilobytes on Linux, bytes on macOS; the bare values would be some sixty megabytes.
+    # The unit is kilobytes on Linux and bytes on macOS; the values themselves would be about sixty
+    # megabytes.
     assert (after - before) * (1 if sys.platform == "darwin" else 1024) < 20e6

@@ -1,4 +1,4 @@
-"""Those who are told when something comes or goes: a link to other processes is one."""
+"""Tests of callbacks for changes of a world, such as those of a connection to other processes."""
 
 import pytest
 

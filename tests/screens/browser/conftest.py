@@ -3,7 +3,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def chromium():
-    """One browser for all tests of a worker."""
+    """Start one browser for all tests of a pytest worker."""
     from tests.screens.browser.driving import start_chromium
 
     driver = start_chromium()
@@ -13,7 +13,7 @@ def chromium():
 
 @pytest.fixture
 def stage():
-    """An empty world and its page."""
+    """Create an empty world with its page."""
     from tests.screens.browser.stage import Stage
 
     with Stage() as stage:

@@ -15,20 +15,20 @@ CHROMEDRIVER = shutil.which("chromedriver")
 
 FLAGS = [
     "--headless=new",
-    "--no-sandbox",  # a container's root has no other choice
+    "--no-sandbox",  # Chromium needs this as root in a container
     "--disable-dev-shm-usage",
-    "--use-angle=swiftshader",  # three.js draws without a graphics card
+    "--use-angle=swiftshader",  # draws three.js without a graphics card
     "--enable-unsafe-swiftshader",
     "--disable-gpu",
     "--window-size=1280,800",
     "--hide-scrollbars",
-    # Every window draws, whether or not another one lies over it.
+    # Windows draw even if another window covers them.
     "--disable-backgrounding-occluded-windows",
     "--disable-renderer-backgrounding",
-    # Nothing is asked of anybody but the page's own server.
+    # The browser contacts only the page's own server.
     "--disable-background-networking",
     "--disable-component-update",
-    # Between two pages Chromium may not know that 127.0.0.1 asks 127.0.0.1.
+    # Between two pages, Chromium may not recognise 127.0.0.1 as the same machine.
     "--disable-features=LocalNetworkAccessChecks",
     "--disable-quic",
     "--disable-sync",
@@ -37,7 +37,7 @@ FLAGS = [
 
 
 def start_chromium():
-    """A browser without a window; the caller quits it."""
+    """Start a browser without a window; the caller ends it."""
     options = webdriver.ChromeOptions()
     options.binary_location = CHROMIUM
     for flag in FLAGS:
@@ -54,19 +54,19 @@ class Page:
     def __init__(self, driver, stage, state="", *, patient=True):
         self.driver = driver
         driver.get("about:blank")
-        # What an earlier page complained of is not this one's.
+        # Complaints of an earlier page do not count for this one.
         driver.get_log("browser")
         if patient and "timeout=" not in state:
-            # On a busy machine a test may last longer than frames without data are shown.
+            # On a busy machine, a test may last longer than frames without data are shown.
             state = f"{state}&timeout=1000".lstrip("&")
         driver.get(f"{stage.url}#{state}")
 
     def said(self, expression):
-        """The value of an expression in the page."""
+        """Return the value of an expression in the page."""
         return self.driver.execute_script(f"return {expression}")
 
     def until(self, condition):
-        """Wait until `condition()` holds; return what it gave."""
+        """Wait until `condition()` is true; return its value."""
         return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.02).until(
             lambda _: condition()
         )
@@ -82,7 +82,7 @@ class Page:
         return self.texts(selector)[0]
 
     def drawn(self):
-        """What is drawn in 3-D, by name: pose in the fixed frame, pixel, arrow, fading."""
+        """Return the objects drawn in 3-D, by name: pose in the fixed frame, pixel and so on."""
         return {
             frame["name"]: frame for frame in self.driver.execute_script("return tftool.drawn()")
         }
@@ -113,7 +113,7 @@ class Page:
 
 
 class Resized:
-    """A window of another size, for as long as the block lasts."""
+    """Context manager that gives the window another size."""
 
     def __init__(self, driver, width, height):
         self.driver = driver

@@ -72,7 +72,7 @@ def gltf() -> str:
 
 
 def png() -> bytes:
-    """A red pixel."""
+    """Return a PNG picture of one red pixel."""
 
     def chunk(kind: bytes, content: bytes) -> bytes:
         check = zlib.crc32(kind + content)
@@ -86,7 +86,7 @@ def png() -> bytes:
 
 
 def write_package(folder, name="arm_description"):
-    """Write the package; its folder."""
+    """Write the package; return its folder."""
     package = folder / name
     for part in ("meshes", "textures", "urdf"):
         (package / part).mkdir(parents=True)

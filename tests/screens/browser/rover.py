@@ -1,4 +1,4 @@
-"""A rover with an arm that drives in a circle: what the picture of the view shows."""
+"""A rover with an arm that drives in a circle, as in the picture of the view."""
 
 import asyncio
 import math
@@ -34,7 +34,7 @@ def _joint(name: str, kind: str, parent: str, child: str, xyz: str, axis: str) -
 
 
 def description() -> str:
-    """The rover's URDF."""
+    """Return the rover's URDF."""
     colours = {"hull": "0.92 0.55 0.15 1", "dark": "0.33 0.36 0.41 1", "pale": "0.85 0.87 0.9 1"}
     colours["eye"] = "0.2 0.55 0.95 1"
     parts = [
@@ -86,14 +86,14 @@ def description() -> str:
 
 
 def rover() -> ShownRobot:
-    """The rover as the page draws it."""
+    """Return the rover as the page draws it."""
     return ShownRobot(Robot(parse_description(description())))
 
 
 def drive(world: World, shown: ShownRobot) -> None:
-    """Let it drive in a circle and wave its arm, with the past that trails show."""
+    """Drive the rover in a circle and move its arm, with past poses for the trails."""
     arm = MovingRobot(world, file=shown.robot, motion="sine", period=seconds(PERIOD))
-    world.driving = asyncio.gather(arm.run(), _circle(world))  # kept, or it is forgotten
+    world.driving = asyncio.gather(arm.run(), _circle(world))  # asyncio does not store it
 
 
 async def _circle(world: World) -> None:

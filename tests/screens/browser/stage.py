@@ -1,4 +1,4 @@
-"""A world and its page, alive in a thread of their own, so that a browser can be driven beside."""
+"""A world and its page in a separate thread, beside the thread that drives a browser."""
 
 import asyncio
 import threading
@@ -37,7 +37,7 @@ class Stage:
         return self._page.url
 
     def address(self, path):
-        """Where a path of the page's server is, with its secret."""
+        """Return the address of a path of the page's server, with its secret."""
         return self._page.address(path)
 
     @property
@@ -45,7 +45,7 @@ class Stage:
         return self._page.port
 
     def do(self, action):
-        """Call `action(world)` in the world's own thread and return what it returns."""
+        """Call `action(world)` in the world's thread and return its result."""
 
         async def call():
             return action(self._world)
@@ -53,7 +53,7 @@ class Stage:
         return asyncio.run_coroutine_threadsafe(call(), self._loop).result(PATIENCE)
 
     def put(self, x, y=0.0, *, at=1.0, parent="world", child="turtle", rotation=(0, 0, 0, 1)):
-        """Broadcast one transform, stamped so many seconds after the clock's epoch."""
+        """Broadcast one transform, with a stamp in seconds after the clock's epoch."""
 
         def broadcast(world):
             stamp = world.clock.epoch + seconds(at)
@@ -73,11 +73,11 @@ class Stage:
         self.do(lambda world: self._page.show_robot(robot))
 
     def pictures(self):
-        """How many pictures the open pages have been sent; none is sent before one is drawn."""
+        """Return how many pictures the open pages got; each comes after the last was drawn."""
         return self.do(lambda world: sum(client.sent for client in self._page.clients))
 
     def end(self):
-        """End the session; its page is told."""
+        """End the session, and notify its page."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._over.set)
             self._thread.join(PATIENCE)

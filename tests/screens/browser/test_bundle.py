@@ -1,4 +1,4 @@
-"""The page that is shipped is the page whose sources lie beside it."""
+"""Tests that the shipped page is built from the sources beside it."""
 
 import hashlib
 import json
@@ -11,7 +11,7 @@ import pytest
 
 import tftool
 
-# A wheel carries the bundle and not the scripts it was built from.
+# A wheel contains the bundle, but not the scripts from which it was built.
 PAGE = Path(__file__).parents[3] / "tftool" / "screens" / "browser" / "page"
 BUNDLE = Path(tftool.__file__).parent / "screens" / "browser" / "bundle"
 REBUILD = "run `npm install --no-package-lock && npm run build` in tftool/screens/browser/page"
@@ -19,7 +19,7 @@ NPM = shutil.which("npm")
 
 
 def test_the_bundle_was_built_from_these_scripts():
-    # page/build.mjs writes the same digest into the bundle's first line.
+    # page/build.mjs writes the same digest to the bundle's first line.
     digest = hashlib.sha256()
     found = [*PAGE.iterdir(), *(PAGE / "displays").iterdir()]
     for name in sorted(source.relative_to(PAGE).as_posix() for source in found):
@@ -37,7 +37,7 @@ def npm(*words, cwd):
 @pytest.mark.skipif(NPM is None, reason="npm is not installed")
 def test_the_bundle_built_anew_is_the_one_shipped_and_its_types_hold(tmp_path):
     page = shutil.copytree(PAGE, tmp_path / "page", ignore=shutil.ignore_patterns("node_modules"))
-    # A copy that was fetched before is good enough: the versions are exact.
+    # An earlier download is good enough, because the versions are exact.
     fetched = npm("install", "--no-package-lock", "--no-audit", "--prefer-offline", cwd=page)
     if fetched.returncode:
         pytest.skip(

@@ -1,4 +1,4 @@
-"""Snapshots are taken at a steady rate, and leave time for everything else."""
+"""Tests that snapshots are taken at a steady rate, and leave time for other work."""
 
 from tftool.screens.browser.client import Cadence
 
@@ -6,7 +6,7 @@ MS = 1_000_000
 
 
 def turns(cadence, works, late=()):
-    """When turns began that took so long each, some of them begun late by so much."""
+    """Return the times at which rounds began that took some time each, some of them begun late."""
     begun, due = [], 0
     for number, work in enumerate(works):
         began = due + dict(late).get(number, 0)

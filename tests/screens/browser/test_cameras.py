@@ -1,4 +1,4 @@
-"""Views without perspective, a measure between two points, a camera that follows: in a browser."""
+"""Browser tests of views without perspective, measuring, and a camera that follows a frame."""
 
 import pytest
 
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture
 def driven(tmp_path):
-    """A robot that drives along x for 4 s at 1 m/s, and a post at (0, 3, 4)."""
+    """Record a robot that drives along x for 4 s at 1 m/s, and a post at (0, 3, 4)."""
     buffer = Buffer(seconds(60))
     post = TransformStamped(0, "world", "post", Transform((0.0, 3.0, 4.0)))
     buffer.set_transform_static(post, "map")
@@ -38,7 +38,7 @@ def pixels(page, *place):
 
 
 def clicked(page, place):
-    """Click where a place is in the picture."""
+    """Click at the pixel of a 3-D position."""
     x, y = pixels(page, *place)
     over = page.find("#over")
     left, top = round(x - over.size["width"] / 2), round(y - over.size["height"] / 2)
@@ -70,7 +70,7 @@ def test_a_view_along_an_axis_has_no_perspective(chromium, driven, view, right, 
     metre, origin, across, up, deep = page.until(spread)
     assert across == pytest.approx([origin[0] + metre, origin[1]], abs=0.01)
     assert up == pytest.approx([origin[0], origin[1] - metre], abs=0.01)
-    # What lies behind lies at the same place, and is as large.
+    # A point behind the origin is drawn at the same pixel and in the same size.
     assert deep == pytest.approx(origin, abs=0.01)
     assert page.complaints() == []
 

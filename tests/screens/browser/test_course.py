@@ -1,4 +1,4 @@
-"""The ruler and the plot in a real browser: gaps, findings, and where a click goes."""
+"""Browser tests of the time ruler and the plot: gaps, findings, and clicks."""
 
 import pytest
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.skipif(
 
 
 def holed_world():
-    """A robot at 50 Hz for 10 s, of which nothing came from 4 s to 6 s."""
+    """Create a world of a robot at 50 Hz for 10 s, without data from 4 s to 6 s."""
     buffer = Buffer(seconds(60))
     for tick in range(500):
         time = tick / 50
@@ -43,7 +43,7 @@ def clicked(page, canvas, pixel):
 
 
 def went(page, canvas, moment, *, near, beside=0):
-    """Click where a moment lies, again if the page was still being laid out."""
+    """Click at a moment; click again if the page's layout was still changing."""
 
     def there():
         clicked(page, canvas, page.said(f"tftool.course().pixel({moment})") + beside)
@@ -62,14 +62,14 @@ def test_the_ruler_marks_gaps_and_findings_and_goes_where_one_clicks(chromium, t
     assert set(gap["frames"]) == {"robot", "arm"}
     found = next(one for one in course["findings"] if one["id"] == "gap")
     assert found["since"] == 4.0
-    # The finding's own moment, to the digit, though a pixel is broad.
+    # The page goes to the exact time of the finding, although a pixel is wide.
     went(page, "#ruler", found["since"], beside=2, near=0.0)
     assert "gap" in page.find("#ruler").get_attribute("title")
     went(page, "#plot", 8.0, near=0.05)
-    # The pointer rests at 8 s, where the robot is 8 m along x.
+    # The pointer is at 8 s, where the robot is 8 m along x.
     assert "x 8.0" in page.said("tftool.course().legend")
 
-    # The wheel zooms about the pointer; the slider shows the same span, and a drag pans.
+    # The wheel zooms around the pointer. The slider shows the same span, and dragging pans.
     plot = page.find("#plot")
     origin = ScrollOrigin.from_element(plot)
     ActionChains(chromium).scroll_from_origin(origin, 0, -500).perform()

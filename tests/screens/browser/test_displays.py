@@ -1,4 +1,4 @@
-"""Points, paths, clouds, scans and markers beside the frames, in a file and from a server."""
+"""Tests of points, paths, clouds, scans and markers, in a file and from a server."""
 
 import asyncio
 import importlib.util
@@ -40,7 +40,7 @@ def stamped(message, at=0.0, frame="sensor"):
 
 
 def cloud_of(recording, points, at=0.0, frame="sensor"):
-    """A cloud with a field before, between and behind x, y and z."""
+    """Add a cloud with other fields before, between and behind x, y and z."""
     message = stamped(recording.new_message("sensor_msgs/msg/PointCloud2"), at, frame)
     message.height, message.width = 1, len(points)
     message.point_step = 24
@@ -77,7 +77,7 @@ def point_of(recording, x, y, at=0.0, frame="sensor"):
 
 
 def marker_of(recording, number, kind, *, at=0.0, frame="world", x=0.0, color=(1, 0, 0, 1), **more):
-    """A marker of the namespace `test`, 10 cm large."""
+    """Add a marker of the namespace `test`, 10 cm large."""
     message = stamped(recording.new_message("visualization_msgs/msg/Marker"), at, frame)
     message.ns, message.id, message.type = "test", number, kind
     message.pose.position.x, message.pose.orientation.w = x, 1.0
@@ -103,7 +103,7 @@ CUBE, SPHERE, ARROW, LIST, WORDS, DELETE, DELETE_ALL = 1, 2, 0, 7, 9, 2, 3
 
 @pytest.fixture
 def run(tmp_path):
-    """A robot that drives along x at 1 m/s for 4 s, its sensor a metre above it, at 10 Hz."""
+    """Record a robot that drives along x at 1 m/s for 4 s, with a sensor one metre above."""
     file = tmp_path / "run.mcap"
     with tftool.write_recording(file) as recording:
         mount = TransformStamped(0, "robot", "sensor", Transform((0.0, 0.0, 1.0)))
@@ -216,7 +216,7 @@ def test_an_arrow_points_from_its_first_place_to_its_second():
         np.testing.assert_allclose(shaft.size, (0.1, 0.1, 1.5))
         np.testing.assert_allclose(head.size, (0.2, 0.2, 0.5))
 
-    # Without places it points along x of its pose.
+    # Without points, the arrow points along x of its pose.
     scale.x = 1.0
     shaft, head = markers.draw(
         markers_of(CLASSES, marker_of(CLASSES, 1, ARROW, scale=scale)), Arrival(0)
@@ -265,7 +265,7 @@ def test_of_many_messages_so_many_are_drawn_as_have_room(run):
 
 
 def shown(page, topic, moment):
-    """Where a topic's first place is in the picture, once it shows that moment's message."""
+    """Return the drawn position of a topic's first point, once the message of a moment is shown."""
     found = page.until(
         lambda: (
             (one := page.said("tftool.displays()").get(topic)) and one["stamp"] == moment and one
@@ -277,7 +277,7 @@ def shown(page, topic, moment):
 def check_displays(page):
     page.until(lambda: len(page.said("tftool.displays()")) == 4)
     page.scrub(2.5)
-    # The messages of 2 s, placed where the sensor was at 2 s, not where it is now.
+    # The message of 2 s is drawn at the sensor's pose at 2 s, not at its latest pose.
     assert shown(page, "/cloud", 2.0) == (2, [3.0, 2.0, 4.0])
     assert shown(page, "/scan", 2.0) == (2, [3.0, 0.0, 1.0])
     assert shown(page, "/goal", 2.0) == (1, [2.5, -0.5, 1.0])
@@ -331,7 +331,7 @@ def test_markers_are_drawn_with_their_frames_colours_and_lifetimes(chromium, tmp
 
     page.scrub(1.5)
     page.until(lambda: kinds() == ["box", "words", "line", "sphere"])
-    # Placed where the robot was at 1 s.
+    # The marker is drawn at the robot's pose at 1 s.
     first = page.said("tftool.displays()")["/marks"]["first"]
     assert [round(number, 3) for number in first] == [1.5, 0.0, 0.0]
     page.scrub(2.5)
@@ -355,7 +355,8 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
 
     stage.do(early)
     page = Page(chromium, stage, "fixed=world")
-    # Published before the page was opened, and where the turtle was at 1 s, not where it is.
+    # The point was published before the page was opened. It is drawn at the turtle's pose at 1 s,
+    # not at the latest pose.
     assert shown(page, "/early", 1.0) == (1, [3.0, 1.0, 0.0])
 
     def late(world):
@@ -364,7 +365,7 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
         points.publish(point_stamped(epoch + seconds(1), "world", 4.0, 2.0, 0.0))
         points.publish(point_stamped(epoch + seconds(1.5), "turtle", 0.5, 0.0, 0.0))
         points.publish(point_stamped(epoch + seconds(3), "turtle", 0.5, 0.0, 0.0))
-        # Its transform comes behind the point.
+        # The transform arrives after the point.
         pose = TransformStamped(epoch + seconds(3), "world", "turtle", Transform((7.0, 0.0, 0.0)))
         world.broadcast([pose], "test")
         many = cloud_of(CLASSES, np.full((20_000, 3), 2.0), frame="turtle")
@@ -378,7 +379,7 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
     page.until(lambda: len(page.said("tftool.displays()")) == 2)
     assert page.complaints() == []
 
-    # A file that is saved of it holds the last of each.
+    # A saved file contains the last message of each topic.
     with urllib.request.urlopen(stage.address("/standalone.html")) as answer:
         (tmp_path / "saved.html").write_bytes(answer.read())
     saved = opened(chromium, tmp_path / "saved.html", "fixed=world")
@@ -422,7 +423,7 @@ def test_what_is_kept_of_a_session_is_the_last_message_of_each_topic_thinned_out
     for x in (1.0, 2.0):
         goal.publish(point_stamped(world.clock.epoch, "world", x, 0.0, 0.0))
 
-    for _ in range(2):  # told to pages meanwhile, or not
+    for _ in range(2):  # sent to pages meanwhile, or not
         kept = {track.topic: track for track in displays.latest(300)}
         assert [one.shapes[0].places.tolist() for one in kept["/goal"].messages] == [
             [[2.0, 0.0, 0.0]]
@@ -506,14 +507,14 @@ def test_a_point_of_a_cloud_is_measured_exactly_whatever_frame_is_fixed(chromium
     page = opened(chromium, tmp_path / "run.html", "fixed=world&at=2&view=side")
     assert shown(page, "/cloud", 2.0)[1] == [3.0, 2.0, 4.0]
     page.find("#measure").click()
-    # The cloud remains where the sensor was, so that the point belongs to the root.
+    # The cloud stays where the sensor was, so the point belongs to the root frame.
     from_point = "(3.00, 2.00, 4.00) in world to robot: 4.583 m (x -1.000, y -2.000, z -4.000"
     assert measured((3, 2, 4), (2, 0, 0)) == f"{from_point} in world)"
 
     page.pick("fixed", "robot")
     page.until(lambda: shown(page, "/cloud", 2.0)[1] == [1.0, 2.0, 4.0])
     assert page.text("#measured") == f"{from_point} in robot)"
-    # From (1, 2, 3) the sensor's origin is the root of 14 away.
+    # From (1, 2, 3), the sensor's origin is at a distance of the square root of 14.
     assert measured((1, 2, 4), (0, 0, 1)).startswith(
         "(3.00, 2.00, 4.00) in world to sensor: 3.742 m"
     )

@@ -1,4 +1,4 @@
-"""The page as one file, opened from disk in a real browser, with no server anywhere."""
+"""Browser tests of the page as one file, opened from disk without a server."""
 
 import itertools
 import json
@@ -32,8 +32,8 @@ pytestmark = pytest.mark.skipif(
 
 
 def opened(driver, path, state=""):
-    """A file as a person opens it: by a double click."""
-    # A view in the address would take the place of the one in the file.
+    """Open a file as a person does by a double click."""
+    # A view in the address would replace the view in the file.
     return Page(driver, SimpleNamespace(url=path.as_uri()), state, patient=False)
 
 
@@ -45,14 +45,14 @@ def file_of(tmp_path, buffer, *, end=0.0, **words):
 
 
 def asked_elsewhere(page):
-    """What the page has fetched that does not lie in it."""
+    """Return what the page has fetched from outside of the file."""
     script = "performance.getEntriesByType('resource').map((entry) => entry.name)"
     return [name for name in page.said(script) if not name.startswith(("data:", "blob:"))]
 
 
 def test_trails_of_a_long_recording_are_as_fine_as_it(chromium, tmp_path):
     buffer = Buffer(seconds(1000))
-    for step in range(6000):  # ten minutes at 10 Hz, in a circle every 6 s
+    for step in range(6000):  # ten minutes at 10 Hz, on a circle of 6 s
         angle = math.tau * step / 60
         pose = Transform((math.cos(angle), math.sin(angle), 0.0))
         stamp = EPOCH + seconds(0.1 * step)
@@ -61,12 +61,12 @@ def test_trails_of_a_long_recording_are_as_fine_as_it(chromium, tmp_path):
     page = opened(chromium, path, "fixed=map&trails=1&length=10")
 
     def fine(moment):
-        """The trail once it is that of a moment: until its places come, a coarse one is drawn."""
+        """Return whether the trail of a moment is drawn finely; at first a coarse one is."""
         points = page.said("tftool.trailOf('runner')") or []
         steps = [math.dist(one, other) for one, other in itertools.pairwise(points)]
         angle = math.tau * moment / 6
         ends = points and math.dist(points[-1], (math.cos(angle), math.sin(angle), 0.0)) < 1e-3
-        # 30 places a second, on the circle, up to where the frame is now.
+        # 30 positions per second, on the circle, up to the frame's present position
         is_fine = ends and len(steps) >= 299 and max(steps) < 1.1 * math.tau / 6 / 30
         return points if is_fine else None
 
@@ -94,7 +94,7 @@ def test_a_recording_is_scrubbed_played_and_measured_without_a_server(chromium, 
     assert page.said("tftool.pair()")["translation"] == pytest.approx(wanted["translation"])
     x = buffer.lookup_transform("map", "base", at).transform.translation.x
     page.until(lambda: page.x_of("base") == pytest.approx(x))  # drawn in the next picture
-    # Played to its end it rests there: there is no present to run into.
+    # At its end, playing stops: a file has no live data.
     page.scrub(2.9)
     page.find("#play").click()
     page.until(lambda: page.said("tftool.moment()") == page.said("tftool.reach().newest"))
@@ -108,7 +108,7 @@ def test_a_file_plays_by_itself_where_its_address_says_so(chromium, tmp_path):
     path = file_of(tmp_path, drawn_world(4), end=3.1, begin=EPOCH)
     page = opened(chromium, path, "play=1&speed=4")
     page.until(lambda: page.said("tftool.moment()") > 0)
-    # It begins anew at its end.
+    # Playing starts again at the beginning.
     page.until(lambda: page.said("tftool.moment()") > 2)
     page.until(lambda: page.said("tftool.moment()") < 2)
     page.find("#play").click()
@@ -191,7 +191,7 @@ def test_a_file_of_a_robot_moves_its_joints_by_itself(chromium, tmp_path):
     check({"turn": 0.5})
     slide("turn", -0.75)
     check({"turn": -0.75})
-    slide("slide", 7)  # no further than its limit
+    slide("slide", 7)  # not beyond its limit
     check({"turn": -0.75, "slide": 0.4})
     told = [page.row(one).find_element(By.CSS_SELECTOR, ".told").text for one in ("arm", "finger")]
     assert told == ["joint", "joint"]
@@ -200,7 +200,7 @@ def test_a_file_of_a_robot_moves_its_joints_by_itself(chromium, tmp_path):
 
 
 def positions_of(page):
-    """Positions in the panel of joints, degrees and metres."""
+    """Return the positions in the panel of joints, in degrees and metres."""
     script = "[...document.querySelectorAll('.slider [type=number]')].map((one) => +one.value)"
     return page.said(script)
 

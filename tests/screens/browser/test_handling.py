@@ -1,4 +1,4 @@
-"""What the page says of data that stopped, and how keys, lists and small screens are served."""
+"""Browser tests of old data, keys, lists and small screens."""
 
 import pytest
 
@@ -25,11 +25,11 @@ def pressed(page, control):
 
 
 def filtered(page):
-    """How the browser paints the scene: as it is, or through a filter."""
+    """Return how the browser draws the scene: unchanged, or through a filter."""
     return page.said("getComputedStyle(document.getElementById('main')).filter")
 
 
-# Data that stopped
+# Old data
 
 
 def test_a_session_that_is_gone_greys_the_scene_and_names_the_last_moment(chromium):
@@ -96,7 +96,7 @@ def test_keys_mean_the_same_after_any_click(chromium, stage):
         press(page, "n")
         page.until(lambda before=before: pressed(page, "names") != before)
 
-    # Letters in a field are letters.
+    # In a text field, letters are text.
     before = pressed(page, "names")
     page.find("#only").send_keys("n")
     assert page.find("#only").get_attribute("value") == "n"
@@ -159,7 +159,7 @@ def test_a_double_click_flies_to_a_frame(chromium, stage):
         page = Page(chromium, stage, f"view={view}")
         page.until(lambda page=page: {"turtle", "other"} <= page.drawn().keys())
 
-        # As one event: on a busy machine two clicks may come too far apart.
+        # Both clicks are one event, because on a busy machine two clicks may be too far apart.
         page.said(
             "[...document.querySelectorAll('#tree .name')].find(e => e.textContent === 'turtle')"
             ".dispatchEvent(new MouseEvent('dblclick', { bubbles: true }))"
@@ -227,7 +227,7 @@ def test_the_list_is_one_tab_stop_and_arrow_keys_lead_through_it(chromium, stage
     press(page, Keys.ARROW_LEFT)
     assert page.said(item.format("expanded")) == "false"
     press(page, Keys.ARROW_DOWN)
-    assert page.said(focused) == "base"  # what is folded away is not reached
+    assert page.said(focused) == "base"  # folded rows are not focused
     press(page, Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.END)
     assert page.said(focused) == "head"
     press(page, Keys.ENTER)
@@ -322,7 +322,7 @@ CONTRASTS = """
 
 @pytest.mark.parametrize("theme", ["dark", "light"])
 def test_all_text_stands_out_from_what_is_below_it(chromium, stage, theme):
-    # A frame of every kind: moving, static, stale, filtered, lost, hidden, chosen.
+    # The world has a frame of every kind: moving, static, stale, filtered, lost, hidden, chosen.
     for second in (0.9, 1.0):
         stage.put(second, at=second)
     stage.mount(("turtle", "camera"), ("world", "door"), ("apart", "lonely"))
@@ -396,7 +396,7 @@ def test_on_a_phone_panels_are_drawers_and_nothing_overprints(chromium, stage):
         drawers = ("left", "right")
         page.until(lambda: not any(page.find(f"#{name}").is_displayed() for name in drawers))
         assert chromium.execute_script(OVERPRINTS) == []
-        # What is left for the picture is most of the screen.
+        # The picture gets most of the screen.
         bar, time = page.find("#bar").rect, page.find("#time").rect
         assert time["y"] - (bar["y"] + bar["height"]) > 500
 

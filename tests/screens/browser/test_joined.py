@@ -1,4 +1,4 @@
-"""`tftool view` beside another command, each in a process of its own."""
+"""Tests of `tftool view` beside another command, each in a separate process."""
 
 import asyncio
 import json
@@ -16,21 +16,21 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals as POSI
 
 @pytest.fixture(autouse=True)
 def session_dir(monkeypatch):
-    # Not tmp_path: a unix socket's name has about a hundred letters.
+    # The folder is not tmp_path, because the path of a unix socket is limited to about 100 letters.
     with tempfile.TemporaryDirectory(prefix="tf") as folder:
         monkeypatch.setenv("TFTOOL_SESSION_DIR", folder)
         yield folder
 
 
 def address_of(view):
-    """Where a `tftool view` says it serves: host:port, and the query with its secret."""
+    """Return the address that a `tftool view` prints: host:port, and the query with its secret."""
     line = view.lines[view.says("are at http://") - 1]
     place, _, query = line.partition("http://")[2].strip().partition("/")
     return place, query
 
 
 def told_by(address, *, holds):
-    """Listen as a page does until a message of words is what `holds` wants; give that message."""
+    """Listen as a page does until `holds` accepts a text message; return this message."""
 
     async def listen():
         place, query = address
@@ -49,7 +49,7 @@ def told_by(address, *, holds):
 
 
 def test_view_joins_the_session_that_runs_and_shows_its_frames():
-    # A world that view would not host by itself.
+    # `view` would not host this world by itself.
     with Process("echo", "map", "laser_point", "robot", "--rate", "20", "--json") as host:
         host.says('"translation"')
         with Process("view", "--port", "0") as view:

@@ -1,4 +1,4 @@
-"""The page's modules that touch no page, by node's own test runner."""
+"""Tests of the page's modules that need no browser, run with node's test runner."""
 
 import shutil
 import subprocess

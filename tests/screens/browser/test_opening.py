@@ -1,4 +1,4 @@
-"""What the page opens with, and what it draws of a pair, a turtle and the ground."""
+"""Browser tests of the page's first picture, of a pair, a turtle and the ground."""
 
 import pytest
 
@@ -31,7 +31,7 @@ CLOSE = """
 
 
 def painted(page, colour, far=12):
-    """How many pixels of the picture are about of a colour."""
+    """Return how many pixels of the picture have nearly a colour."""
     return page.driver.execute_script(CLOSE, colour, far)
 
 
@@ -50,12 +50,12 @@ def test_the_turtles_open_with_their_pair_their_trails_and_figures(chromium):
 
         assert page.find("#top").get_attribute("aria-pressed") == "true"
         page.until(lambda: len(page.said("tftool.trails()")) == 2)
-        # A turtle is a metre long and painted in its frame's colour.
+        # A turtle is a metre long, in the colour of its frame.
         page.until(lambda: painted(page, swatch(page, "turtle1")) > 150)
         address = page.said("location.hash")
         assert "target=" not in address
         assert "trails=" not in address
-        # All of it lies in what the panels leave free.
+        # The whole turtle is in the part of the picture that the panels do not cover.
         left, right = (page.find(f"#{side}").rect for side in ("left", "right"))
         for frame in page.drawn().values():
             assert left["x"] + left["width"] < frame["pixel"][0] < right["x"]
@@ -99,7 +99,7 @@ def test_what_a_person_chose_is_not_chosen_anew(chromium, stage):
     page.until(lambda: "lens" in page.drawn())
     page.until(lambda: page.text("#sentence") == "world in turtle")
     assert page.find("#trails").get_attribute("aria-pressed") == "false"
-    # The address follows a moment later.
+    # The address changes a moment later.
     page.until(lambda: {"view=top", "trails=0"} <= set(page.said("location.hash").split("&")))
 
 

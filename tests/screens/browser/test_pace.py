@@ -1,4 +1,4 @@
-"""How fine the page draws while things move."""
+"""Browser tests of the picture's resolution while frames move."""
 
 import asyncio
 import math
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(
     CHROMIUM is None or CHROMEDRIVER is None, reason="no chromium with a driver here"
 )
 
-# What a slow machine does with every picture.
+# Delay for every picture, as on a slow machine
 SLOW = """
 const spin = () => {
   const end = performance.now() + 60;
@@ -27,7 +27,7 @@ spin();
 
 
 async def swing(world):
-    """Move one frame, many times a second, until cancelled."""
+    """Move one frame many times a second, until cancelled."""
     clock = world.clock
     while True:
         now = clock.now()
@@ -37,7 +37,7 @@ async def swing(world):
 
 
 def sizes(page):
-    """How large the picture is beside the window: its share, and its canvas in pixels."""
+    """Return the picture's size relative to the window, and its canvas in pixels."""
     return page.said(
         "[tftool.scale(), document.getElementById('main').width,"
         " document.getElementById('over').clientWidth]"
@@ -55,7 +55,7 @@ def test_slow_pictures_grow_coarser_and_what_rests_is_drawn_in_full(chromium, st
 
     stage.do(lambda world: swinging.cancel())
     page.until(lambda: (lambda scale, drawn, window: (scale, drawn) == (1, window))(*sizes(page)))
-    # A picture that is kept is never coarse.
+    # A saved picture always has full resolution.
     assert page.said("tftool.picture().width") == sizes(page)[2]
     assert page.complaints() == []
 
@@ -80,10 +80,10 @@ def test_where_nothing_moves_the_grid_stays_in_the_picture(chromium, stage):
             """
         )
 
-    # The x axis of the ground, live and put aside.
+    # The x axis on the ground, drawn live and in the stored picture
     aside = "document.getElementById('floor').hidden"
     page.until(lambda: page.said(aside) is False)
     assert red() > 1000
     page.find("#grid").click()
     page.until(lambda: page.said(aside) is True)
-    assert red() < 200  # those of the corner
+    assert red() < 200  # the axes in the corner

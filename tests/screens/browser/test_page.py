@@ -1,4 +1,4 @@
-"""The page in a real browser: what a person sees and clicks."""
+"""Browser tests of the page: what a person sees and clicks."""
 
 import math
 import os
@@ -27,7 +27,7 @@ VECTORS = Path(__file__).parents[2] / "reference" / "turtlesim_vectors.yaml"
 
 PICTURES = Path(__file__).parents[2] / "pictures"
 
-# What a page learns of the graphics card, where this machine has none: 0x9246 asks its name.
+# The name of the graphics card as the page reads it (0x9246), on a machine without one
 CARD = """
     const told = WebGL2RenderingContext.prototype.getParameter;
     WebGL2RenderingContext.prototype.getParameter = function (what) {
@@ -38,7 +38,7 @@ CARD = """
 
 @pytest.fixture
 def card(chromium):
-    """Let the page draw as it does on a machine with a graphics card: slower here, and finer."""
+    """Let the page draw as with a graphics card: slower here, and finer."""
     script = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": CARD})
     yield
     chromium.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
@@ -57,7 +57,7 @@ def test_frames_appear_and_move(chromium, stage):
     assert page.texts("#tree .name") == ["world", "turtle"]
     assert before["turtle"]["arrow"]
     assert not before["world"]["arrow"]
-    # Seen from above, four metres are further to the right than one.
+    # From above, a frame at four metres is further to the right than one at one metre.
     assert (
         after["turtle"]["pixel"][0] - after["world"]["pixel"][0]
         > before["turtle"]["pixel"][0] - before["world"]["pixel"][0]
@@ -145,7 +145,7 @@ def test_scrubbing_shows_the_asked_moment_and_live_returns(chromium, stage):
 
 
 def test_the_sliders_bounds_are_there_before_anything_is_drawn(chromium, stage):
-    # A scrub between two messages would otherwise be clamped to bounds of before.
+    # Without this, a move of the handle between two messages would be clamped to old bounds.
     frozen = {"source": "window.requestAnimationFrame = () => 0"}
     script = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", frozen)
     try:
@@ -163,7 +163,7 @@ def test_the_sliders_bounds_are_there_before_anything_is_drawn(chromium, stage):
 
 
 def test_playing_runs_through_the_past_into_the_present(chromium, stage):
-    # Eighty seconds of playing: time enough for a look on its way.
+    # Eighty seconds of data leave time for a look during playing.
     for second in (1.0, 9.0):
         stage.put(second, at=second)
     page = Page(chromium, stage, "speed=0.1")
@@ -178,7 +178,7 @@ def test_playing_runs_through_the_past_into_the_present(chromium, stage):
 
 
 def numbers(page):
-    """The pair panel's numbers, by their terms."""
+    """Return the numbers of the pair panel, by their names."""
     told = {}
     terms = page.texts("#numbers dt")
     for place, term in enumerate(terms, start=1):
@@ -273,7 +273,7 @@ SIZES = [(1920, 1080), (1280, 800), (1200, 800), (900, 600), (640, 520)]
 def test_numbers_stand_in_one_line_each_and_panels_keep_clear_of_the_bars(
     chromium, stage, width, height
 ):
-    # Chosen by the address, the frame's panel is there before there is any number to put in it.
+    # The address chooses the frame, so its panel exists before there are numbers for it.
     stage.put(-123.456789, -2.0, rotation=(-0.5, -0.5, -0.5, 0.5))
     stage.mount(("turtle", "camera"), x=-0.5)
     size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
@@ -301,9 +301,9 @@ def test_numbers_stand_in_one_line_each_and_panels_keep_clear_of_the_bars(
         for panel in (left, right):
             if panel["width"]:
                 assert bar["bottom"] <= panel["top"] < panel["bottom"] <= time["top"]
-        # The bar is one line where there is room for a screen's usual columns.
+        # The bar is one line if the window has a usual width.
         assert width < 1200 or bar["height"] < 60
-        # What the plot says of its lines and of its height stands in one line, side by side.
+        # The texts about the plot's lines and height are side by side in one line.
         assert chromium.execute_script(box, "line")["width"] > 500
     finally:
         chromium.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
@@ -326,7 +326,7 @@ def test_only_the_rows_of_frames_that_changed_are_written(chromium, stage):
         stage.put(float(moment), at=float(moment))
         page.until(lambda m=moment: page.x_of("turtle") == float(m))
         if moment == 3:
-            # By now every row was written once.
+            # At this point, every row was written once.
             chromium.execute_script("written.clear()")
     assert page.said("[...written]") == ["turtle"]
 
@@ -366,7 +366,8 @@ def test_a_name_of_five_hundred_letters_keeps_inside_its_panel(chromium, stage):
 
 
 def test_a_frame_infinitely_far_away_leaves_the_others_where_they_are(chromium, stage):
-    # The buffer refuses NaN, but takes infinity as tf2 does: seen from there, all is NaN.
+    # The buffer refuses NaN, but accepts infinity as tf2 does. Seen from that frame, all numbers
+    # are NaN.
     stage.put(math.inf, child="beyond")
     stage.put(2.0, child="here")
     page = Page(chromium, stage)
@@ -385,7 +386,7 @@ def test_a_stale_frame_fades_away_and_comes_back_and_statics_never_fade(chromium
 
     page.until(lambda: "camera" in page.drawn() and "turtle" not in page.drawn())
     assert (page.drawn()["camera"]["grey"], page.drawn()["camera"]["alpha"]) == (0, 1)
-    # Data with old stamps that keeps coming is fresh.
+    # Data with old stamps is fresh while it keeps arriving.
     stamps = count(150)
 
     def seen_while_it_comes():
@@ -418,7 +419,7 @@ def test_the_update_interval_slows_the_picture_but_not_the_person(chromium, stag
     page = Page(chromium, stage, "interval=60&chosen=turtle")
     page.until(lambda: page.x_of("turtle") == 1.0)
 
-    # What opens, fits and settles at the beginning is drawn at once, and data with it.
+    # The first layout is drawn at once, and data with it.
     shown, newest = 1.0, 1.0
 
     def keeps_what_it_shows():
@@ -446,7 +447,7 @@ def test_a_frame_leaves_a_trail_when_asked_to(chromium, stage):
 
     page.find("#with-trail").click()
     page.until(lambda: len(page.said("tftool.trails()")) == 1)
-    # 30 places a second, and where it is.
+    # 30 positions per second, and the present one
     page.until(lambda: page.said("tftool.trails()")[0] == 62)
     page.find("#trails").click()
     page.until(lambda: len(page.said("tftool.trails()")) == 2)
@@ -481,7 +482,7 @@ def test_the_screenshot_button_saves_a_picture(chromium, stage):
     stage.put(1.0)
     page = Page(chromium, stage)
     page.until(lambda: "turtle" in page.drawn())
-    # What the browser would put into its downloads.
+    # The file that the browser would save
     page.driver.execute_script(
         """
         URL.createObjectURL = blob => { window.picture = blob; return "#"; };
@@ -504,7 +505,7 @@ def test_the_screenshot_button_saves_a_picture(chromium, stage):
 
 @pytest.mark.parametrize("drawn_by", ["processor", "card"])
 def test_a_crowd_of_frames_is_painted_in_its_colours(chromium, stage, drawn_by, request):
-    # Where no graphics card draws, many frames are drawn in another way than few.
+    # Without a graphics card, many frames are drawn in another way than few.
     if drawn_by == "card":
         request.getfixturevalue("card")
     links = [("world", f"f{index}") for index in range(100)]
@@ -550,7 +551,7 @@ def test_the_pages_pictures_are_made_from_the_page_as_it_is(chromium, card, them
         page.until(lambda: page.text("#sentence") == "gripper in map")
         page.until(lambda: page.text("#chosen") == "gripper")
         page.until(lambda: chromium.execute_script("return tftool.remembered()") >= 240)
-        # What moves may be drawn coarsely.
+        # Moving frames may be drawn coarsely.
         stage.do(lambda world: world.driving.cancel())
         page.until(lambda: page.said("tftool.scale()") == 1)
         assert chromium.save_screenshot(str(picture))

@@ -1,4 +1,4 @@
-"""A robot in the page, in a real browser: its meshes and its sliders."""
+"""Browser tests of a robot in the page: meshes and sliders."""
 
 import math
 
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture
 def robot(tmp_path):
-    """A robot of two links whose meshes are of every kind, some of them missing."""
+    """Write a robot of two links with meshes of every kind, some of them missing."""
     from tests.screens.browser.test_robots import ROBOT
     from tftool.robots.mesh_folders import MeshFolders
     from tftool.robots.robot_model import Robot
@@ -34,7 +34,7 @@ def robot(tmp_path):
 
 
 def links_of(page):
-    """How many visuals, collisions and joint axes are drawn, by link."""
+    """Return how many visuals, collisions and joint axes are drawn, by link."""
     return page.said("tftool.robot()")["links"]
 
 
@@ -108,7 +108,7 @@ def test_a_slider_moves_its_joint(chromium, stage, robot):
     )
     page.until(lambda: stage.do(lambda world: robot.mover.positions["turn"]) == 0.75)
 
-    # Angles are degrees, which can be typed, and stay between the limits.
+    # Angles are in degrees, can be typed, and stay within the limits.
     typed = page.find(".slider [type=number]")
     assert float(typed.get_attribute("value")) == pytest.approx(math.degrees(0.75), abs=0.01)
     typed.send_keys(Keys.CONTROL, "a", Keys.NULL, "30", Keys.ENTER)

@@ -1,4 +1,4 @@
-"""The page, its address and its session, in a real browser."""
+"""Browser tests of the page, its address and its session."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""What the page is told, and what it may say."""
+"""Tests of the messages to the page and from it."""
 
 import itertools
 import json
@@ -132,7 +132,7 @@ def test_an_answer_has_the_fields_of_the_table_and_no_others():
 
 
 def follows(value, javascript):
-    """Whether a decoded JSON value has a type of the table; objects are only known as such."""
+    """Return whether a decoded JSON value has a type of the table, without looking inside."""
     plain = {"string": str, "number": (int, float), "boolean": bool}
     if javascript in plain:
         return isinstance(value, plain[javascript])
@@ -150,7 +150,7 @@ def follows(value, javascript):
 def test_a_jump_is_marked_where_there_is_a_robot_and_not_among_turtles(moving, marked):
     filled = Buffer(seconds(60))
     for tick in range(100):
-        # A metre a second along x, and half a metre aside from the fifth second on.
+        # A metre per second along x, and half a metre sideways from the fifth second on
         pose = Transform((tick / 10, 0.5 if tick >= 50 else 0.0, 0.0))
         stamp = EPOCH + seconds(tick / 10)
         filled.set_transform(TransformStamped(stamp, "map", moving, pose), "driver")

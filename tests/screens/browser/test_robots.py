@@ -1,4 +1,4 @@
-"""A robot in the page: what the server tells of it, and what a browser draws."""
+"""Tests of the server's messages about a robot."""
 
 import json
 
@@ -133,7 +133,7 @@ def test_a_page_moves_joints_within_their_limits(shown):
             client = Page(connection)
             for joint, position in (("turn", 0.5), ("nothing", 1.0), ("turn", 9.0)):
                 await client.say(type="move", joint=joint, position=position)
-                # The answer about a pair shows that what was said before it was heard.
+                # The answer about a pair shows that earlier messages were processed.
                 pair = f"a{len(places)}"
                 await client.say(type="pair", target=pair, source="b")
                 while client.told.get("pair", {}).get("target") != pair:

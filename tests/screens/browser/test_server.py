@@ -1,4 +1,4 @@
-"""The page's server, talked to as a browser would, and as nobody should."""
+"""Tests of the page's server, with requests of a browser and with forbidden ones."""
 
 import asyncio
 import errno
@@ -56,7 +56,7 @@ def open_page(page, **more):
 
 
 class Page:
-    """A page that draws at once: keeps the last of everything it was told."""
+    """Client that draws at once, and stores the last message of each kind."""
 
     def __init__(self, connection, *, draws=True):
         self.connection = connection
@@ -65,7 +65,7 @@ class Page:
         self.count = 0
 
     async def hear(self):
-        """Take in messages up to the next poses."""
+        """Receive messages up to the next poses."""
         while True:
             message = await self.connection.recv()
             if isinstance(message, str):
@@ -97,12 +97,12 @@ class Page:
 
 
 def where(page, path):
-    """A path of the page's server, with its secret."""
+    """Return the address of a path of the page's server, with its secret."""
     return page.address(path).removeprefix(page.origin)
 
 
 def fetch(port, path="/", **headers):
-    """Ask over plain HTTP from another thread, as a browser would."""
+    """Send an HTTP request from another thread, as a browser would."""
 
     def ask():
         connection = HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
@@ -186,7 +186,7 @@ def test_nothing_else_is_served():
 
 @pytest.mark.parametrize("host", ["evil.example", "evil.example:8765", "127.0.0.1", ""])
 def test_another_host_name_is_refused(host):
-    # A name that somebody else's server resolves to 127.0.0.1 must not reach us.
+    # A name that a foreign name server resolves to 127.0.0.1 must not reach the server.
     async def test(world, page):
         status, _, body = await fetch(page.port, "/", Host=host)
         assert status == 403
@@ -266,7 +266,7 @@ def test_another_site_gets_no_file(headers):
 
 
 def much(world):
-    """So many samples that a file of them takes seconds to write."""
+    """Insert so many samples that a file of them takes seconds to write."""
     count = 300_000
     stamps = world.clock.epoch + np.arange(count) * 1_000_000
     turns = np.tile([0.0, 0.0, 0.0, 1.0], (count, 1))
@@ -430,7 +430,7 @@ def test_what_the_buffer_remembers_is_told_on_request_for_trails():
             client = Page(connection)
             await client.hear()
             await client.say(type="past")
-            await client.say(type="past")  # the second is one too many, and ignored
+            await client.say(type="past")  # the second request is one too many, and ignored
             told = []
             while len(told) < 120:
                 await client.hear()
@@ -486,7 +486,7 @@ def test_a_pair_is_told_with_every_picture():
 
 
 async def closing(connection):
-    """Listen until the server hangs up; return its code and reason."""
+    """Listen until the server closes the connection; return its code and reason."""
     try:
         while True:
             await connection.recv()
@@ -510,7 +510,7 @@ def test_garbage_ends_the_connection_with_a_sentence_and_nobody_elses(garbage):
 
 
 async def close_code(reader):
-    """Read a server's frames, as they are on the wire, up to its word of farewell."""
+    """Read a server's websocket frames up to its closing frame."""
     while True:
         first, length = await reader.readexactly(2)
         if length == 126:
@@ -531,7 +531,7 @@ def test_a_hundred_megabytes_are_refused_unread():
             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode()
         )
         assert (await reader.readuntil(b"\r\n\r\n")).startswith(b"HTTP/1.1 101 ")
-        # The head of a text message of that length; not one byte of it has to come.
+        # The header of a text message of that length; no byte of the text needs to follow.
         writer.write(b"\x81\xff" + struct.pack("!Q", 100_000_000) + b"mask")
         assert await close_code(reader) == 1009
         writer.close()
@@ -556,7 +556,7 @@ def test_a_slow_page_misses_pictures_and_nothing_is_queued_for_it():
             assert known.sent == 2
             await client.say(type="got", sequence=2)
             await client.hear()
-            # What it missed is gone: the first picture it gets is the newest.
+            # Dropped pictures are not sent: the first picture that it gets is the newest.
             assert client.poses["turtle"][0] == 2.0
             assert client.sequence == 3
 
@@ -574,7 +574,7 @@ def test_a_page_cannot_claim_to_have_drawn_what_it_never_got():
             (known,) = page.clients
             while known.skipped < 5:
                 await world.clock.sleep(seconds(0.002))
-            # At most two that had left before its word came, and two more.
+            # At most two pictures were sent before its message arrived, and two more.
             assert known.sent <= 4
 
     serve(test)
@@ -643,7 +643,7 @@ def test_of_thousands_of_frames_those_nearest_to_their_root_are_shown():
             names = client.told["frames"]["names"]
             assert client.told["frames"]["total"] == 5000
             assert len(client.poses) == 2000
-            # Two children each: the first 2000 by number are those nearest to the root.
+            # Each frame has two children, so the first 2000 by number are nearest to the root.
             assert {int(name[1:]) for name in names} >= set(range(1023))
             for name, parent in zip(names, client.told["frames"]["parents"], strict=True):
                 if name != "f0":

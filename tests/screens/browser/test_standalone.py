@@ -1,4 +1,4 @@
-"""The page as one file: what it answers are the server's answers, and nothing in it can act."""
+"""Tests of the page as one file: its answers are the server's, and its data contains no code."""
 
 import json
 import math
@@ -31,14 +31,14 @@ needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
 
 def turned(random):
-    """A unit quaternion of any direction."""
+    """Return a random unit quaternion."""
     numbers = [random.gauss(0, 1) for _ in range(4)]
     length = math.hypot(*numbers)
     return tuple(number / length for number in numbers)
 
 
 def drawn_world(seed):
-    """A world with statics, several rates, gaps, a second tree, and a link that changes parents."""
+    """Return a world with static edges, several rates, gaps, two trees, and a change of parents."""
     drawn = random.Random(seed)
     buffer = Buffer(NO_LIMIT)
     buffer.set_transform_static(
@@ -66,7 +66,7 @@ def drawn_world(seed):
 
 
 def asked_of(path, moments, pairs):
-    """What the page in a file answers, by node."""
+    """Return the answers of the page in a file, run by node."""
     asked = path.with_suffix(".json")
     asked.write_text(json.dumps([{"at": at, "pairs": pairs} for at in moments]))
     done = subprocess.run(
@@ -183,7 +183,7 @@ def test_no_name_gets_out_of_the_packed_data(tmp_path):
 
     text = page.content.decode("ascii", errors="strict" if page.content.isascii() else "replace")
     assert "alert(" not in text
-    # The data and the script that unpacks them; the page's own script is among the data.
+    # The data, and the script that unpacks it; the page's own script is part of the data.
     assert len(re.findall("<script", text)) == len(re.findall("</script", text)) == 2
     assert not re.search(r"(?:src|href|url\(|@import)[^>]{0,20}?//(?!www\.w3\.org)", text)
 

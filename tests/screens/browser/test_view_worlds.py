@@ -1,4 +1,4 @@
-"""`tftool view` in a real browser: turtles left alone and driven, recordings, descriptions."""
+"""Browser tests of `tftool view`: turtles left alone and driven, recordings, descriptions."""
 
 import contextlib
 import math
@@ -57,7 +57,7 @@ JOINTS = f"""\
 </robot>
 """
 
-# How far red reaches from the world's origin, in each of so many directions.
+# The distance from the world's origin to the farthest red pixel, in several directions
 REACH = """
     const sheet = tftool.picture(), directions = 360;
     const { width, height } = sheet, ratio = width / document.getElementById("over").clientWidth;
@@ -77,20 +77,20 @@ REACH = """
 
 
 class Address:
-    """A page that another process serves."""
+    """Page that another process serves."""
 
     def __init__(self, url):
         self.url = url
 
 
 def bottom(element):
-    """Where an element ends, in pixels from the top of the window."""
+    """Return where an element ends, in pixels from the top of the window."""
     return element.rect["y"] + element.rect["height"]
 
 
 @contextlib.contextmanager
 def view(tmp_path, *words):
-    """Run `tftool view` in a session of its own; give what a page is opened with."""
+    """Run `tftool view` in a separate session; return the page's address."""
     sessions = tmp_path / "sessions"
     sessions.mkdir(mode=0o700, exist_ok=True)
     process = subprocess.Popen(
@@ -118,7 +118,7 @@ def test_a_turtle_left_alone_draws_and_arrow_keys_drive_it(chromium, tmp_path):
 
         body = page.find("body")
         body.send_keys(Keys.ARROW_UP)
-        # A key ends the drawing: the turtle comes to rest, at the latest a second afterwards.
+        # A key ends the drawing: the turtle stops within a second.
         poses = [page.drawn()["turtle1"]["pose"]]
 
         def rests():
@@ -127,7 +127,7 @@ def test_a_turtle_left_alone_draws_and_arrow_keys_drive_it(chromium, tmp_path):
             return poses[-1] == poses[-2]
 
         page.until(rests)
-        # Its heading says where a press of the up key takes it: forwards.
+        # The up key moves the turtle along its heading.
         body.send_keys(Keys.ARROW_LEFT)
         page.until(lambda: page.drawn()["turtle1"]["pose"][3:] != poses[-1][3:])
         assert page.complaints() == []
@@ -149,12 +149,12 @@ def test_axes_are_seen_through_solids_which_are_on_the_ground_and_are_measured(c
     with view(tmp_path, file) as address:
         looks = "names=0&arrows=0&grid=0&scale=2&theme=dark&view=orbit&camera=-6,-6,5,0,0,0,1"
         page = Page(chromium, address, looks)
-        # The red x axis of 0.4 m, in the middle of a cube of 2 m.
+        # The red x axis of 0.4 m, in the middle of a cube of 2 m
         page.until(lambda: page.driver.execute_script(seen) > 10)
         page.find("#through").click()
         page.until(lambda: page.driver.execute_script(seen) == 0)
 
-        # The cube's lower side; and two points of it, the one right above the other on its edge.
+        # The cube's lower side; and two points of the cube's edge, one directly above the other
         assert page.said("tftool.ground().level") == -1
         page.find("#measure").click()
         for place in ((-1, -1, 0.5), (-1, -1, -0.5)):
@@ -191,7 +191,7 @@ def test_a_recording_is_called_recorded_and_opens_at_its_start_with_its_whole_pa
 
 def test_a_trail_shows_no_other_moments_after_settings_jumps_and_drags(chromium, tmp_path):
     run = tmp_path / "run.tum"
-    # A metre a second along x: a place says of what moment it is.
+    # A metre per second along x, so that a position shows its time
     run.write_text("".join(f"{100 + step} {step} 0 0 0 0 0 1\n" for step in range(301)))
     places = "Math.min(...tftool.trailOf(arguments[0]).map(([x]) => x)) - tftool.moment()"
     with view(tmp_path, run) as address:
@@ -216,7 +216,7 @@ def test_a_trail_shows_no_other_moments_after_settings_jumps_and_drags(chromium,
             page.until(lambda moment=moment: page.said("tftool.moment()") == moment)
             lengthen(length)
             drag()
-            # At any moment while it loads it is too short, and never too long.
+            # While the recording loads, the trail may be too short, but never too long.
             while oldest() > 0.5 - length:
                 assert oldest() >= -length
             assert oldest() >= -length
@@ -273,13 +273,14 @@ def test_of_a_deep_name_both_ends_are_seen(chromium):
         assert tail.text == "ptical_frame"
         assert tail.rect["width"] >= page.said("12 * 5")
         assert head.rect["width"] > 10
-        # What is told of every frame ends in one column.
+        # The texts at the end of all rows are aligned.
         ends = {
             round(one.rect["x"] + one.rect["width"])
             for one in page.driver.find_elements(By.CSS_SELECTOR, "#tree .told")
         }
         assert len(ends) == 1
-        # "static" is no warning: the browser writes both colours in one notation.
+        # "static" is not in the colour of a warning; the browser writes both colours in one
+        # notation.
         colours = page.driver.execute_script(
             """
             const warning = document.body.appendChild(document.createElement("i"));
@@ -312,7 +313,7 @@ def test_a_low_window_shows_the_picture_alone_until_panels_are_asked_for(chromiu
         page.find("#panels").click()
         page.until(lambda: all(panel.is_displayed() for panel in panels))
 
-        # Neither does the list reach below the timeline.
+        # The list does not reach below the timeline either.
         page.until(lambda: bottom(page.find("#left")) <= page.find("#time").rect["y"])
 
         page.find("#left .collapse").click()
@@ -345,7 +346,7 @@ def test_the_joint_panel_has_full_names_limits_and_buttons_for_all_joints(chromi
         }
         buttons["Centre"].click()
         assert typed() == pytest.approx([14.32, 0.25], abs=0.01)
-        # Zero is outside the lift's limits.
+        # Zero is outside of the lift's limits.
         buttons["Zero"].click()
         assert typed() == pytest.approx([0, 0.1])
         found = set()
@@ -367,8 +368,8 @@ def test_what_is_round_is_drawn_round_and_has_a_shadow_on_the_ground(chromium, t
         page.until(lambda: min(page.driver.execute_script(REACH)) > 90)
         reach = page.driver.execute_script(REACH)
         widths = [one + other for one, other in zip(reach[:180], reach[180:], strict=True)]
-        # A polygon of 32 sides is less wide by a half per cent across its sides, and by two per
-        # cent with 16; pixels are whole.
+        # The width of a polygon of 32 sides varies by a half per cent, with 16 sides by two per
+        # cent; pixels are whole numbers.
         assert min(widths) > max(widths) * math.cos(math.pi / 32) - 2.5
 
         beside = """
@@ -398,7 +399,7 @@ def test_a_mesh_of_many_facets_is_shaded_smoothly(chromium, tmp_path):
     """
     with view(tmp_path, file, "--meshes", tmp_path) as address:
         page = Page(chromium, address, "names=0&axes=0&grid=0&theme=light&view=side")
-        # A column of 12 flat facets would have 12 shades.
+        # A column with 12 flat sides would have 12 shades.
         page.until(lambda: page.driver.execute_script(shades) > 20)
 
 
@@ -427,14 +428,14 @@ def test_a_mesh_is_measured_the_same_in_another_fixed_frame(chromium, tmp_path):
             assert " in base " in told
             return float(re.search(r"([\d.]+) m \(", told)[1])
 
-        # Two points of the ball, above (0.6, 0.6) and (-0.6, 0.6): as high as each other.
+        # Two points of the ball, above (0.6, 0.6) and (-0.6, 0.6), at equal heights
         assert measured((0.6, 0.6), (-0.6, 0.6)) == pytest.approx(1.2, abs=0.05)
         page.pick("fixed", "inner")
         page.until(lambda: max(map(abs, page.drawn()["inner"]["pose"][:3])) < 1e-9)
-        # The whole ball is in the picture again, and the grid at its lowest point.
+        # The whole ball is in the picture again, and the grid is at its lowest point.
         page.until(lambda: page.said("tftool.ground().level") == pytest.approx(-1, abs=0.01))
         page.until(lambda: page.said("tftool.pixelOf(0, 4, 0)")[1] > bottom(page.find("#bar")))
-        # The same, where x is what was y: by a quarter turn back, and 3 m to the side.
+        # The same, but x is the former y: turned back by a quarter, and 3 m to the side.
         page.find("#measure").click()
         page.find("#measure").click()
         turned = [(y, 3 - x) for x, y in ((0.6, 0.6), (-0.6, 0.6))]

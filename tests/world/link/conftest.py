@@ -1,4 +1,4 @@
-"""Sessions of their own for every test: nobody else's process is met."""
+"""Separate sessions for every test, without other processes."""
 
 import tempfile
 from pathlib import Path
@@ -13,14 +13,14 @@ from tftool.world.world import World
 
 @pytest.fixture(autouse=True)
 def session_dir(monkeypatch):
-    # Not tmp_path: a unix socket's name has about a hundred letters.
+    # The folder is not tmp_path, because the path of a unix socket is limited to about 100 letters.
     with tempfile.TemporaryDirectory(prefix="tf") as folder:
         monkeypatch.setenv("TFTOOL_SESSION_DIR", folder)
         yield Path(folder)
 
 
 async def until(condition, *, within=PATIENCE):
-    """Wait, on the wall clock, for what other threads and processes bring about."""
+    """Wait, on the wall clock, for an effect of other threads and processes."""
     clock = WallClock()
     end = clock.now() + seconds(within)
     while not condition():

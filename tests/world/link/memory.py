@@ -1,4 +1,4 @@
-"""A second middleware behind the link's seam: processes that share a list in memory."""
+"""Second middleware behind the interface of `seam.py`: a list in memory connects worlds."""
 
 import itertools
 from collections import deque
@@ -11,7 +11,7 @@ from tftool.world.link.seam import Arrived, Middleware
 
 
 class MemoryMiddleware(Middleware):
-    """One of several that hear each other at once; see `seam.Middleware`."""
+    """One of several middlewares that exchange messages at once; see `seam.Middleware`."""
 
     members: "list[MemoryMiddleware]" = []  # noqa: RUF012
     numbers = itertools.count(1)
@@ -163,7 +163,7 @@ class Client:
 
 
 class MemoryReach(Reach):
-    """Reaches the links of this process."""
+    """Reach of the middlewares in this process."""
 
     def join(self, options):
         return MemoryMiddleware(options)

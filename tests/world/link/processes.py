@@ -1,4 +1,4 @@
-"""Commands as processes of their own, and what they say."""
+"""Commands as separate processes, and their output."""
 
 import contextlib
 import io
@@ -17,12 +17,12 @@ ROOT = Path(__file__).parents[3]
 
 
 class Process:
-    """`tftool WORDS` in a process of its own; its stdout and stderr are collected."""
+    """`tftool WORDS` in a separate process; its stdout and stderr are collected."""
 
     def __init__(self, *words, prefix=(), cwd=ROOT):
         self.lines = []
         self._heard = threading.Condition()
-        self._silent = False  # it has closed its output
+        self._silent = False  # whether it has closed its output
         self.started = subprocess.Popen(
             [*prefix, sys.executable, "-u", "-m", "tftool", *map(str, words)],
             stdin=subprocess.DEVNULL,
@@ -53,7 +53,7 @@ class Process:
         return "\n".join(self.lines)
 
     def says(self, words, *, after=0):
-        """Wait until a line with `words` comes; give the number of lines up to it."""
+        """Wait until a line contains `words`; return the number of lines up to this one."""
 
         def found():
             lines = enumerate(self.lines[after:], after + 1)
@@ -62,7 +62,7 @@ class Process:
         return self.until(found, repr(words))
 
     def until(self, condition, what):
-        """Look at every line that comes until `condition()` holds; return what it gave."""
+        """Check after every line whether `condition()` is true; return its value."""
         with self._heard:
             self._heard.wait_for(lambda: condition() or self._silent, PATIENCE)
             met = condition()
@@ -113,7 +113,7 @@ def run(*words, cwd=ROOT):
 
 @dataclass(frozen=True)
 class Done:
-    """A command that has ended."""
+    """Result of a command that has ended."""
 
     returncode: int
     stdout: str
@@ -121,7 +121,7 @@ class Done:
 
 
 def run_here(*words):
-    """Run `tftool WORDS` to its end in this process, among those of others."""
+    """Run `tftool WORDS` to its end in this process, beside commands in other processes."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         status = main([str(word) for word in words])

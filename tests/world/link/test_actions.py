@@ -1,4 +1,4 @@
-"""What an action of ours makes of goals that come from elsewhere."""
+"""Tests of an action server with goals from other processes."""
 
 import asyncio
 
@@ -30,7 +30,7 @@ def goal_id(number):
 
 
 class Stranger:
-    """Talks to the server of an action in what came in; goals are ended by hand."""
+    """Client that exchanges raw requests with an action server; the test ends goals itself."""
 
     def __init__(self, link, world, *, decides=False):
         self.goals = []

@@ -1,4 +1,4 @@
-"""`/clock` of another process is now, while it is published."""
+"""Tests of clocks that follow `/clock` of another process while it is published."""
 
 import contextlib
 
@@ -31,7 +31,7 @@ def reading(moment):
 
 @contextlib.contextmanager
 def joined():
-    """The link, the world of a host, and that of a guest whose clock follows."""
+    """Yield the connection, the world of a host, and the world of a guest whose clock follows."""
     host, guest = World(WallClock()), World(FollowedClock())
     links = [Link(Options(name, reach=MemoryReach())) for name in ("play", "echo")]
     links[0].attach(host, role=Role.HOST)

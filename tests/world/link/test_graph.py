@@ -1,4 +1,4 @@
-"""Who is there, from what is shown alone."""
+"""Tests of the graph of nodes, topics and services, from announcements only."""
 
 from tftool.world.link import graph
 from tftool.world.link.graph import Graph, GraphEntity, Process, Role
@@ -60,7 +60,7 @@ def test_so_many_other_domains_are_remembered_and_no_more(monkeypatch):
 
 
 class Nothing:
-    """A middleware that carries nothing."""
+    """Middleware that transports nothing."""
 
     def __init__(self, graph, unanswering=()):
         self.graph = graph

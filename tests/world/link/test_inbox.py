@@ -1,4 +1,4 @@
-"""What comes in on other threads is taken in on the loop, within bounds."""
+"""Tests of messages that other threads receive and the event loop processes, up to a limit."""
 
 import asyncio
 import threading
@@ -10,7 +10,7 @@ from tftool.world.link.queues import Inbox
 
 
 def taken_in(fill, expected):
-    """Fill an inbox before and while it is read; give what came out."""
+    """Put messages into an inbox before and while it is read; return the results."""
     box, taken = Inbox(), []
 
     async def take():

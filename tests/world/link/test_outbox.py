@@ -1,4 +1,4 @@
-"""What goes out waits for no reader, and goes out in its order."""
+"""Tests of outgoing messages: they wait for no receiver, and stay in order."""
 
 import threading
 
@@ -19,7 +19,7 @@ def out():
 
 
 class Stuck:
-    """A send that takes until it is let go, as to a reader that takes nothing."""
+    """Send function that blocks until it is released, as for a receiver that reads nothing."""
 
     def __init__(self):
         self.begun, self.let_go = threading.Event(), threading.Event()
@@ -44,7 +44,7 @@ def test_while_a_reader_takes_nothing_the_loop_goes_on_and_nothing_is_lost(out):
     assert stuck.begun.wait(PATIENCE)
     for number in range(1000):
         out.put(lambda number=number: sent.append(number))
-    # All of them were taken while the sender stood still.
+    # The outbox accepted all messages while the sender was blocked.
     assert sent == []
     stuck.let_go.set()
     out.close()

@@ -1,4 +1,4 @@
-"""Several commands, each a process of its own, on one machine."""
+"""Tests of several commands in separate processes on one machine."""
 
 import contextlib
 import itertools
@@ -85,7 +85,7 @@ def test_session_lists_processes_nodes_topics_rates_and_services():
         assert (process["command"], process["pid"], process["role"]) == ("echo", first.pid, "host")
         assert {"turtlesim", "broadcaster1", "follower"} <= set(process["nodes"])
         assert found["topics"]["tf"]["publishers"] == ["broadcaster1", "broadcaster2"]
-        # How fast a starved host publishes is not ours to say.
+        # The publish rate of a slow host is not checked here.
         assert found["topics"]["turtle1/pose"]["rate"] > 0
         assert found["services"]["spawn"]["type"] == "turtlesim/srv/Spawn"
         listing = run_here("session")
@@ -100,7 +100,7 @@ def test_session_lists_processes_nodes_topics_rates_and_services():
         listed = text.split("Services")[1]
         assert re.search(r"^  turtle1/set_pen +turtlesim/srv/SetPen$", listed, re.MULTILINE)
         assert not any(f"  {name}  " in listed for name in [*parameters, *actions])
-        # Between the heading and the line that counts stands what is listed.
+        # The list is between the heading and the line with the count.
         folded = len(services) - (len(listed.splitlines()) - 2)
         assert listed.endswith(f"and {folded} of parameters and actions (--verbose lists them)\n")
         everything = run_here("session", "--verbose").stdout
@@ -147,7 +147,7 @@ def test_who_stays_says_that_the_host_has_left_and_goes_on_with_the_next(leave):
             leave(first)
             left = guest.says(f"'tftool echo' (process {first.pid}), which hosted, has left")
             guest.says("Waiting for turtle1 in turtle2: nothing new has come since", after=left)
-            # Nobody is left but one who waits: whoever comes next hosts, as if nobody were.
+            # Only a waiting guest is left, so the next command hosts the session.
             with host() as second:
                 second.says("No session is running here: hosting scenario 'turtles'.")
                 begun = guest.says(f"'tftool echo' (process {second.pid}) hosts now.")
@@ -160,7 +160,7 @@ def test_a_named_world_is_shared_with_those_who_have_none():
         with Process("echo", "map", "odom") as waiting:
             waiting.says("Frames there are so far: B, A.")
             with Process("echo", "map", "B", "robot") as named:
-                # In one session, and in trees that nothing joins.
+                # The frames are in one session, but in unconnected trees.
                 named.says("not part of the same tree")
                 waiting.says("- Translation: [0.000, 0.000, 0.000]")
 
@@ -250,7 +250,7 @@ def test_a_stopped_process_keeps_nobody_from_joining():
     import signal
 
     with host() as first:
-        # Who comes first hosts: the world has to be there before anybody else starts.
+        # The first command hosts the session, so its world must exist before the others start.
         first.says('"translation"')
         with Process("static", "--frame-id", "A", "--child-frame-id", "B") as static:
             static.says("Spinning")
@@ -328,7 +328,8 @@ def test_who_is_killed_is_missed_at_once():
             guest.attach(world, role=Role.GUEST)
             await until(lambda: world.buffer.frame_exists("turtle1"))
             first.started.kill()
-            # zenoh's own patience with somebody silent is ten seconds: not that is meant.
+            # zenoh itself detects a silent peer after ten seconds; this test is about the other
+            # message.
             told = "which hosted, has left"
             await until(lambda: any(told in one.text for one in world.log.records))
 
@@ -345,7 +346,7 @@ async def statics_reach_a_newcomer():
 
 
 def fresh_answer(guest, after):
-    """Wait for an answer that differs from all that were printed before."""
+    """Wait for an answer that differs from all answers printed before."""
     before = {line for line in guest.lines[:after] if "At time" in line}
     guest.until(
         lambda: any("At time" in line and line not in before for line in guest.lines),
@@ -367,7 +368,7 @@ def test_whoever_is_killed_the_others_go_on_and_a_newcomer_finds_them(session_di
             assert all(live[name].started.poll() is None for name in ROLES if name != role)
             live[role] = stack.enter_context(ROLES[role]())
             live[role].says(READY[role])
-            # What the host sends now reaches the guest, whichever of them is new.
+            # The host's messages reach the guest, whichever of the two is new.
             fresh_answer(live["guest"], len(live["guest"].lines))
             clocks.run(WallClock(), statics_reach_a_newcomer())
         for process in live.values():
@@ -377,7 +378,7 @@ def test_whoever_is_killed_the_others_go_on_and_a_newcomer_finds_them(session_di
 
 
 def inet_sockets(pid):
-    """Local addresses of a process's internet sockets, as the kernel lists them."""
+    """Return the local addresses of a process's internet sockets, from the kernel's list."""
     inodes = set()
     for descriptor in Path(f"/proc/{pid}/fd").iterdir():
         with contextlib.suppress(OSError):
@@ -459,6 +460,6 @@ def test_no_packet_leaves_by_another_interface(tmp_path):
     assert done.returncode == 0, done.stdout + done.stderr
     assert "Joined the session" in done.stderr
     counters = done.stdout.splitlines()[-1].split()
-    # Name, eight counters of what came in, then bytes and packets that went out.
+    # The name, eight counters of received data, then bytes and packets that were sent
     assert counters[0] == "away:"
     assert counters[9:11] == ["0", "0"]

@@ -1,4 +1,4 @@
-"""The link over another middleware than zenoh: a class and one line are enough."""
+"""Tests of sessions over another middleware than zenoh, which is one class and one line."""
 
 import re
 from pathlib import Path
@@ -28,7 +28,7 @@ FIBONACCI = INTERFACES.find("example_interfaces", "action", "Fibonacci")
 
 
 class Pair:
-    """Two worlds, linked by what is in memory."""
+    """Two worlds that the memory middleware connects."""
 
     def __enter__(self):
         self.one, self.other = new_world(), new_world()
@@ -43,7 +43,7 @@ class Pair:
 
 
 async def turns_of_the_loop(count=10):
-    """Let what is due on the loop be done, and what that leads to."""
+    """Run the loop's pending callbacks, and their follow-up callbacks."""
     left = iter(range(count))
     await until(lambda: next(left) == count - 1)
 
@@ -78,7 +78,7 @@ def test_a_message_that_comes_with_the_word_of_its_publisher_names_it():
 
             await turns_of_the_loop()
 
-            # Both are taken in one after the other, before the world is brought in line.
+            # Both messages are received one after the other, before the world is updated.
             outlet = pair.links[0].middleware.publisher("talker", "chatter", TYPE, Quality(3))
             outlet.put(codec(STRING).encode(STRING(data="first")), 1)
             await until(lambda: senders)
@@ -107,7 +107,8 @@ def test_a_message_that_overtakes_its_publishers_announcement_is_from_elsewhere(
             (sender,) = senders
             assert sender.node == f"publisher_{outlet.entity.gid[:4].hex()}"
             assert (sender.topic, sender.interface, sender.is_remote) == ("chatter", TYPE, True)
-            # It is heard by all, since what it offers is not known to be too little.
+            # All subscriptions receive the message, because the publisher's quality is unknown and
+            # may fit.
             for asked in (Quality(), Quality(is_latched=True), Quality(is_reliable=False)):
                 assert conflict(sender.quality, asked) == ""
 
@@ -150,7 +151,7 @@ def test_who_comes_and_goes_is_seen_whatever_carries_it():
 def test_the_table_alone_names_dds_outside_its_folder():
     package = Path(tftool.__file__).parent
     named = re.compile(r"\bdds\b|dds_", re.IGNORECASE)
-    # zenoh's keys write the names of types as DDS does.
+    # zenoh's keys write names of types as DDS does.
     apart = ("link/dds", "link/zenoh/keys.py")
     found = {
         path.relative_to(package).as_posix()

@@ -1,4 +1,4 @@
-"""Two worlds, two zenoh sessions, real sockets: what one says the other hears."""
+"""Tests of two worlds with two zenoh sessions and real sockets."""
 
 import asyncio
 
@@ -48,7 +48,7 @@ def test_a_session_with_more_tokens_than_a_queue_of_zenoh_holds_can_be_joined():
             for number in range(150):
                 here.topic(f"turtle{number}/pose", Pose).subscribe(lambda pose: None)
                 here.topic(f"turtle{number}/pose", Pose).publish(build(Pose, 1.0, 2.0, 0.0))
-            # Somebody in between knows them all, so whoever comes is told all at once.
+            # A process in between knows all others, so a newcomer gets all announcements at once.
             with Link(Options("echo")) as second:
                 second.attach(new_world(), role=Role.GUEST)
                 await until(lambda: len(second.graph.entities("publisher", "subscription")) >= 300)
@@ -158,7 +158,7 @@ def test_a_guest_sees_the_hosts_background_and_the_strokes_of_its_pens():
             await until(lambda: far.background == Color(150, 0, 10))
             (stroke,) = far.trail.segments
             assert stroke[2:] == (1.0, 1.0, Color(255, 0, 0), 9)
-            # As little to be seen in lists as ROS 2's own hidden services.
+            # Lists hide these services, like ROS 2's own hidden services.
             assert {one.node for one in two.guest.graph.entities("node")} == {"turtlesim"}
             living.cancel()
             looking.cancel()
@@ -192,7 +192,8 @@ def test_who_only_looks_shows_nothing_and_sends_nothing():
             two.there.topic("turtle1/cmd_vel", Twist).publish(twist(1.0))
             steps = iter(range(2, 10_000))
 
-            # Sent until heard: who shows nothing cannot be seen to listen.
+            # The message is sent until it is heard, because a subscription without announcement is
+            # invisible.
             def sent_and_heard():
                 two.here.broadcast([sample(next(steps))], "broadcaster1")
                 return two.guest.received

@@ -1,4 +1,4 @@
-"""Services and actions between two worlds, each with a zenoh session."""
+"""Tests of services and actions between two worlds, each with a zenoh session."""
 
 import asyncio
 import gc
@@ -45,7 +45,7 @@ def test_changes_made_by_a_watcher_while_the_link_looks_are_carried_too():
         async with Two() as two:
 
             def changed():
-                # A service of another process has just been entered: by the link itself.
+                # The connection itself has just added the service of another process.
                 if two.there.has_service("clear") and not two.there.has_service("spawn"):
                     two.there.serve(
                         "spawn", lambda request: build(Spawn.Response, "turtle2"), Spawn
@@ -102,7 +102,7 @@ def test_a_question_whose_server_leaves_ends():
 
 
 class Rotation:
-    """A rotate action that moves by hand."""
+    """Rotate action that the test moves itself."""
 
     def __init__(self, world):
         self.goals = []
@@ -217,15 +217,15 @@ def test_a_question_that_is_cancelled_is_taken_back():
             assert waiting() == 1
             held.cancel()
             del held
-            # zenoh lets go of what it would call with the answer.
+            # zenoh releases the function that it would call with the response.
             await until(lambda: waiting() == 0)
             arrived[0].answer(b"\0\1\0\0\0", 1)
             stop()
 
     def waiting():
-        """Questions whose answer zenoh would still take to us."""
+        """Return the pending requests for which zenoh would still deliver a response."""
         gc.collect()
-        # Functions alone: other objects of the process may refuse to be asked for a name.
+        # Only functions are searched: other objects of the process may refuse access to a name.
         names = [one.__qualname__ for one in gc.get_objects() if type(one) is FunctionType]
         return names.count("Wire.ask.<locals>.replied")
 

@@ -1,4 +1,4 @@
-"""Transforms between two worlds, each with a zenoh session."""
+"""Tests of transforms between two worlds, each with a zenoh session."""
 
 import math
 import re
@@ -57,7 +57,7 @@ def test_what_came_in_is_not_sent_out_again():
                 two.there.broadcast([sample(step)], "guest")
                 two.there.topic("turtle1/cmd_vel", Twist).publish(twist(float(step)))
             await until(lambda: len(echoes) >= 5 and len(commands) >= 5)
-            # Anything that came back would have come before the answer to this.
+            # A transform that came back would have arrived before the response to this call.
             two.here.serve("clear", lambda request: None, Empty)
             await until(lambda: two.there.has_service("clear"))
             await two.there.call("clear", Empty.Request())
@@ -117,7 +117,7 @@ def test_a_node_that_leaves_is_no_publisher_of_tf_any_more_but_its_statics_stay(
 
                 assert there.buffer.snapshot(1).frame("carrot").authority == node.name
 
-            # Under the same name the next one may come.
+            # The next node may have the same name.
             Node(two.here, node.name)
             two.here.broadcast([sample(2, node.name)], node.name)
             await until(lambda: publishers("tf") == {node.name, "no_node"})
@@ -160,7 +160,7 @@ def test_a_long_path_in_one_message_is_taken_in_as_if_one_by_one():
             two.there.buffer.listen(lambda one, static, who: told.append((one, static, who)))
             now = two.here.clock.now()
             sent = [*path(now), *path(now, "turtle2")]
-            # One row that nobody can take, and one of an hour ago.
+            # One sample that no buffer accepts, and one from an hour ago
             sent[10] = TransformStamped(
                 now + 10, "world", "turtle1", Transform((math.nan, 0.0, 0.0))
             )
@@ -181,7 +181,7 @@ def test_a_long_path_in_one_message_is_taken_in_as_if_one_by_one():
             assert len(said) == 2
             assert said[0].startswith("TF_NAN_INPUT")
             assert said[1].startswith("TF_OLD_DATA")
-            # Nobody listened to the topic, so nothing was made of them there.
+            # No node subscribed to the topic, so its messages were not decoded there.
             assert two.there.tf.count == 0
 
     play(send())

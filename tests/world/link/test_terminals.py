@@ -1,4 +1,4 @@
-"""The tutorial as it is played: the demo here, teleop there, echo in a third terminal."""
+"""Tests of the tutorial's terminals: the demo, teleop, and echo in a third terminal."""
 
 import itertools
 import re
@@ -30,7 +30,7 @@ def terminal(tmp_path):
 
 
 def distance(screen):
-    """How far turtle1 is from turtle2 in the last answer on an echo's screen."""
+    """Return the distance from turtle1 to turtle2 in the last answer on an echo's screen."""
     found = re.findall(r"Distance: ([\d.]+)", screen)
     return float(found[-1]) if found else None
 
@@ -41,19 +41,20 @@ def test_three_terminals_play_the_tutorial(terminal):
 
     echo = terminal("echo", "turtle2", "turtle1", "--distance", "--rate", "5")
     echo.has_shown("Joined the session of 'tftool demo'")
-    # turtle2 has caught up: the leader stands still.
+    # turtle2 has caught up, because the leader does not move.
     echo.until(lambda screen: (distance(screen) or 9) < 0.3, "turtle2 beside turtle1")
 
     teleop = terminal("teleop")
     teleop.shows("q quit")
-    # Round and round until it is seen: turtle2 would have caught up between two looks.
+    # turtle1 drives in circles until the test sees the distance: turtle2 could catch up between two
+    # looks.
     keys = itertools.cycle(["Up", "Up", "Left"])
     echo.until(
         lambda screen: teleop.press(next(keys)) or (distance(screen) or 0) > 0.5,
         "turtle1 driven away",
     )
-    # A letter turns it over the action; the demo's own log says so, which L opens: its last line
-    # alone may be another by then.
+    # A letter turns the turtle with the action. The demo's log, which L opens, shows this; the
+    # log's last line alone may be another one by then.
     demo.press("L")
     teleop.press("r")
     demo.until(lambda screen: "Rotation goal completed" in screen, "a turn")
@@ -80,7 +81,7 @@ def test_the_order_does_not_matter(terminal):
     echo = terminal("echo", "world", "turtle1", "--precision", "1", "--rate", "5")
     echo.shows("- Translation: [5.5, 5.5, 0.0]")
     teleop.press("Up")
-    # Two metres, or somewhat less where a busy machine leaves out ticks.
+    # Two metres, or less if a busy machine omits ticks
     echo.until(
         lambda screen: (re.findall(r"- Translation: \[([\d.]+), 5.5", screen) or ["0"])[-1] > "6.0",
         "turtle1 driven by the other terminal's keys",

@@ -1,4 +1,4 @@
-"""Users' nodes, each started by a `tftool run` of its own, as in terminals of their own."""
+"""Tests of users' nodes, each started by a separate `tftool run`, as in several terminals."""
 
 import sys
 from pathlib import Path

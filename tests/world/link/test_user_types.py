@@ -1,4 +1,4 @@
-"""Messages and services of any type between two worlds, as users' nodes exchange them."""
+"""Tests of messages and services of any type between two worlds, as users' nodes exchange them."""
 
 import asyncio
 from collections import deque
@@ -127,7 +127,7 @@ def test_nothing_is_turned_into_bytes_while_nobody_else_listens(monkeypatch):
             subscription(two.here, heard)
             await until(lambda: two.guest.graph.entities("publisher", name="chatter"))
 
-            # A lone surrogate has no bytes: writing it would be refused, and counted.
+            # A lone surrogate cannot be encoded: the message is refused, and counted.
             publish(STRING(data="\ud800"))
             assert len(heard) == 1
             assert two.host.refused == 0

@@ -1,4 +1,4 @@
-"""What tests of nodes need again and again: a world lived through, with hands in it."""
+"""Functions and nodes for tests of nodes in a world on simulated time."""
 
 from collections.abc import Callable
 from typing import Any, ClassVar
@@ -15,13 +15,13 @@ def new_world() -> World:
 
 
 def play(world: World, until: float) -> World:
-    """Live through `until` seconds from the clock's epoch."""
+    """Run a world until `until` seconds after the clock's epoch."""
     run(world.clock, live(world, until=world.clock.epoch + seconds(until)))
     return world
 
 
 class At(Node):
-    """Do things at given seconds from the epoch; what they return is awaited where it can be."""
+    """Node that calls functions at given seconds after the epoch, and awaits awaitable results."""
 
     def __init__(
         self, world: World, *steps: tuple[float, Callable[[], Any]], name: str = "hands"
@@ -40,13 +40,13 @@ class At(Node):
 
 
 class Before(At):
-    """The same, before anything else happens in that instant; join first."""
+    """The same node, before all other nodes in each instant; it must be created first."""
 
     phase: ClassVar[Phase] = Phase.SIMULATE
 
 
 class After(At):
-    """The same, after everything else happened in that instant."""
+    """The same node, after all other nodes in each instant."""
 
     phase: ClassVar[Phase] = Phase.WATCH
 

@@ -1,4 +1,4 @@
-"""Leader and follower in a closed loop, held against the rows of the reference."""
+"""Leader and follower in a closed loop, compared with rows of the reference."""
 
 import math
 
@@ -14,7 +14,7 @@ BEARING_COUNTS_ABOVE = 0.01
 
 
 class Loop:
-    """A closed loop whose t = 0 lies a head start after the epoch; rows as it is lived."""
+    """Closed loop whose t = 0 is some time after the epoch; it records a row per tick."""
 
     def __init__(self, world, head_start=HEAD_START):
         self.world = world
@@ -32,7 +32,7 @@ class Loop:
 
     def sample(self):
         turtles = {name: turtle.place for name, turtle in self.sim.turtles.items()}
-        # Where turtle1 was five seconds ago, between two ticks as the buffer has it.
+        # turtle1's pose five seconds before, interpolated between two ticks as in the buffer
         then = self.world.clock.now() - seconds(5)
         if self.world.buffer.can_transform("world", "turtle1", then):
             past = self.world.buffer.lookup_transform("world", "turtle1", then)
@@ -43,7 +43,7 @@ class Loop:
         After(self.world, *((self.head_start + t, self.sample) for t in times), name="sampler")
 
     def errors(self, expected):
-        """What of the expected rows was not met, by time."""
+        """Return the differences from the expected rows, by time."""
         missed = {}
         for row in expected:
             t = row["t"]

@@ -1,4 +1,4 @@
-"""A simulator seen from another process."""
+"""Tests of a simulator in another process."""
 
 import pytest
 
@@ -17,7 +17,7 @@ from tftool.world.world import World
 
 
 class Script(Node):
-    """Does what it is told to at its seconds."""
+    """Node that calls functions at given seconds."""
 
     def __init__(self, world, *steps):
         super().__init__(world, "script")
@@ -128,20 +128,20 @@ def test_another_simulator_begins_on_an_empty_sheet(world):
 
     lived(world, 6)
 
-    # Left as it was until the next one comes.
+    # The line does not change until the next one comes.
     assert [(one.x0, one.x1) for one in before] == [(1.0, 2.0)]
     assert [(one.x0, one.x1) for one in far.trail.segments] == [(5.0, 6.0)]
 
 
 def strokes(trail):
-    """What is drawn, with the ends as 32 bits bring them over."""
+    """Return the drawn lines, with ends as the 32-bit floats of messages."""
     return [
         (*(pytest.approx(end, abs=1e-5) for end in one[:4]), *one[4:]) for one in trail.segments
     ]
 
 
 def seen_after(world, *steps, look_at):
-    """What is seen of our simulator by one who first looks at a second."""
+    """Return the view of another process that first looks at the simulator at a given second."""
     simulator, seen = Turtlesim(world), []
     called = [
         (second, lambda step=step: script.start_soon(world.call(*step))) for second, step in steps
@@ -198,7 +198,7 @@ def test_a_background_that_is_changed_is_seen(world):
 
 
 class StrangeSimulator(Node):
-    """As ROS 2's own: sends poses, answers for its parameters, and tells of no stroke."""
+    """Simulator like ROS 2's: it sends poses and has parameters, but publishes no lines."""
 
     async def run(self):
         kind = INTERFACES.find("rcl_interfaces", "srv", "GetParameters")
@@ -243,7 +243,7 @@ def test_beside_one_that_tells_its_strokes_another_is_drawn_by_the_poses(world):
 
     ends = [one.x1 for one in far.trail.segments]
     assert far.background == Color(9, 9, 9)
-    # 63 updates of 16 ms each way.
+    # 63 updates of 16 ms in each direction
     assert (max(ends), min(ends)) == pytest.approx((5.544445 + 1.008, 5.544445 - 1.008), abs=1e-4)
     assert len(ends) == 2 * 63
 

@@ -156,7 +156,7 @@ def test_stale_data_stops_the_follower_with_one_clear_sentence_until_it_is_fresh
         "stopping until there is a newer transform",
         "There are new transforms of turtle1: following again",
     ]
-    # t = 3, 4, 5, the stop at 6, and 10, 11, 12 again.
+    # t = 3, 4, 5, the stop at 6, and 10, 11, 12 again
     assert len(commands) == 7
     assert commands[3] == twist()
     assert commands[4] != twist()
@@ -241,5 +241,5 @@ def test_who_drives_a_turtle_and_who_hears_it_is_known_by_name():
         "turtle1/pose": [[("sim", pose)], [("broadcaster1", pose)]],
         "tf": [[("broadcaster1", tf), ("broadcaster2", tf)], []],
     }
-    # What has ended publishes and hears nothing any more.
+    # An ended node has no publishers and subscriptions.
     assert world.endpoints.topics() == []

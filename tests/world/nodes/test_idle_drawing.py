@@ -13,7 +13,7 @@ from tftool.world.world import World
 
 
 class At(Node):
-    """Does things at their seconds."""
+    """Node that calls functions at given seconds."""
 
     def __init__(self, world, deeds):
         super().__init__(world, "at")
@@ -54,10 +54,10 @@ def test_what_it_draws_stays_off_the_walls_and_comes_to_where_it_was():
     drawn = places(simulator)
     assert simulator.turtles["turtle1"].wall_hits == 0
     assert all(0.5 < x < 10.6 and 0.5 < y < 10.6 for x, y in drawn)
-    # Four petals: it comes near to all four corners.
+    # The drawing has four petals, so the turtle comes near all four corners.
     for corner in ((2.6, 2.6), (8.5, 2.6), (2.6, 8.5), (8.5, 8.5)):
         assert min(math.dist(corner, one) for one in drawn) < 0.6
-    # Late strokes lie on early ones: the sheet does not fill up.
+    # Late lines cover early lines, so the field does not fill up.
     early, late = drawn[1000:6000], drawn[-500::25]
     assert max(min(math.dist(one, other) for other in early) for one in late) < 0.15
 

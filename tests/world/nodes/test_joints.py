@@ -42,7 +42,7 @@ def yaw(world, target, source, stamp=0):
 
 
 def sends(world, *positions, names=("turn", "reach"), offset=0.0):
-    """Send joint states a tenth of a second apart; stamped so much later than they are sent."""
+    """Send joint states a tenth of a second apart; `offset` shifts their stamps to the future."""
 
     def send(values):
         stamp = world.clock.now() + seconds(offset)
@@ -227,7 +227,7 @@ def test_a_robot_swings_between_its_limits(world, robot):
     )
     play(world, 6.0)
 
-    # reach is the first joint that is not held: from 1 m to 5 m and back in 4 s.
+    # reach is the first joint that is not fixed: from 1 m to 5 m and back in 4 s
     assert min(seen) == pytest.approx(1.0, abs=0.01)
     assert max(seen) == pytest.approx(5.0, abs=0.01)
     assert yaw(world, "base", "boom") == pytest.approx(0.25)

@@ -14,7 +14,7 @@ PERIOD = seconds(0.1)
 
 
 def places(world_time=10.0, **words):
-    """x, y, z of the noisy frame at each broadcast, and its turn about z."""
+    """Return x, y, z and yaw of the noisy frame at each broadcast."""
     world = World(SimClock(), cache_time=seconds(1_000))
     Noise(world, parent="base", child="sensor", period=PERIOD, **words)
     play(world, world_time)
@@ -26,7 +26,8 @@ def places(world_time=10.0, **words):
 def test_the_errors_have_the_spread_that_is_said():
     found, turns = places(400.0, offset=(1.0, 2.0, 3.0), position=0.1, angle=0.02)
 
-    # 4 000 draws: the mean is off by 0.1 / 63, the deviation by 1.1 %, each within five of these.
+    # Of 4,000 draws, the standard error of the mean is 0.1 / 63, and of the deviation 1.1 %; five
+    # of each are allowed.
     assert found.shape == (4001, 3)
     assert found.mean(axis=0) == pytest.approx((1.0, 2.0, 3.0), abs=0.008)
     assert found.std(axis=0) == pytest.approx((0.1,) * 3, rel=0.06)
@@ -39,7 +40,8 @@ def test_drift_grows_with_the_root_of_the_time():
         for seed in range(200)
     ]
 
-    # Two seconds' square root: 200 walks tell a deviation within 5 %, taken five times.
+    # The deviation is the square root of two seconds; 200 walks determine it within 5 %, of which
+    # five times are allowed.
     last = np.array([found[-1] for found, _ in ends])
     assert last[:, :2].std(axis=0) == pytest.approx((0.3 * math.sqrt(4.0),) * 2, rel=0.2)
     assert not last[:, 2].any()

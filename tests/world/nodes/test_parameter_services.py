@@ -1,4 +1,4 @@
-"""The simulator's parameters, asked for and set as ROS 2's tools do."""
+"""Tests of the simulator's parameter services as ROS 2's tools call them."""
 
 import asyncio
 

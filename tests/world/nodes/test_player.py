@@ -1,4 +1,4 @@
-"""A recording that is played: when what is sent, and what its listeners take for now."""
+"""Tests of a played recording: the times at which transforms are sent, and the listeners' clock."""
 
 import asyncio
 
@@ -36,7 +36,7 @@ SENT = [tick(0), tick(1), MOUNT, tick(2), tick(3)]
 
 
 class Played:
-    """A recording, a world whose clock it sets, and what was sent when."""
+    """A recording, a world whose clock it sets, and the times of the sent transforms."""
 
     def __init__(self, path, **how):
         with open_recording(path) as recording:
@@ -57,7 +57,7 @@ class Played:
             self.sent.append((passed, message.authority, one.child_frame_id, one.stamp))
 
     def run(self, *steps, until=None):
-        """Live through it; at moments of the pace, do something to the player."""
+        """Run the world; `steps` call methods of the player at given seconds."""
 
         async def both():
             living = asyncio.ensure_future(live(self.world))
@@ -137,7 +137,7 @@ def test_paused_time_stands_still_and_a_step_sends_one_message(file):
         (3, lambda player: player.resume()),
     )
 
-    # What lies at the very beginning is there; the second step sends the static.
+    # The data of the very beginning is sent; the second step sends the static transform.
     assert children(played) == [(0.0, 0.0), (1.0, 1.0), (3.51, 2.0), (4.51, 3.0)]
     assert [passed for passed, _, child, _ in played.sent if child == "laser"] == [0.0, 2.0]
     assert played.clocks == sorted(played.clocks)
@@ -148,7 +148,7 @@ def test_seeking_back_is_told_as_ros_tells_it_and_sends_what_was_known_there(fil
 
     told = [one.text for one in played.world.log.records if one.level == "WARN"]
     assert told == ["Detected jump back in time. Clearing tf buffer."]
-    # What was known a second before, too, so that lookups between the two are answered.
+    # Transforms of the second before are sent too, so that lookups between them succeed.
     assert children(played)[3:] == [(2.5, 0.0), (2.5, 1.0), (3.31, 2.0), (4.31, 3.0)]
 
 
@@ -159,13 +159,13 @@ def test_seeking_goes_no_further_than_the_recording(file):
     )
 
     assert [found for found in children(played) if found[0] == 1.0][-1] == (1.0, 3.0)
-    # From the end it starts over.
+    # At its end, playing starts again.
     assert children(played)[-1] == (5.0, 3.0)
 
 
 @pytest.fixture
 def arm(tmp_path):
-    """A base and an arm, whose transforms are sent in turns."""
+    """Record a base and an arm, whose transforms are sent alternately."""
     turns = []
     for number in range(4):
         turns.append(tick(number))
@@ -235,7 +235,7 @@ def test_a_simulations_stamps_are_played_on_its_own_clock(tmp_path):
 
 
 def test_a_simulations_own_clock_counts(tmp_path):
-    # It runs at half the speed of the recorder's.
+    # The player's clock runs at half the speed of the recorder's.
     sent = []
     for number in range(3):
         stamp, log = seconds(20 + number), START + number * 2 * SECOND

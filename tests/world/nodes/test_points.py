@@ -25,7 +25,7 @@ def test_the_demo_places_every_point_of_turtle3_as_turtle1_sees_it():
 
     said = log_texts(world, "turtle_tf2_pose_drawer")
     assert log_texts(world, "turtle_tf2_message_broadcaster") == ["Successfully spawned turtle3"]
-    # From the third second on, at every tick; each in the instant it was published.
+    # A point per tick from the third second on, each in the instant of its publication
     assert len(said) == world.topics()[TOPIC].count == 313
     assert said[0] == "Point of turtle3 in frame of turtle1: x:-1.544445 y:-3.544445 z:0.000000"
     x, y, _ = sim.turtles["turtle3"].place
@@ -51,7 +51,7 @@ def test_a_point_waits_for_its_frame_and_no_longer_than_it_may():
     play(world, 2.0)
 
     said = log_texts(world, "turtle_tf2_pose_drawer")
-    # The first is too old for a frame that came later; the second was ahead of its time.
+    # The first point is older than its frame's data; the second point's stamp was in the future.
     assert len(said) == 2
     assert said[0].startswith("Failure ")
     assert said[1] == "Point of turtle3 in frame of turtle1: x:-4.544445 y:-3.544445 z:0.000000"

@@ -1,4 +1,4 @@
-"""What a guest records of a session: the bytes as they arrived, with who sent them."""
+"""Tests of the recording of a session by a guest: the received bytes, and their senders."""
 
 import pytest
 
@@ -23,7 +23,7 @@ TEXT = INTERFACES.message("std_msgs/String")
 
 
 class Taken:
-    """Keeps what it is given."""
+    """Writer that stores its messages."""
 
     def __init__(self):
         self.messages = []

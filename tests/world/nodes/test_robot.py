@@ -71,7 +71,7 @@ def test_the_correction_jumps_now_and_then_and_stands_still_in_between():
 
     assert offsets[0] == Transform.identity()
     jumps = [k for k in range(1, len(offsets)) if offsets[k] != offsets[k - 1]]
-    # Corrected at 2 s and 4 s, seen at the same instant.
+    # Corrections at 2 s and 4 s, seen at the same instant
     assert jumps == [3, 7]
 
 
@@ -114,6 +114,6 @@ def test_nothing_is_measured_before_the_laser_is_mounted_and_the_robot_known():
     play(world, 3.0)
 
     assert "laser_point" not in world.buffer.frames()
-    # There is a truth by then, but no odometry to correct.
+    # The true pose exists by then, but no odometry to correct.
     assert [one.level for one in world.log.records] == ["WARN"]
     assert "Cannot correct the map" in log_texts(world)[0]

@@ -96,7 +96,7 @@ def test_keys_also_come_by_topic_and_q_ends_the_node():
         (0.2, lambda: keys.publish(KeyPress("q"))),
         (0.3, lambda: keys.publish(KeyPress("left"))),
     )
-    # Without an end given, it ends with the last node.
+    # Without a given end, the world ends with its last node.
     run(world.clock, live(world))
 
     assert commands == [twist(0.0, 2.0)]

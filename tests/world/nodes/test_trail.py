@@ -20,7 +20,7 @@ def metres(pixels):
 
 
 def painted(trail, columns, rows, color=RED):
-    """Which pixels of a window have the colour, counted from the bottom left."""
+    """Return the pixels of a window that have the colour, counted from the bottom left."""
     return {
         (column, row)
         for column in columns
@@ -30,7 +30,7 @@ def painted(trail, columns, rows, color=RED):
 
 
 def stroke(x0, y0, x1, y1, width=3, color=RED):
-    """A stroke with its ends in pixels, downward from the top left as the layer counts."""
+    """Return a line with its ends in pixels, counted downward from the top left."""
     return Segment(metres(x0), FIELD - metres(y0), metres(x1), FIELD - metres(y1), color, width)
 
 
@@ -70,7 +70,7 @@ def test_a_stroke_is_seen_at_both_ends_however_thin(x0, y0, x1, y1, width):
 def test_exactly_the_pixels_on_the_stroke_are_painted(ends, width):
     x0, y0, x1, y1 = ends
     length = math.dist((x0, y0), (x1, y1))
-    # A stroke of some billionths of a pixel points wherever rounding has it point.
+    # Rounding decides the direction of a line of some billionths of a pixel.
     assume(length == 0.0 or length > 1e-6)
     along = ((x1 - x0) / length, (y1 - y0) / length) if length else (1.0, 0.0)
     trail = Trail()

@@ -41,7 +41,7 @@ def drive(world, twist, turtle="turtle1"):
 
 
 def refusal(call):
-    """What a call is refused with, as a step of `At`."""
+    """Return a function that calls another and stores its error, for a step of `At`."""
 
     async def ask():
         try:
@@ -238,7 +238,7 @@ def test_the_sensor_reads_blank_ground_and_then_the_fresh_trail():
     At(world, (TICK, drive(world, twist(1.0))))
     play(world, 4 * TICK)
 
-    # It looks before this update's own stroke is drawn.
+    # The sensor is read before the line of the same update is drawn.
     assert colors == [BLANK, BLANK, PEN_COLOR, PEN_COLOR]
 
 
@@ -417,7 +417,7 @@ def test_a_namespace_stands_before_everything_a_simulator_offers():
     assert log_texts(world)[0] == "Starting turtlesim with node name /turtlesim1/sim"
 
 
-# Bad input: refused with a sentence, and the simulator goes on
+# Invalid input is refused with a sentence, and the simulator goes on
 
 
 @pytest.mark.parametrize(

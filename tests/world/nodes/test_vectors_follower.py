@@ -16,7 +16,7 @@ from tftool.world.world import World
 
 
 def stage(last, period, *, square=False, carrot=False, follow=None, times=()):
-    """A world in which, at t = 0, turtle2 stands at (4, 2) and gets its first command."""
+    """Create a world in which, at t = 0, turtle2 is at (4, 2) and gets its first command."""
     world = World(SimClock(), Buffer(cache_time=seconds(10)))
     loop = Loop(world)
 
@@ -29,7 +29,7 @@ def stage(last, period, *, square=False, carrot=False, follow=None, times=()):
     def begin_following():
         Follower(world, "listener", period=seconds(period), spawn=None, **(follow or {}))
 
-    # What happens in one instant happens before the simulator's tick of that instant.
+    # These steps run before the simulator's tick of the same instant.
     steps = [(HEAD_START - period, begin_following), (HEAD_START, begin)]
     if carrot:
         steps.append((HEAD_START - 0.1, lambda: FixedCarrot(world, "fixed_broadcaster")))

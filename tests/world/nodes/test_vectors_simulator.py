@@ -25,7 +25,7 @@ PROBE = "probe"
 
 
 class Ticks:
-    """The probe's state after every update, and what hands do after a tick."""
+    """Turtle's state after every update, and functions to call after a tick."""
 
     def __init__(self, world, sim, name=PROBE):
         self.states = {}
@@ -101,7 +101,7 @@ def test_teleports_come_first_in_the_next_update(case):
         "absolute": ("teleport_absolute", TeleportAbsolute.Request),
         "relative": ("teleport_relative", TeleportRelative.Request),
     }
-    # All are asked before any is answered: the answers come with the tick.
+    # All requests are sent before a response arrives, because responses come with the tick.
     for number, request in enumerate(case["requests"]):
         service, kind = kinds[request["kind"]]
         wish = build(kind, **{name: value for name, value in request.items() if name != "kind"})

@@ -39,11 +39,11 @@ def test_one_look_at_the_leader_gives_the_command_of_the_reference(case):
 
     assert seen.translation[:2] == pytest.approx(case["relative_xy"], abs=2e-8)
     turned = math.remainder(heading(seen) - case["relative_yaw"], math.tau)
-    # The reference wraps with turtlesim's π, a few nanoradians off.
+    # The reference normalises angles with turtlesim's π, which is off by a few nanoradians.
     assert turned == pytest.approx(0.0, abs=1e-7)
     assert same_rotation(seen.rotation, case["quaternion"])
     assert command.linear_x == pytest.approx(case["linear"], abs=1e-8)
-    # Straight behind, either way round is the shorter one.
+    # The target is straight behind, so both directions are equally short.
     angular = abs(command.angular_z) if case["angular"] > 3.14159 else command.angular_z
     assert angular == pytest.approx(case["angular"], abs=1e-8)
 

@@ -1,4 +1,4 @@
-"""The turtlesim vectors, section by section; a section nobody tests is an error."""
+"""The turtlesim vectors by section; a section that no test reads is an error."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -45,7 +45,7 @@ _HEAD = {"format", "tolerances"}
 
 
 def load(text: str) -> dict[str, Any]:
-    """Read the vectors, and refuse what no test knows."""
+    """Read the vectors; raise an error for contents that no test reads."""
     vectors = yaml.safe_load(text)
     if vectors["format"] != FORMAT:
         raise ValueError(f"vectors of format {vectors['format']} are not known")
@@ -62,7 +62,7 @@ STRICT = VECTORS["tolerances"]["strict"]
 
 
 def rows(case: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The rows of a case, each under the names of its columns."""
+    """Return the rows of a case as mappings from column names to values."""
     return [dict(zip(case["columns"], row, strict=True)) for row in case["rows"]]
 
 
@@ -71,7 +71,7 @@ def ids(cases: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def close(found: float, expected: float, what: str) -> bool:
-    """Whether a number is as close as the strict tolerance wants it; angles modulo a turn."""
+    """Return whether a number is within the strict tolerance; angles are compared modulo a turn."""
     difference = found - expected
     if what in ("theta", "angular"):
         difference = math.remainder(difference, math.tau)
@@ -79,7 +79,7 @@ def close(found: float, expected: float, what: str) -> bool:
 
 
 def mismatch(found: Mapping[str, float], row: Mapping[str, Any]) -> str:
-    """What of a row's pose and velocity is not met, as text; empty when all is."""
+    """Return the differences from a row's pose and velocity as text; empty if there are none."""
     kinds = {
         "x": "xy",
         "y": "xy",

@@ -1,4 +1,4 @@
-"""Domains of their own for every test process, all of it on the loopback of this machine."""
+"""DDS domains for every test process, on the loopback interface of this machine."""
 
 import hashlib
 import os
@@ -27,7 +27,7 @@ VARIABLES = (
 
 @pytest.fixture(scope="session")
 def domain():
-    """A domain that no other test process of this machine uses meanwhile."""
+    """Return a domain that no other test process of this machine uses at the same time."""
     for number in range(1, 100):
         path = Path(tempfile.gettempdir()) / f"tftool-test-domain-{number}"
         with path.open("w") as file:
@@ -66,7 +66,7 @@ ON_LOOPBACK = network(()).xml()
 
 @pytest.fixture(scope="session")
 def peers():
-    """The folder of our peers on Debian's Cyclone DDS and Fast DDS, built once."""
+    """Return the folder of the peers on Debian's Cyclone DDS and Fast DDS, built once."""
     missing = [tool for tool in TOOLS if shutil.which(tool) is None]
     if missing and not os.environ.get("CI"):
         pytest.skip(
@@ -99,7 +99,7 @@ def build(folder):
 
 
 class Peer:
-    """One of them that runs, and the lines it has printed."""
+    """Running peer, and the lines that it has printed."""
 
     def __init__(self, folder, kind, domain, *words):
         environment = {**os.environ, "CYCLONEDDS_URI": ON_LOOPBACK}

@@ -1,4 +1,4 @@
-"""Peers that are not ours: C on Debian's Cyclone DDS, C++ on Debian's Fast DDS."""
+"""Tests with peers of other libraries: C on Debian's Cyclone DDS, C++ on Debian's Fast DDS."""
 
 import asyncio
 
@@ -20,7 +20,8 @@ def test_a_foreign_publisher_is_heard_whole_and_its_statics_late(peer, domain, k
     foreign = peer(kind, "pub", 300)
 
     async def scene():
-        # It publishes its static transform before there is a reader, and waits for one of `tf`.
+        # The peer publishes its static transform before a reader exists, and waits for a reader of
+        # `tf`.
         await until(lambda: ["ready"] in foreign.lines)
         async with joined(domain, read_only=True) as (world, _):
             await until(lambda: {"laser", "base"} <= set(world.buffer.frames()))
@@ -28,7 +29,7 @@ def test_a_foreign_publisher_is_heard_whole_and_its_statics_late(peer, domain, k
             return world.buffer.samples("base"), world.buffer.samples("laser")
 
     moving, still = asyncio.run(scene())
-    # The buffer holds the last ten seconds: 300 samples at 100 Hz are three.
+    # The buffer stores the last ten seconds, and 300 samples at 100 Hz are three.
     assert moving.stamps.tolist() == [stamp(number) for number in range(300)]
     assert moving.poses[:, 0].tolist() == [number * 0.5 for number in range(300)]
     assert set(moving.parents) == {"odom"}
@@ -37,7 +38,7 @@ def test_a_foreign_publisher_is_heard_whole_and_its_statics_late(peer, domain, k
 
 
 def stamps_of(world, frame):
-    """The stamps that are known; a frame that only others hang from has none."""
+    """Return the stamps of a frame; a frame that is only a parent has none."""
     return world.buffer.samples(frame).stamps.tolist() if frame in world.buffer.frames() else []
 
 
@@ -53,14 +54,14 @@ def test_a_foreign_subscriber_gets_everything_and_statics_late(peer, domain, kin
             world.broadcast([transform("base", "laser", x=0.5)], "mounting", static=True)
             foreign = peer(kind, "sub")
             await until(lambda: world.tf.far_subscribers)
-            # A writer knows a reader a moment after the graph does: what is sent before is lost.
+            # A writer knows a reader a moment after the graph does; messages sent before are lost.
             while not any(line[0] == "tf" for line in foreign.lines):
                 world.broadcast([transform("odom", "primer")], "wheels")
                 await WallClock().sleep(seconds(0.005))
             for number in range(300):
                 world.broadcast([transform("odom", "base", stamp(number), number * 0.5)], "wheels")
                 if number % 50 == 49:
-                    # It keeps the last 100 for itself, and is one of many programs here.
+                    # The subscription stores its last 100 messages, and many programs run here.
                     await until(lambda sent=number + 1: len(heard(foreign)) == sent)
             await until(lambda: heard(foreign) == expected)
             await until(

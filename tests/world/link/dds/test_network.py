@@ -1,4 +1,4 @@
-"""Which packets leave this machine: in a network of its own with a fake LAN, none unless asked."""
+"""Tests of the packets that leave this machine, in a network namespace with a fake LAN."""
 
 import json
 import shutil
@@ -48,7 +48,7 @@ print(json.dumps({"before": before, "after": after, "control": sent(), "seen": s
 
 @pytest.fixture(scope="module")
 def fenced():
-    """Runs a program in a network of its own."""
+    """Return a function that runs a program in a separate network."""
     for tool in ("unshare", "ip"):
         if shutil.which(tool) is None:
             pytest.skip(f"no '{tool}' to make a network with: apt install iproute2 util-linux")
@@ -68,5 +68,5 @@ def test_no_packet_leaves_the_loopback_unless_an_interface_is_named(fenced):
     assert "laser" in found["seen"]
     assert "mounting" in found["seen"]
     assert found["before"] == found["after"] == 0
-    # The counter counts: on the interface that is named, others are searched at once.
+    # The counter works: other machines are searched at once on the named interface.
     assert found["control"] > 0

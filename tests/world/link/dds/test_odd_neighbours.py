@@ -1,4 +1,4 @@
-"""Neighbours that do not fit: another definition, equal names, too many of them."""
+"""Tests of neighbours with other definitions, with equal names, and of too many neighbours."""
 
 import asyncio
 import socket

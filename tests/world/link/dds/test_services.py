@@ -1,4 +1,4 @@
-"""Services over DDS: our two sides with each other, and with a peer on Debian's Cyclone DDS."""
+"""Tests of services over DDS, between tftool's worlds and with a peer on Cyclone DDS."""
 
 import asyncio
 

@@ -1,4 +1,4 @@
-"""Two worlds of tftool's own that share a session over DDS."""
+"""Tests of two worlds of tftool that share a session over DDS."""
 
 import asyncio
 import contextlib

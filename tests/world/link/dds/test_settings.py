@@ -1,4 +1,4 @@
-"""Where DDS goes: the command line, ROS 2's variables, and what cannot be."""
+"""Tests of DDS settings: the command line, ROS 2's variables, and refused combinations."""
 
 import os
 import sys
@@ -102,7 +102,7 @@ def test_a_missing_package_is_said_with_every_way_out(monkeypatch, capsys):
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "cyclonedds", None)
 
-    # As every other extra that is missing.
+    # The error is that of any missing extra.
     assert main(["tree", "--dds"]) == 2
     said = " ".join(capsys.readouterr().err.split())
     assert "pip install 'tftool-tf2[dds]'" in said

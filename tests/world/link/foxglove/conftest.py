@@ -1,4 +1,4 @@
-"""A server that is not ours: foxglove-sdk's, in this process, on a free port of the loopback."""
+"""A server of another library: foxglove-sdk's, in this process, on a free local port."""
 
 import contextlib
 import itertools
@@ -28,7 +28,7 @@ def transform(parent, child, stamp=1, x=1.0):
 
 
 class Robot(foxglove.websocket.ServerListener):
-    """A server, and what it keeps for those who subscribe late, as foxglove_bridge does."""
+    """Server that stores messages for late subscribers, as foxglove_bridge does."""
 
     def __init__(self, port=0, capabilities=None, **options):
         self.context = foxglove.Context()
@@ -74,7 +74,7 @@ class Robot(foxglove.websocket.ServerListener):
         return channel
 
     def keep(self, topic, payload):
-        # A client may subscribe before or after this: either way it gets the message once.
+        # A client may subscribe before or after this line; either way it gets the message once.
         with self.lock:
             self.kept.setdefault(topic.topic(), []).append((topic, payload))
             if topic.topic() in self.subscribed:
@@ -86,7 +86,7 @@ class Robot(foxglove.websocket.ServerListener):
 
 @pytest.fixture
 def robots():
-    """Starts servers, all of which are stopped at the end."""
+    """Return a function that starts servers, which all stop at the end of the test."""
     started = []
 
     def start(**options):
@@ -100,7 +100,7 @@ def robots():
 
 @pytest.fixture
 def moving(robots):
-    """A robot whose base moves along x in odom, a millimetre each 10 ms, with a laser on it."""
+    """Start a robot whose base moves along x in odom by a millimetre per 10 ms, with a laser."""
     robot = robots()
     statics = robot.topic("/tf_static")
     robot.keep(statics, encode_transforms([transform("base", "laser", 0, 0.5)]))
@@ -123,7 +123,7 @@ def moving(robots):
 
 @contextlib.contextmanager
 def joined(address, clock=None):
-    """A world that reads a robot; by a followed clock it follows the robot's, too."""
+    """Yield a world that reads a robot; a followed clock is set to the robot's time."""
     world = new_world() if clock is None else World(clock)
     link = Link(Options("test", 0, FoxgloveReach(address), read_only=True))
     with link, shared(link, world, Role.GUEST):

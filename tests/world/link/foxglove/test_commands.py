@@ -1,4 +1,4 @@
-"""Commands that look at a robot by its address, and those that refuse to."""
+"""Tests of commands that read a robot by its address, and of commands that refuse to."""
 
 import json
 import re

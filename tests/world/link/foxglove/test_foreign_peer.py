@@ -1,4 +1,4 @@
-"""A server that is not ours, foxglove-sdk's: everything it sends arrives."""
+"""Tests with a server of another library, foxglove-sdk's: all its data arrives."""
 
 import asyncio
 import struct
@@ -104,7 +104,7 @@ def test_protobuf_of_foxglove_is_heard_from_any_topic(robots):
 def test_messages_of_ros_1_become_those_of_ros_2(robots):
     kind = INTERFACES.message("tf2_msgs/TFMessage")
     message = codec(kind).decode(encode_transforms([transform("odom", "base", seconds(3), 0.5)]))
-    # ROS 1 counts headers: a number of four bytes before the stamp.
+    # ROS 1 counts headers: a number of four bytes precedes the stamp.
     payload = Codec(kind, ROS1).encode(message)
     text = Codec(STRING, ROS1).encode(build(STRING, data="<robot/>"))
 
@@ -203,7 +203,7 @@ def test_types_that_only_the_server_knows_are_learnt_but_ours_are_not_changed(ro
 
 
 def test_a_hundred_transforms_at_a_time_arrive_all(robots):
-    """As in the long round by hand: 500 messages of 100 transforms, here without pauses between."""
+    """Check 500 messages of 100 transforms, sent without pauses."""
 
     async def scene():
         robot = robots()
@@ -213,7 +213,7 @@ def test_a_hundred_transforms_at_a_time_arrive_all(robots):
             for number in range(500):
                 stamp = seconds(10) + number
                 tf.log(encode_transforms([transform("world", f"f{n}", stamp) for n in range(100)]))
-                # The server keeps the last 1024 messages for a client, and drops the others.
+                # The server stores the last 1024 messages for a client, and drops the others.
                 await WallClock().sleep(0)
             await until(lambda: link.received == 500)
             return [len(world.buffer.samples(f"f{n}").stamps) for n in range(100)]

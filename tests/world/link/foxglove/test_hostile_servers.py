@@ -1,4 +1,4 @@
-"""Servers that send what no server should: a sentence, nothing grows, and the session goes on."""
+"""Tests of servers that send malformed data: an error, limited memory, and the session goes on."""
 
 import asyncio
 import base64
@@ -44,9 +44,9 @@ GOOD = encode_transforms([transform("odom", "base", WallClock().now())])
 
 @contextlib.contextmanager
 def server(*connections, subprotocols=("foxglove.websocket.v1",), **options):
-    """A server that gives each connection its script, the last one to all further ones.
+    """Start a server that runs a script for each connection; the last script serves further ones.
 
-    A script is called with the connection; what it raises ends the connection.
+    A script is called with the connection; its exception ends the connection.
     """
     left = list(connections)
 
@@ -74,7 +74,7 @@ def server(*connections, subprotocols=("foxglove.websocket.v1",), **options):
 
 
 def sends(*messages, ends=False):
-    """A script: say what there is, and once it is subscribed send messages."""
+    """Return a script that announces its channels, and sends messages once it is subscribed."""
 
     def script(connection):
         connection.send(INFO)
@@ -95,7 +95,7 @@ def good(number):
 
 
 def heard_by(address, condition):
-    """What a link says while a world reads a server until a condition holds."""
+    """Return the log of a connection while a world reads a server until a condition is true."""
 
     async def scene():
         with joined(address) as (world, link):
@@ -335,7 +335,7 @@ def test_a_redirect_is_not_followed(moving):
         heard_by(address, lambda *_: True)
 
 
-# The connection breaks at every byte
+# Connections that break after every number of bytes
 
 
 def frame(payload, opcode):
@@ -364,7 +364,7 @@ def handshake(request):
 
 
 def test_a_connection_may_break_at_every_byte():
-    """The first connection lasts; each further one ends a byte later than the one before."""
+    """Check connections of which each ends one byte later than the one before; the first lasts."""
     size = len(handshake(b"Sec-WebSocket-Key: x\r\n")) + len(EXCHANGE) + len(frame(good(1), 2))
     said, heard, started = [], [], []
     ended = threading.Event()
@@ -381,12 +381,13 @@ def test_a_connection_may_break_at_every_byte():
             writer.write(whole[:end])
             await writer.drain()
             if not started:
-                # It has to stay until the client knows what there is.
+                # The connection must stay open until the client knows the channels.
                 started.append(True)
                 with contextlib.suppress(TimeoutError):
                     await asyncio.wait_for(reader.read(), 0.5)
             elif end > len(whole):
-                # Subscribed by a number that counts on; it is masked with four bytes.
+                # The client's message has a subscription number that increases, masked with four
+                # bytes.
                 head = await reader.readexactly(6)
                 mask = head[2:6]
                 body = await reader.readexactly(head[1] & 127)
@@ -422,7 +423,7 @@ def test_a_connection_may_break_at_every_byte():
     assert all("has ended (" in one for one in said)
 
 
-# Going away and coming back
+# Servers that disappear and return
 
 
 def test_a_server_that_restarts_is_joined_again_with_its_statics(robots):
@@ -445,7 +446,7 @@ def test_a_server_that_restarts_is_joined_again_with_its_statics(robots):
                 if number < 3:
                     robot.stop()
                     await until(lambda: link.graph.is_empty)
-                    # What it sent stays.
+                    # Its data stays in the buffer.
                     assert set(world.buffer.frames()) == {"odom", "base", "laser"}
                     assert link.departures == number + 1
                     robot = robots(port=port)

@@ -1,4 +1,4 @@
-"""Asks the server everything it can be asked, once, and ends."""
+"""Client that calls everything that the server offers once, and ends."""
 
 import rclpy
 from example_interfaces.action import Fibonacci

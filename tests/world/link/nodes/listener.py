@@ -1,4 +1,4 @@
-"""Tells what the talker says, and where it is in the world."""
+"""Listener that logs the talker's messages, and the talker's pose in the world."""
 
 import rclpy
 from rclpy.node import Node

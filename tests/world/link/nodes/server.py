@@ -1,4 +1,4 @@
-"""Serves a switch and an action, keeps a map's name for those who come late, and has noise."""
+"""Server of a switch and an action, with a latched map name, and with noise."""
 
 import rclpy
 from example_interfaces.action import Fibonacci

@@ -1,4 +1,4 @@
-"""Says hello five times a second."""
+"""Talker that says hello five times a second."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""A ROS 2 peer that is not ours and only listens to what is played; see `sdk_peer`.
+"""Listener on played data with another implementation of ROS 2 over zenoh; see `sdk_peer`.
 
 `python sdk_listener.py PORT DEFINITIONS`
 """

@@ -1,7 +1,7 @@
-"""A ROS 2 peer that is not ours, as a process: zenoh-ros2-sdk, told by the test what to do.
+"""Peer of another implementation of ROS 2, zenoh-ros2-sdk, as a process that a test controls.
 
-`python sdk_peer.py PORT DEFINITIONS`: joins the router at 127.0.0.1:PORT and prints,
-one JSON object a line, what it hears and what it is answered.
+`python sdk_peer.py PORT DEFINITIONS` joins the router at 127.0.0.1:PORT, and prints its received
+messages and responses as one JSON object per line.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""An independent implementation of ROS 2 over zenoh at the other end of our wire."""
+"""Tests with an independent implementation of ROS 2 over zenoh as the other end."""
 
 import asyncio
 import json
@@ -77,7 +77,7 @@ def definitions(folder):
 
 
 class Foreign:
-    """The other implementation, in a process of its own."""
+    """The other implementation, in a separate process."""
 
     def __init__(self, port, folder, program="sdk_peer.py"):
         self.said = []
@@ -119,7 +119,7 @@ class Foreign:
         ]
 
     def until(self, condition):
-        """Look at everything that it says until `condition()` holds, or it has ended."""
+        """Check after each of its lines whether `condition()` is true, until it ends."""
         with self._heard:
             self._heard.wait_for(lambda: condition() or self._silent, PATIENCE)
         assert not self._silent or self.check()
@@ -152,12 +152,13 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
             simulator = Turtlesim(world)
             link.attach(world, role=Role.HOST)
             living = asyncio.ensure_future(live(world))
-            # Sent before the other comes: it has to be handed on later.
+            # The transform is sent before the peer joins, so it must be sent again later.
             static = TransformStamped(0, "world", "fixed", Transform((4.5, 0.0, 0.0)))
             world.broadcast([static], "static_publisher", static=True)
             foreign = Foreign(port, tmp_path)
             try:
-                # Transforms: its own in our buffer, under the name of its node ...
+                # Transforms: the peer's arrive in tftool's buffer, under the name of the peer's
+                # node ...
                 await until(lambda: foreign.check() and world.buffer.frame_exists("foreign"))
                 found = world.buffer.lookup_transform("world", "foreign")
                 assert found.transform.translation == (1.5, -2.5, 3.5)
@@ -165,7 +166,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 info = world.buffer.snapshot(world.clock.now()).frame("foreign")
                 assert info.authority == "foreign_broadcaster"
 
-                # ... and ours at its end, late statics included.
+                # ... and tftool's arrive at the peer, also static ones sent earlier.
                 def ours():
                     stamp = world.clock.now()
                     mine = TransformStamped(stamp, "world", "ours", Transform((0.25, 0.0, 0.0)))
@@ -178,11 +179,11 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                     "topic": "tf_static", "parent": "world", "child": "fixed", "x": 4.5, "w": 1.0,
                 }  # fmt: skip
 
-                # Its Twist drives our turtle.
+                # The peer's Twist drives the turtle.
                 await until(lambda: simulator.turtles["turtle1"].pose.linear_velocity == 1.0)
                 assert simulator.turtles["turtle1"].pose.angular_velocity == 0.5
 
-                # The graph as it sees it, and a service of ours answered to it.
+                # The graph as the peer sees it, and a service of tftool that responds to the peer
                 await until(lambda: foreign.check() and foreign.with_key("topics"))
                 (graph,) = foreign.with_key("topics")
                 assert graph["topics"]["/turtle1/pose"] == ["turtlesim/msg/Pose"]
@@ -194,7 +195,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                     "foreign_broadcaster"
                 }
 
-                # A message of a type that is neither turtlesim's nor tf's, both ways, ...
+                # A message of a user's type in both directions ...
                 heard = []
                 world.topic("words", STRING).subscribe(heard.append)
 
@@ -207,7 +208,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 assert foreign.with_key("chatter")[0] == {"chatter": "Hello ☺"}
                 assert foreign.with_key("topics")[0]["topics"]["/tf"] == ["tf2_msgs/msg/TFMessage"]
 
-                # ... and the simulator's parameters, set, refused and read.
+                # ... and the simulator's parameters, set, refused and read
                 await until(lambda: foreign.check() and foreign.with_key("parameters"))
                 accepted, refused = foreign.with_key("set")
                 assert accepted == {"set": 255, "successful": True, "reason": ""}

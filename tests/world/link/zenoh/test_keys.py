@@ -1,4 +1,4 @@
-"""Names on the wire, against definitions, published hashes and examples of rmw_zenoh."""
+"""Tests of names on the wire, against definitions, published hashes and examples of rmw_zenoh."""
 
 from dataclasses import replace
 

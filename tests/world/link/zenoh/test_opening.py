@@ -1,4 +1,4 @@
-"""The way into a session, where something goes wrong on it."""
+"""Tests of joining a session when something goes wrong."""
 
 import itertools
 import os
@@ -27,13 +27,13 @@ def test_whatever_goes_wrong_on_the_way_in_nothing_is_left_there(session_dir, mo
             ZenohMiddleware(Options(), ZenohReach())
 
     assert [path.name for path in (session_dir / "0").iterdir()] == ["lock"]
-    # The lock is free again: nobody waits for it.
+    # The lock is free again, so nobody waits for it.
     ZenohMiddleware(Options(), ZenohReach()).close()
 
 
 @pytest.fixture
 def neighbour(session_dir):
-    """A process with a place in the session, where nothing speaks zenoh."""
+    """Start a process that is listed in the session, but does not speak zenoh."""
     place = session_dir / "0"
     place.mkdir(mode=0o700)
     words = [sys.executable, "-c", "print(flush=True); input()"]
@@ -49,7 +49,7 @@ def neighbour(session_dir):
 
 
 class LateWire:
-    """A wire that reaches the others when it has been looked at ten times."""
+    """Connection that reaches the others only after it was checked ten times."""
 
     zid = "0a"
     neighbours = frozenset()
@@ -76,7 +76,7 @@ def test_a_process_that_is_only_busy_is_waited_for(neighbour, monkeypatch, stopp
     looks = itertools.count()
 
     class Slow:
-        """Each time it is read, 0.4 s have gone by."""
+        """Clock on which 0.4 s pass at each reading."""
 
         def elapsed(self):
             return next(looks) * 400_000_000
@@ -97,13 +97,13 @@ def test_a_wait_is_over_at_its_time_however_long_each_look_takes(monkeypatch):
     seen = []
 
     class Slow:
-        """Each time it is read, 0.4 s have gone by."""
+        """Clock on which 0.4 s pass at each reading."""
 
         def elapsed(self):
             return next(looks) * 400_000_000
 
     class Deaf(Wire):
-        """Reaches nothing, however often it is asked."""
+        """Connection that never reaches another process."""
 
         @property
         def reached(self):
@@ -119,5 +119,5 @@ def test_a_wait_is_over_at_its_time_however_long_each_look_takes(monkeypatch):
         there = f"tcp/127.0.0.1:{mute.getsockname()[1]}"
         with pytest.raises(LinkError, match="no process answers at"):
             ZenohMiddleware(Options(), ZenohReach(connect=(there,)))
-    # One for the neighbours, of whom there are none; the others at 0, 0.4, 0.8 and 1.2 s.
+    # One check for the neighbours, of whom there are none; the others at 0, 0.4, 0.8 and 1.2 s
     assert len(seen) == 1 + 4

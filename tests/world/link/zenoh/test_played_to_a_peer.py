@@ -1,4 +1,4 @@
-"""What `tftool play` sends, heard by an independent implementation of ROS 2 over zenoh."""
+"""Tests of `tftool play` with an independent implementation of ROS 2 over zenoh as listener."""
 
 import socket
 

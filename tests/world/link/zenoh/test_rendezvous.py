@@ -1,4 +1,4 @@
-"""Finding each other on one machine, with real folders, sockets and processes."""
+"""Tests of finding each other on one machine, with real folders, sockets and processes."""
 
 import os
 import socket
@@ -20,7 +20,7 @@ unix_only = pytest.mark.skipif(not rendezvous.HAS_UNIX_SOCKETS, reason="needs un
 
 @pytest.fixture
 def home(tmp_path_factory):
-    # A short path: a unix socket's name has about a hundred letters.
+    # The path is short, because the path of a unix socket is limited to about 100 letters.
     return tmp_path_factory.mktemp("s")
 
 
