@@ -1,7 +1,7 @@
 """Laws that hold in every world; hypothesis builds the worlds."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies import transforms
@@ -63,7 +63,6 @@ def chain_to_root(snapshot, name):
 
 
 @given(worlds, names, names, moments)
-@settings(max_examples=200)
 def test_a_lookup_and_its_opposite_undo_each_other(world, a, b, time):
     buffer = build(world)
     a_from_b, b_from_a = answer(buffer, a, b, time), answer(buffer, b, a, time)
@@ -75,7 +74,6 @@ def test_a_lookup_and_its_opposite_undo_each_other(world, a, b, time):
 
 
 @given(worlds, names, names, names, moments)
-@settings(max_examples=200)
 def test_lookups_chain(world, a, b, c, time):
     buffer = build(world)
     # A fixed time is needed, because "latest" is a different time for each pair.
@@ -88,7 +86,6 @@ def test_lookups_chain(world, a, b, c, time):
 
 
 @given(worlds, names, names, moments)
-@settings(max_examples=200)
 def test_can_transform_says_what_lookup_does(world, a, b, time):
     buffer = build(world)
 
@@ -103,7 +100,6 @@ def test_can_transform_says_what_lookup_does(world, a, b, time):
 
 
 @given(worlds, names, names)
-@settings(max_examples=200)
 def test_the_latest_common_time_can_be_answered_unless_a_link_is_younger(world, a, b):
     buffer = build(world)
     try:
@@ -127,7 +123,6 @@ def test_the_latest_common_time_can_be_answered_unless_a_link_is_younger(world, 
 
 
 @given(worlds, st.integers(0, 21))
-@settings(max_examples=200)
 def test_a_snapshot_shows_what_lookups_give(world, at):
     buffer = build(world)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.buffer.test_buffer_laws import FRAMES, names, worlds
@@ -107,19 +107,16 @@ def hold_against_single(buffer, target, source, times):
 
 
 @given(worlds, names, names, times_lists)
-@settings(max_examples=300)
 def test_each_row_is_the_single_lookup(world, target, source, times):
     hold_against_single(build_forest(world), target, source, times)
 
 
 @given(tangled, names, names, times_lists)
-@settings(max_examples=300)
 def test_it_is_so_where_chains_run_in_loops_too(world, target, source, times):
     hold_against_single(build_forest(world), target, source, times)
 
 
 @given(tangled, names, names, names, times_lists, st.integers(0, 22))
-@settings(max_examples=200)
 def test_each_row_of_time_travel_is_the_single_one(world, target, source, fixed, times, now):
     buffer = build_forest(world)
     rows = one_by_one(

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies import transforms
@@ -66,7 +66,6 @@ def remembered(buffer, child):
 
 
 @given(groups, st.integers(0, 12))
-@settings(max_examples=400)
 def test_setting_together_is_setting_one_by_one(groups, limit):
     told, told_at_once = [], []
     single = Buffer(limit, log=lambda *line: told.append(line))
@@ -104,7 +103,6 @@ def test_setting_together_is_setting_one_by_one(groups, limit):
 
 
 @given(groups, st.lists(st.tuples(st.integers(0, 40), transforms), max_size=8))
-@settings(max_examples=200)
 def test_single_samples_go_on_where_many_ended(groups, more):
     single, bulk = (Buffer(12, log=lambda *_: None) for _ in range(2))
     for parent, rows, _ in groups:
@@ -298,7 +296,6 @@ def records_of(rows):
 
 
 @given(groups)
-@settings(max_examples=200)
 def test_records_leave_what_columns_leave(drawn):
     columns, borrowed = (
         Buffer(seconds(1000), log=lambda level, text: None, max_frames=100) for _ in range(2)

@@ -4,7 +4,7 @@ import math
 import struct
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies import rotations
@@ -103,7 +103,6 @@ inserts = st.lists(
 
 
 @given(inserts, st.integers(0, 30), st.lists(st.integers(-2, 62), max_size=20))
-@settings(max_examples=300)
 def test_a_naive_model_agrees(steps, limit, questions):
     history, model = History(limit), Model(limit)
     for stamp, parent, x, turn in steps:

@@ -10,7 +10,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies import transforms
@@ -109,7 +109,6 @@ def same(ours, plain, tolerance=0.0):
         st.one_of(samples, samples, lookups, lookups, fulls, whether, statics, others), max_size=25
     )
 )
-@settings(max_examples=150)
 def test_whatever_is_set_and_asked_both_answer_alike(calls):
     twins = Twins(seconds(2))
 
@@ -120,7 +119,9 @@ def test_whatever_is_set_and_asked_both_answer_alike(calls):
     assert twins.logs[0] == twins.logs[1]
 
 
-@given(st.lists(transforms, min_size=2, max_size=8), st.lists(st.integers(1, 9 * 10**8)))
+@given(
+    st.lists(transforms, min_size=2, max_size=8), st.lists(st.integers(1, 9 * 10**8), max_size=8)
+)
 def test_between_samples_both_give_the_same(poses, moments):
     twins = Twins(seconds(100))
     for number, pose in enumerate(poses):
@@ -138,10 +139,10 @@ def test_between_samples_both_give_the_same(poses, moments):
 
 
 @pytest.mark.parametrize(("links", "place_bound"), [(1, 0.0), (5, 1e-15)])
-def test_two_million_lookups_differ_by_rounding_only(links, place_bound):
-    compared, place, turn = worst(2 * 10**6, links)
+def test_many_lookups_differ_by_rounding_only(links, place_bound):
+    compared, place, turn = worst(2 * 10**5, links)
 
-    assert compared == 2 * 10**6
+    assert compared == 2 * 10**5
     assert place <= place_bound
     assert turn <= 1e-15
 
@@ -154,7 +155,7 @@ def test_a_rotation_through_many_links_is_of_length_one():
         turns = random.normal(size=(2, 4))
         twins.ask("set_transforms", f"f{link}", f"f{link + 1}", stamps, np.zeros((2, 3)), turns)
 
-    moments = random.integers(seconds(1), seconds(2), 1000)
+    moments = random.integers(seconds(1), seconds(2), 200)
     for found in twins.ask("lookup_transforms", "f0", f"f{links}", moments):
         assert np.abs(np.linalg.norm(found.rotations, axis=1) - 1.0).max() < 1e-15
     for moment in moments.tolist():
@@ -229,7 +230,7 @@ def test_late_samples_are_put_where_they_belong_while_a_batch_reads(monkeypatch)
     twins = Twins(seconds(1))
     random = Random(4)
     held = []
-    for number in range(1500):
+    for number in range(500):
         # In order, somewhat late, before all others, far too late, and again an existing stamp.
         late = random.choice([0, 0, 0, random.randrange(40), 90, 130])
         stamp = (100 + number // 2 - late) * 10**7 + random.choice([0, 0, number])
@@ -322,7 +323,6 @@ class Bare(Door):
 
 
 @given(st.data())
-@settings(max_examples=150)
 def test_fields_that_no_history_has_are_survived(data):
     from tftool.buffer.history import History
 
@@ -386,7 +386,6 @@ def test_what_the_collector_runs_in_the_middle_of_an_insert_is_survived():
 
 
 @given(st.data())
-@settings(max_examples=150)
 def test_lengths_that_no_batch_has_are_survived(data):
     from tftool.buffer import _kernel
     from tftool.buffer.history import History, StaticLink
@@ -537,7 +536,7 @@ def test_first_and_later_questions_of_a_pair_are_answered_as_in_plain_python(see
     for call, sample in grown(random, frames):
         twins.ask(call, sample, "me")
     answered = 0
-    for _ in range(400):
+    for _ in range(100):
         ends = f"f{random.randrange(frames)}", f"f{random.randrange(frames)}"
         moment = random.choice((0, 0, seconds(1), seconds(2.25), seconds(3.5), seconds(5)))
         for _ in range(random.choice((1, 1, 3))):
@@ -545,7 +544,7 @@ def test_first_and_later_questions_of_a_pair_are_answered_as_in_plain_python(see
             assert same(ours, plain)
             answered += isinstance(ours, TransformStamped)
             assert same(*twins.ask("can_transform", *ends, moment))
-    assert answered > 50
+    assert answered > 12
 
 
 def test_pairs_that_are_asked_for_once_take_no_memory():

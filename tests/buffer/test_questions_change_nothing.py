@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tftool.base.errors import LookupException, TransformException
@@ -56,7 +56,6 @@ CIRCLE_ABOVE = [
 
 @given(st.lists(steps, min_size=1, max_size=30), st.sampled_from(PAIRS), st.sampled_from(MOMENTS))
 @example(CIRCLE_ABOVE, ("t", "s"), 1)
-@settings(max_examples=150)
 def test_a_buffer_that_was_asked_everything_answers_as_one_that_was_asked_nothing(
     world, pair, moment
 ):

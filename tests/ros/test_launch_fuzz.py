@@ -43,7 +43,6 @@ def changed(draw):
 
 
 @given(changed())
-@settings(max_examples=100)
 @example(("yaml", "launch:\n- ? [a]\n  : {b: c}\n"))
 @example(("yaml", "launch: &a\n- group: *a\n"))
 @example(("yaml", "launch:\n- log: {message: 2020-13-45}\n"))

@@ -97,7 +97,6 @@ def test_any_text_is_read_or_refused(text):
     st.integers(min_value=0, max_value=12),
     st.sampled_from(PIECES) | st.sampled_from(WORDS) | st.text(max_size=5),
 )
-@settings(max_examples=150, deadline=None)
 def test_a_damaged_scenario_is_read_or_refused(text, place, length, piece):
     start = int(place * len(text))
 
@@ -105,13 +104,12 @@ def test_a_damaged_scenario_is_read_or_refused(text, place, length, piece):
 
 
 @given(trees | scenarios)
-@settings(max_examples=150, deadline=None)
 def test_any_tree_of_values_is_read_or_refused(tree):
     read(yaml.safe_dump(tree, allow_unicode=True))
 
 
 @given(st.binary(max_size=200))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_any_bytes_are_read_or_refused(tmp_path_factory, raw):
     path: Path = tmp_path_factory.mktemp("fuzz") / "raw.yaml"
     path.write_bytes(raw)

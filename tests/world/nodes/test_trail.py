@@ -62,7 +62,7 @@ def test_a_stroke_is_seen_at_both_ends_however_thin(x0, y0, x1, y1, width):
     assert trail.color_at(x1, y1) == RED
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(
     st.tuples(*[st.floats(20, 60)] * 4),
     st.integers(1, 9),

@@ -87,7 +87,7 @@ def test_a_command_lives_for_exactly_one_second(age, speed):
     assert turtle.pose.linear_velocity == speed
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.lists(st.tuples(st.integers(0, 60), twists), max_size=8), st.booleans())
 def test_whatever_is_commanded_the_turtle_stays_in_the_field(commands, holonomic):
     world = new_world()
@@ -106,7 +106,7 @@ def test_whatever_is_commanded_the_turtle_stays_in_the_field(commands, holonomic
         assert pose.linear_velocity >= 0.0
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(st.lists(st.tuples(st.floats(0, 2), twists), max_size=5))
 def test_two_runs_are_equal_to_the_last_bit(commands):
     def lived():
@@ -167,7 +167,7 @@ def test_a_push_against_the_wall_is_told_once_a_second_and_counted_every_time():
     assert len(told) == 3
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.floats(0.001, 0.015), st.floats(0.001, 0.015), twists)
 def test_when_within_a_tick_a_command_comes_does_not_matter(early, late, twist):
     def lived(moment):
@@ -180,7 +180,7 @@ def test_when_within_a_tick_a_command_comes_does_not_matter(early, late, twist):
     assert lived(early) == lived(late)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(
     st.lists(
         st.one_of(
