@@ -1,4 +1,4 @@
-"""All checks of the project as one command: `python -m tests`.
+"""Everything that must hold, as one command: `python -m tests`.
 
 Formatter, linter, layers, types, plain English, then the tests. Words after the command go to
 pytest: `python -m tests -k history` runs less. `python -m tests --coverage` judges
@@ -10,9 +10,8 @@ import sys
 from pathlib import Path
 
 PYTHON = [sys.executable, "-m"]
-# Many tests wait for other processes, so two processes of tests take little more than half of the
-# time.
-WHOLE = ["-n2", "--dist=worksteal"]
+# Many tests wait for other processes, so three at a time keep two processors busy.
+WHOLE = ["-n3", "--dist=worksteal"]
 COVERAGE = [*WHOLE, "--cov", "--cov-report=term", "--cov-fail-under=90"]
 
 CHECKS = [
@@ -25,9 +24,9 @@ CHECKS = [
 
 
 def main(words: list[str]) -> int:
-    """Run every check, the tests last; stop at the first check that fails."""
+    """Run every check, tests last; stop at the first that fails."""
     root = Path(__file__).resolve().parent.parent
-    # A selection of tests covers only a part of the code, so coverage is judged for all tests only.
+    # A part of the tests covers a part of the code, so only the whole is judged.
     tests = [*PYTHON, "pytest", *(COVERAGE if words == ["--coverage"] else words or WHOLE)]
     for command in [*CHECKS, tests]:
         print("$", *command, flush=True)  # noqa: T201
