@@ -120,7 +120,8 @@ if TYPE_CHECKING:
     from tftool.opener import open_frames
     from tftool.recordings.recording import Recording, open_recording
     from tftool.recordings.recording_writer import RecordingWriter, write_recording
-    from tftool.robots.robot_model import JointStates, Robot, load_urdf
+    from tftool.robots.joint_motion import JointStates
+    from tftool.robots.robot_model import Robot, load_urdf
     from tftool.world.clock import Clock, Phase, SimClock, WallClock, run
     from tftool.world.node import Node
     from tftool.world.supervisor import live
@@ -230,7 +231,8 @@ _HOMES = {
     "tftool.notebook": ("PageView", "view"),
     "tftool.frames.export.export": ("Exported", "export"),
     "tftool.recordings.recording": ("Recording", "open_recording"),
-    "tftool.robots.robot_model": ("JointStates", "Robot", "load_urdf"),
+    "tftool.robots.joint_motion": ("JointStates",),
+    "tftool.robots.robot_model": ("Robot", "load_urdf"),
     "tftool.recordings.recording_writer": ("RecordingWriter", "write_recording"),
     "tftool.drawing.figure": ("plot",),
     "tftool.base.stamps": ("LATEST", "as_seconds", "seconds"),

@@ -298,6 +298,17 @@ def test_a_scenario_that_asks_no_doctor_is_played_without_numpy(tmp_path):
     assert imported_by([line], {"numpy", "tftool.doctor"}, tmp_path / "heavy") == ""
 
 
+def test_the_tree_of_a_robot_is_drawn_without_numpy(tmp_path):
+    robot = tmp_path / "arm.urdf"
+    robot.write_text(
+        '<robot name="arm"><link name="base"/><link name="tip"/><joint name="turn" '
+        'type="continuous"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>'
+        "</robot>"
+    )
+
+    assert imported_by([f"tree {robot}"], {"numpy", "asyncio"}, tmp_path / "heavy") == ""
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_it_quietly_with_130(number):
     with start("static", "0", "0", "3", "0", "0", "3.14", "A", "B") as process:

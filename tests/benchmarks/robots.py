@@ -11,7 +11,8 @@ import numpy as np
 import tftool
 from tests.benchmarks import page
 from tftool.base.stamps import seconds
-from tftool.robots.robot_model import JointStates, Robot
+from tftool.robots.joint_motion import JointStates
+from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 from tftool.world.nodes.joints import MovingRobot
 from tftool.world.world import World

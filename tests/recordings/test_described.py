@@ -8,7 +8,7 @@ import pytest
 import tftool
 from tests.recordings.writers import SECOND, Sent, write_mcap, write_rosbag1, write_rosbag2
 from tests.robots.test_robot import TEXT
-from tftool.robots.robot_model import JointStates
+from tftool.robots.joint_motion import JointStates
 from tftool.robots.urdf import parse_description
 
 START = 1_750_000_000 * SECOND

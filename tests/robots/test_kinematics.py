@@ -5,7 +5,8 @@ import io
 import numpy as np
 import pytest
 
-from tftool.robots.robot_model import JointStates, Robot
+from tftool.robots.joint_motion import JointStates
+from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 
 yourdfpy = pytest.importorskip("yourdfpy", reason="yourdfpy is not installed")

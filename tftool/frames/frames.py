@@ -146,7 +146,7 @@ class Frames:
         """Return sentences about damage, missing frames and joints without a position."""
         if self._recording is None:
             return self._notes
-        from tftool.frames.frame_files import recording_notes
+        from tftool.frames.recording_frames import recording_notes
 
         return tuple(recording_notes(self._recording))
 

@@ -1,9 +1,9 @@
 """Conversions between quaternions and roll pitch yaw, matrices, axis and angle, Euler angles.
 
 Roll, pitch, yaw are rotations about fixed axes: x, then y, then z. This module computes them, and
-the axis and angle of a quaternion, with plain floats: commands print these numbers, and importing
-transforms3d takes 120 ms. transforms3d computes all other Euler angles, and quaternions from
-matrices and from axis and angle. It is imported at the first call. Only this module converts to its
+converts between quaternions and an axis with an angle, with plain floats: commands need these
+numbers, and importing transforms3d takes 120 ms. transforms3d computes all other Euler angles, and
+quaternions from matrices. It is imported at the first call. Only this module converts to its
 quaternion order, w first.
 """
 
@@ -177,10 +177,9 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
         raise ValueError(
             f"({x}, {y}, {z}) is not an axis: the numbers must be finite and not all zero"
         )
-    from transforms3d.quaternions import axangle2quat
-
-    return xyzw_from_wxyz(
-        float(number) for number in axangle2quat((x / length, y / length, z / length), angle, True)
+    sine = math.sin(angle / 2.0)
+    return Quaternion(
+        x / length * sine, y / length * sine, z / length * sine, math.cos(angle / 2.0)
     )
 
 

@@ -18,7 +18,8 @@ from tftool.messages.codec import Codec
 from tftool.messages.layouts import CDR, ROS1
 from tftool.recordings.container_reader import Recorded, short_type
 from tftool.recordings.contract import RecordedTopic
-from tftool.robots.robot_model import JointStates, Robot, set_still
+from tftool.robots.joint_motion import JointStates
+from tftool.robots.robot_model import Robot, set_still
 from tftool.robots.urdf import LARGEST, parse_description
 
 JOINT_STATE: Final = "sensor_msgs/JointState"

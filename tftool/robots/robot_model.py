@@ -2,79 +2,27 @@
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
 from tftool.base.plain_text import did_you_mean
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
 from tftool.robots.description import RobotDescription, RobotJoint, RobotLink
 from tftool.robots.urdf import load_description
 
+if TYPE_CHECKING:
+    # Numpy, which one pose does not need, takes longer to import than all of this.
+    import numpy.typing as npt
+
+    from tftool.robots.joint_motion import Floats, JointColumns, JointStates, Records
+
 MOST_NAMED = 12
 """Maximum number of joints that an error message lists."""
-
-Floats: TypeAlias = npt.NDArray[np.float64]
-
-Records: TypeAlias = npt.NDArray[np.int64]
-
-
-Stamps: TypeAlias = npt.NDArray[np.int64]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class JointStates:
-    """Positions of some joints at many times.
-
-    Attributes:
-        names: Names of the joints, in the order of the columns.
-        stamps: Nanoseconds, shape (n,).
-        positions: Radians or metres, shape (n, len(names)).
-    """
-
-    names: Sequence[str]
-    stamps: Stamps
-    positions: Floats
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "names", tuple(self.names))
-        object.__setattr__(self, "stamps", np.asarray(self.stamps, dtype=np.int64))
-        object.__setattr__(self, "positions", np.asarray(self.positions, dtype=np.float64))
-        count = len(self.stamps) if self.stamps.ndim == 1 else -1
-        if self.positions.shape != (count, len(self.names)):
-            raise ValueError(
-                f"stamps has shape {self.stamps.shape} and positions {self.positions.shape}, but "
-                f"{len(self.names)} joints need (n,) and (n, {len(self.names)})"
-            )
-        if len(set(self.names)) != len(self.names):
-            raise ValueError("a joint is named twice")
-
-    def __len__(self) -> int:
-        return len(self.stamps)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class JointColumns:
-    """Poses of one joint's child in its parent, for many joint states.
-
-    Attributes:
-        joint: The joint.
-        translations: Metres, shape (n, 3).
-        rotations: Unit quaternions x y z w, shape (n, 4).
-    """
-
-    joint: RobotJoint
-    translations: Floats
-    rotations: Floats
 
 
 class Robot:
@@ -201,7 +149,7 @@ class Robot:
                     poses.append(TransformStamped(stamp, joint.parent, joint.child, pose))
         return tuple(poses)
 
-    def batch(self, names: Sequence[str], positions: npt.ArrayLike) -> tuple[JointColumns, ...]:
+    def batch(self, names: Sequence[str], positions: "npt.ArrayLike") -> "tuple[JointColumns, ...]":
         """Return the poses of the children of moved joints, for many joint states.
 
         As in robot_state_publisher, joints that mimic one of the joints `names` are included.
@@ -214,22 +162,16 @@ class Robot:
             UsageError: If a joint is unknown or does not move.
             ValueError: If the shape does not fit.
         """
-        columns = np.asarray(positions, dtype=np.float64)
-        if columns.ndim != 2 or columns.shape[1] != len(names):
-            raise ValueError(
-                f"positions has shape {columns.shape}; {len(names)} joints need (n, {len(names)})"
-            )
+        from tftool.robots.joint_motion import joint_columns, position_columns
+
+        columns = position_columns(names, positions)
         for name in names:
             self._check_joint(name)
-        return tuple(
-            JointColumns(joint, poses[:, :3], poses[:, 3:])
-            for joint, values in self._moved(names, columns)
-            for poses in (_poses(joint, values, np.empty((len(values), 7))),)
-        )
+        return joint_columns(self._moved(names, columns))
 
     def motion(
-        self, states: JointStates, wanted: Callable[[RobotJoint], bool] | None = None
-    ) -> Iterator[tuple[RobotJoint, Records]]:
+        self, states: "JointStates", wanted: Callable[[RobotJoint], bool] | None = None
+    ) -> "Iterator[tuple[RobotJoint, Records]]":
         """Yield the poses of moved joints' children over time, in the memory layout of a buffer.
 
         As in robot_state_publisher, unknown names and fixed joints are ignored, and a mimic joint
@@ -243,25 +185,21 @@ class Robot:
         Returns:
             For each joint its samples, one per row, shape (n, 8), as for `Buffer.set_records`.
         """
+        from tftool.robots.joint_motion import joint_records
+
         places = [
             place
             for place, name in enumerate(states.names)
             if name in self.joints and self.joints[name].moves
         ]
-        names = [states.names[place] for place in places]
-        for joint, values in self._moved(names, states.positions[:, places]):
-            if wanted is not None and not wanted(joint):
-                continue
-            stamps = states.stamps
-            known = np.isfinite(values)
-            if not known.all():
-                stamps, values = stamps[known], values[known]
-            records = np.empty((len(values), 8), dtype=np.int64)
-            records[:, 0] = stamps
-            _poses(joint, values, records.view(np.float64)[:, 1:])
-            yield joint, records
+        moved = self._moved([states.names[place] for place in places], states.positions[:, places])
+        return joint_records(
+            states.stamps, (one for one in moved if wanted is None or wanted(one[0]))
+        )
 
-    def _moved(self, names: Sequence[str], columns: Floats) -> Iterator[tuple[RobotJoint, Floats]]:
+    def _moved(
+        self, names: Sequence[str], columns: "Floats"
+    ) -> "Iterator[tuple[RobotJoint, Floats]]":
         """Yield the joints in `names` and the joints that mimic these, each with its positions."""
         given = {name: columns[:, place] for place, name in enumerate(names)}
         chosen = frozenset(given)
@@ -274,7 +212,7 @@ class Robot:
                     yield joint, factor * given[leader.name] + offset
 
     def buffer(
-        self, given: Mapping[str, float] | JointStates | Iterable[JointStates] | None = None
+        self, given: "Mapping[str, float] | JointStates | Iterable[JointStates] | None" = None
     ) -> Buffer:
         """Return a buffer with the frames of all links.
 
@@ -296,7 +234,7 @@ class Robot:
         for joint in self.joints.values():
             if not joint.moves and joint.type != "floating":
                 set_still(buffer, joint)
-        for states in [given] if isinstance(given, JointStates) else given:
+        for states in given if isinstance(given, Iterable) else [given]:
             for joint, records in self.motion(states):
                 buffer.set_records(joint.parent, joint.child, records, joint.name)
         return buffer
@@ -398,23 +336,3 @@ def _pose(joint: RobotJoint, position: float) -> Transform:
         x, y, z = joint.axis
         return joint.origin @ Transform((x * position, y * position, z * position))
     return joint.origin
-
-
-def _poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
-    """Write the poses of a joint's child at many positions into `poses`, shape (n, 7)."""
-    poses[:, :3] = joint.origin.translation
-    turn = np.array(joint.origin.rotation)
-    if joint.type == "prismatic":
-        along = batch.rotate(turn[np.newaxis], np.array([joint.axis]))[0]
-        for place in range(3):
-            poses[:, place] += positions * along[place]
-        poses[:, 3:] = turn
-        return poses
-    # turn · (axis · sin, cos) is a sum of two products that are the same for all positions.
-    quarter = batch.multiply(turn, np.array([*joint.axis, 0.0]))
-    half = 0.5 * positions
-    sine, cosine = np.sin(half), np.cos(half)
-    for place in range(4):
-        np.multiply(sine, quarter[place], out=poses[:, 3 + place])
-        poses[:, 3 + place] += cosine * turn[place]
-    return poses

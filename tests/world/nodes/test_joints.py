@@ -7,7 +7,8 @@ from tests.world.nodes.harness import After, At, log_texts, new_world, play
 from tftool.base.errors import ExtrapolationException, LookupException, UsageError
 from tftool.base.stamps import seconds
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.robots.robot_model import JointStates, Robot
+from tftool.robots.joint_motion import JointStates
+from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 from tftool.world.nodes.joints import (
     LATCHED,

@@ -11,7 +11,7 @@ from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import recording_view
-from tftool.frames.frame_files import odometry_notes
+from tftool.frames.recording_frames import odometry_notes
 from tftool.frames.source_options import DescriptionOptions
 from tftool.opener import named
 from tftool.recordings.find import Kind, fetched

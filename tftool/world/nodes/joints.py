@@ -16,7 +16,8 @@ from tftool.world.world import World
 
 if TYPE_CHECKING:
     from tftool.robots.description import RobotJoint
-    from tftool.robots.robot_model import JointStates, Robot
+    from tftool.robots.joint_motion import JointStates
+    from tftool.robots.robot_model import Robot
 
 JOINT_STATES: Final = "joint_states"
 DESCRIPTION: Final = "robot_description"
