@@ -15,6 +15,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tftool as library
+from tests.full_disk import full_disk
 from tftool import Buffer, Transform, TransformStamped, seconds
 from tftool.base.errors import InputError
 from tftool.frames.export import trajectory_files
@@ -435,17 +436,13 @@ def test_what_does_not_fit_is_said(
     assert sorted(tmp_path.iterdir()) == before
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of a process are POSIX")
 @pytest.mark.parametrize("name", ["a.tum", "a.kitti", "a.csv", "a.npz", "a.mcap", "a.urdf"])
 def test_a_full_disk_leaves_nothing(tftool, run, tmp_path, name):
-    resource = pytest.importorskip("resource", reason="limits of file sizes are a thing of Unix")
     pair = () if name.endswith(("mcap", "urdf")) else ("odom", "base")
     before = sorted(tmp_path.iterdir())
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (100, hard))
-    try:
+    with full_disk(100):
         result = tftool("export", *pair, run, "-o", tmp_path / name)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
     assert result.status == 3
     assert "cannot be written" in result.err

@@ -242,8 +242,10 @@ def test_a_file_that_cannot_be_completed_leaves_the_one_before(tmp_path, words):
     kept = tmp_path / "kept.txt"
     kept.write_text("before")
     code = (
-        "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (20, 20));"
-        "from tftool.app.main import main; sys.exit(main())"
+        "from tests.full_disk import full_disk\n"
+        "from tftool.app.main import main\n"
+        "with full_disk(20):\n"
+        "    raise SystemExit(main())\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", code, *words, kept], capture_output=True, text=True, cwd=ROOT

@@ -12,6 +12,7 @@ from mcap.records import Attachment, DataEnd, Footer, Metadata
 from mcap.stream_reader import StreamReader
 
 import tftool
+from tests.full_disk import full_disk
 from tests.recordings.writers import numbers
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.channel import Channel
@@ -197,27 +198,18 @@ def test_what_a_killed_writer_leaves_is_read_up_to_its_last_chunk(tmp_path):
 
 
 def test_a_full_disk_leaves_the_whole_chunks_readable(tmp_path):
-    import resource
-    import signal
-
     path = tmp_path / "a.mcap"
     writer = McapWriter(path, compression="none", chunk_size=3000)
     channel = writer.channel(Channel("/a", "Kind", "json", "jsonschema", b"{}"))
-    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, limits[1]))
 
     def fill():
         for number in range(100):
             writer.write(channel, 100 + number, bytes(970))
 
-    try:
+    with full_disk(20_000):
         with pytest.raises(OSError, match="too large"):
             fill()
         writer.rescue()
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-        signal.signal(signal.SIGXFSZ, ignored)
 
     with tftool.open_recording(path) as recording:
         found = [one.log_time for one in recording.raw_messages("/a")]

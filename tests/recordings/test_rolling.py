@@ -9,6 +9,7 @@ pytest.importorskip("mcap", reason="reads what is written")
 from mcap.reader import SeekingReader
 from mcap.stream_reader import StreamReader
 
+from tests.full_disk import full_disk
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
@@ -167,19 +168,12 @@ def test_a_quiet_session_is_written_after_a_second_too(tmp_path):
 
 
 def test_a_full_disk_is_said_and_what_was_written_can_be_read(tmp_path):
-    import resource
-    import signal
-
     rolling = RollingRecording(tmp_path / "a.mcap", compression="none")
-    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (12_000, limits[1]))
-    try:
-        with pytest.raises(InputError, match="messages up to there can be read in") as refused:
-            drive(rolling, 400)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-        signal.signal(signal.SIGXFSZ, ignored)
+    with (
+        full_disk(12_000),
+        pytest.raises(InputError, match="messages up to there can be read in") as refused,
+    ):
+        drive(rolling, 400)
     rolling.close()
 
     (name,) = os.listdir(tmp_path)

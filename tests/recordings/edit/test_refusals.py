@@ -1,13 +1,13 @@
 """Tests of refused edits, and of the files that an interrupted edit leaves."""
 
 import os
-import signal
 
 import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
 
+from tests.full_disk import full_disk
 from tests.recordings.edit.outcomes import NEW_POSE, SENT, messages
 from tests.recordings.writers import CONTAINERS, write_mcap
 from tftool.base.errors import InputError, UsageError
@@ -89,17 +89,8 @@ def test_an_interrupt_leaves_nothing_behind(tmp_path, name):
 
 
 def test_a_full_disk_is_said_and_leaves_nothing_behind(tmp_path, mcap):
-    import resource
-
-    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, limits[1]))
-    try:
-        with pytest.raises(InputError, match="cannot be written"):
-            edit([str(mcap)], tmp_path / "out.mcap", Edits())
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-        signal.signal(signal.SIGXFSZ, ignored)
+    with full_disk(10_000), pytest.raises(InputError, match="cannot be written"):
+        edit([str(mcap)], tmp_path / "out.mcap", Edits())
 
     assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
 
