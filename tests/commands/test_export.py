@@ -241,7 +241,7 @@ def test_what_is_refused_is_left_out_and_said(tftool, run, tmp_path):
     result = tftool("export", "odom", "base", run, "-o", path, "--every", "0.5", "--to", "2.5")
 
     assert len(path.read_text().splitlines()) == 1 + 3
-    assert "3 of 6 moments have no pose" in result.err
+    assert "3 of 6 times have no pose" in result.err
     assert "extrapolation into the future" in result.err
 
 
