@@ -111,6 +111,8 @@ def test_messages_become_mappings_yaml_and_csv():
         message = get_message("geometry_msgs/msg/PointStamped")()
         set_message_fields(message, {"header": {"frame_id": "map"}, "point": {"x": 1.5}})
 
+        with pytest.raises(AttributeError, match="'Point' object has no attribute 'w'"):
+            set_message_fields(message, {"point": {"w": 1.0}})
         assert isinstance(message, PointStamped)
         assert message_to_ordereddict(message)["point"] == {"x": 1.5, "y": 0.0, "z": 0.0}
         assert "frame_id: map" in message_to_yaml(message)

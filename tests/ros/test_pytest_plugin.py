@@ -74,11 +74,16 @@ def test_a_failure_the_test_never_waits_for_is_told_at_its_end():
         runtime.start(main)
 
 
-def test_a_test_file_may_import_rclpy_at_its_top_with_ros_free(pytester):
+def test_a_test_file_may_use_ros_at_its_top_with_ros_free(pytester, monkeypatch):
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
     pytester.makepyfile(
         """
+        import os
+
         import rclpy
         from std_msgs.msg import String
+
+        assert os.environ["ROS_DISTRO"]
 
         def test_hello():
             rclpy.init()

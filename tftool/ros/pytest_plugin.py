@@ -63,14 +63,16 @@ def _provide(root: Path) -> None:
     """
     if not _imports:
         from tftool.ros.host import program
-        from tftool.ros.host.importing import ros_modules
+        from tftool.ros.host.importing import environment, ros_modules
         from tftool.ros.host.workspace import Workspace
         from tftool.ros.launch import packages
 
-        imports = ros_modules()
+        # For modules of tests and their fixtures; each test enters both again.
+        variables, imports = environment(), ros_modules()
+        variables.__enter__()
         # Tests sleep and start threads as nodes do, so they need the same time.
         imports.__enter__().tested = root
-        _imports.append(imports)
+        _imports.extend((variables, imports))
         # The workspace around the tests: its interfaces, its packages' share folders and modules.
         workspace = Workspace(root)
         packages.use(workspace)

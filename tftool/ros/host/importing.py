@@ -329,12 +329,12 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
             f"a real ROS 2 is sourced ({found}): run the file with it, or add --ros-free to "
             "run it without ROS"
         )
-    with own_arguments(), _environment(), ros_modules() as finder:
+    with own_arguments(), environment(), ros_modules() as finder:
         yield finder
 
 
 @contextmanager
-def _environment() -> Iterator[None]:
+def environment() -> Iterator[None]:
     """Set environment variables as a sourced ROS 2 does, inside this block.
 
     `ROS_DISTRO`, which launch files read, keeps an existing value. `PATH` begins with the folder of

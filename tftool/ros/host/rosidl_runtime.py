@@ -239,13 +239,19 @@ def get_message_slot_types(msg: Any) -> "OrderedDict[str, str]":
     return OrderedDict(msg.get_fields_and_field_types())
 
 
-def set_message_fields(msg: Any, values: Any, **_: Any) -> None:
+def set_message_fields(msg: Any, values: Mapping[str, Any], **_: Any) -> None:
     """Set fields of a message from a mapping, as `ros2 topic pub` does.
 
     Raises:
-        UsageError: If a field is unknown, or a value has the wrong type; the text names the field.
+        AttributeError: If the message has no such field.
+        UsageError: If a value has the wrong type; the text names the field.
     """
-    fill(msg, values)
+    for name, value in values.items():
+        current = getattr(msg, name)
+        if isinstance(current, Message) and isinstance(value, Mapping):
+            set_message_fields(current, value)
+        else:
+            fill(msg, {name: value})
 
 
 def get_message(identifier: str) -> Any:
