@@ -126,8 +126,11 @@ def test_build_folders_and_hidden_ones_hold_no_packages(tmp_path):
 def test_a_workspace_is_found_from_inside_a_package(tmp_path):
     for name in ("a", "b"):
         package(tmp_path / "src" / name, package__xml=f"<package><name>{name}</name></package>")
+    for folder in ("src", "test"):  # of a package in C++
+        (tmp_path / "src" / "b" / folder).mkdir()
 
-    assert set(Workspace(tmp_path / "src" / "a").packages) == {"a", "b"}
+    for start in ("a", "b", "b/test"):
+        assert set(Workspace(tmp_path / "src" / start).packages) == {"a", "b"}
     with pytest.raises(UsageError, match="there are a, b"):
         Workspace(tmp_path / "src" / "a").package("zzz")
 
@@ -183,7 +186,7 @@ def test_interfaces_of_a_package_named_as_a_module_of_python_are_left_out(tmp_pa
     package(odd / "msg", Ball__msg="float64 radius\n")
     found = Workspace(tmp_path)
 
-    assert "cannot be named 'sys'" in found.skipped[0]
+    assert "'sys' has the name of a module of Python" in found.skipped[0]
     with RosRuntime():
         import sys as again
 

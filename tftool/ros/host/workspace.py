@@ -138,10 +138,12 @@ class Workspace:
             if parent.name == "src":
                 roots.append(parent)
                 break
-            if (parent / "src").is_dir():
+            is_package = any((parent / mark).is_file() for mark in MARKS)
+            # The src of a package in C++ contains its sources, and no packages.
+            if (parent / "src").is_dir() and not is_package:
                 roots.append(parent / "src")
                 break
-            if len(roots) == 1 and any((parent / mark).is_file() for mark in MARKS):
+            if len(roots) == 1 and is_package:
                 roots.append(parent)
         return roots
 
