@@ -54,7 +54,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class PlacedLabel:
-    """Label with its first cell, and whether it is so far that a line must lead to its frame."""
+    """Label with the position of its first cell, and whether a line connects it with its frame."""
 
     label: Label
     column: int

@@ -48,7 +48,8 @@ class RecordOptions(Command, looks_only=True):
         "Keep only the last SECONDS, in memory, and write them when the recording ends."
     )
     finding: str | None = option(
-        "Stop when the doctor has this finding, and write the last minute, or the time of --ring.",
+        "Stop when the doctor has this finding, and write the messages of the last minute, or of "
+        "the time of --ring.",
         "--on",
         metavar="FINDING",
         panel=WHEN,

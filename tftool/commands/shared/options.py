@@ -439,7 +439,7 @@ Light = Annotated[
 Rows = Annotated[
     Path | None,
     option(
-        "Write rows to a .jsonl, .csv or .parquet file, whatever the number of recordings.",
+        "Write rows to a .jsonl, .csv or .parquet file, also for a single recording.",
         "--output",
         "-o",
         metavar="FILE",
