@@ -229,7 +229,7 @@ def _read_frames(word: str) -> list[str]:
 
         return list(load_urdf(word).links)
     if not found.kind.is_recording:
-        raise UsageError("its frames are unknown until it runs")
+        raise UsageError("the frames of a scenario are unknown until the scenario runs")
     kept = frames_kept(found)
     if kept is None and not key_of(found):
         from tftool.recordings.column_cache import ColumnCache

@@ -146,7 +146,7 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
     if not is_plain(topic.name.strip("/")):
         raise InputError("the topic's name is not valid in ROS 2")
     if topic.encoding not in ("cdr", "ros1"):
-        raise InputError(f"its messages are encoded as '{topic.encoding}', which ROS 2 cannot read")
+        raise InputError(f"the encoding of the messages, '{topic.encoding}', is unknown in ROS 2")
     full = full_name(topic.type)
     if topic.encoding == "ros1":
         if not INTERFACES.has(full):
@@ -160,7 +160,7 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
         return full, convert
     if not INTERFACES.has(full):
         if not topic.definition.strip():
-            raise InputError(f"its type {topic.type} is unknown, and not defined in the recording")
+            raise InputError(f"the type {topic.type} is unknown, and not defined in the recording")
         INTERFACES.define(full, topic.definition)
     INTERFACES.message(full)
     return full, None

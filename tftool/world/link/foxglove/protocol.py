@@ -338,7 +338,7 @@ def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
         assert decode is not None
         return _foreign(decode)
     if channel.encoding not in ("cdr", "ros1"):
-        raise InputError(f"the encoding of its messages, '{channel.encoding}', is unknown")
+        raise InputError(f"the encoding of the messages, '{channel.encoding}', is unknown")
     theirs = _definitions(channel)
     if channel.encoding == "cdr":
         full = ros_topic(channel).type

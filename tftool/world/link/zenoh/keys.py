@@ -229,7 +229,7 @@ def _named_attachment(raw: bytes) -> Attachment:
     for name in _NAMED[:2]:
         value = position + len(name)
         if raw[position:value] != name or len(raw) < value + 8:
-            raise MalformedMessage("attachment", f"its field {name[1:].decode()} is missing")
+            raise MalformedMessage("attachment", f"the field {name[1:].decode()} is missing")
         numbers.append(_NUMBERS.unpack_from(raw, value)[0])
         position = value + 8
     # The sender's bytes are preceded by their number.
@@ -237,7 +237,7 @@ def _named_attachment(raw: bytes) -> Attachment:
     name = _NAMED[2] + b"\x10"
     gid = rest[len(name) :]
     if not rest.startswith(name) or len(gid) != 16:
-        raise MalformedMessage("attachment", "its field source_gid is missing")
+        raise MalformedMessage("attachment", "the field source_gid is missing")
     return Attachment(numbers[0], numbers[1], gid)
 
 
