@@ -146,7 +146,7 @@ class PlanePicture:
     nowhere: tuple[str, ...] = ()
 
     def bounds(self) -> Box:
-        """Return the box around the picture, with a margin unless everything is on the field."""
+        """Return the box around the picture; if anything is beside the field, with a margin."""
         field = None if self.field is None else _box(self.field.corners())
         points = [(one.x, one.y) for one in self.frames]
         if len(self.trails.ends):

@@ -103,7 +103,7 @@ def keys(playback: Playback, *, ascii_only: bool = False) -> list[tuple[str, str
 
 
 def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette) -> Text:
-    """Return the timeline: findings in their colours, and above them the position."""
+    """Return the timeline: findings as coloured spans, and the position drawn over the spans."""
     share = playback.done / playback.total if playback.total > 0 else 1.0
     full = round(room * min(max(share, 0.0), 1.0))
     solid, empty = ("#", ".") if ascii_only else ("━", "─")

@@ -336,7 +336,7 @@ def _terminal_settings() -> Any:
 
 
 def _pass_over(number: int, frame: FrameType | None) -> None:
-    """Do nothing: the signal was also written to the socket."""
+    """Do nothing, because the stopper's thread reads the signal from a socket."""
 
 
 def _nothing() -> None:

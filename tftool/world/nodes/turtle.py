@@ -468,7 +468,7 @@ def requested_placement(request: Any) -> Placement:
 
 
 def require_byte(value: int, what: str) -> int:
-    """Return a colour channel's value if it is from 0 to 255; else raise an error with its name.
+    """Return a colour channel's value if it is from 0 to 255; else raise an error about `what`.
 
     Raises:
         UsageError: If the number is not a whole number from 0 to 255.
