@@ -68,8 +68,7 @@ def open_frames(
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
 
-    Several recordings are merged in order of time. This function also works inside a running event
-    loop.
+    Several recordings are merged in order of time. The call also works inside an event loop.
 
     Args:
         place: Source of the frames, also an address ws://robot:8765; None for the running session.

@@ -89,8 +89,7 @@ def as_object(found: Calibration, check: dict[str, object] | None = None) -> dic
 
     Args:
         found: The calibration.
-        check: Comparison with the mounting pose that the recording publishes; None if it publishes
-            none.
+        check: Comparison with the published mounting pose; None if none is published.
     """
     clock = None
     if found.clock_offset is not None and found.clock is not None:

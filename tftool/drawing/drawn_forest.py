@@ -17,8 +17,7 @@ class Forest:
 
     Attributes:
         roots: Frames without a parent, and one frame of every loop.
-        loops: Those `roots` that have a parent; the edge to that parent closes a loop, and is not
-            drawn.
+        loops: Those `roots` that have a parent; the edge to it closes a loop, and is not drawn.
         children: Children to draw of every drawn frame, in order of registration.
         hidden: Number of frames left out below a drawn frame, by the drawn frame's name.
         info: Every frame of the snapshot by its name.

@@ -97,8 +97,7 @@ def plot(
 
     Args:
         frames: Opened frames, a recording, a buffer or a robot; or one or several series of poses.
-            Frames are looked up at every stamp of the edge with the most samples between `source`
-            and `target`.
+            Lookups are at the stamps of the edge with most samples between `source` and `target`.
         target: Frame in which the poses are expressed; None with series of poses.
         source: Frame whose poses are drawn; None with series of poses.
         ax: Axes for one panel; None for a new figure with all panels.

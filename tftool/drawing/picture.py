@@ -106,8 +106,7 @@ def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str
 
     Args:
         snapshot: Frames to draw.
-        most: Most frames to draw; the deepest frames are left out, and the picture shows their
-            number.
+        most: Most frames to draw; if there are more, the picture shows how many are left out.
         stale: Frames that are not published any more; their cards show their age.
     """
     forest = grow(snapshot, most=most)

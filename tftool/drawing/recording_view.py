@@ -241,8 +241,7 @@ def table(
         heads: Headings of the columns.
         rows: Cells of each row.
         width: Longest line in cells; None for no limit.
-        goes: Headings of columns that may be narrowed or left out if the table is too wide, in this
-            order.
+        goes: Headings of columns to narrow or leave out if the table is too wide, in this order.
         right: Headings of columns to align to the right, as numbers are.
     """
     widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]

@@ -32,8 +32,7 @@ def lines(
     Args:
         found: Output of `tftool session --json`.
         verbose: Whether to list the services that every node has.
-        width: Width of the terminal in cells, to which long lists are wrapped; None for one line
-            per list.
+        width: Cells of a line, to which long lists are wrapped; None for one line per list.
         height: Lines of the terminal; if the output is longer, it is shortened. None for no limit.
         ascii_only: Whether to draw with ASCII only.
     """

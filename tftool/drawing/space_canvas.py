@@ -271,8 +271,7 @@ def _named(
 ) -> list[tuple[SpaceFrame, str, int, Sequence[float]]]:
     """Return (frame, label, number of frames, position) for each position that has frames.
 
-    The order is: the chosen frame, the frames of the pair, frames without children, roots, all
-    other frames.
+    The order is: the chosen frame, the pair's frames, frames without children, roots, other frames.
     """
     labels: dict[tuple[int, int], list[int]] = {}
     parents = {one.parent for one in picture.frames}

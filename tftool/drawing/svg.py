@@ -1,8 +1,7 @@
 """SVG file of a tree picture, and an HTML page with the picture and a table.
 
 Both are self-contained files that follow the viewer's light or dark scheme and load nothing. The
-page has a script that fits, moves and searches the picture; without scripts, everything is still
-shown.
+page has a script that fits, moves and searches the picture; without it, everything is still shown.
 """
 
 import math

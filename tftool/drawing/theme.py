@@ -45,8 +45,7 @@ def blend(start: Color, end: Color, share: float) -> Color:
 def of_name(name: str) -> Color:
     """Return a name's colour, the same in every run on every machine.
 
-    Names that end in a number use successive colours, so that `turtle1` and `turtle2` never look
-    alike.
+    Names that end in a number use successive colours: `turtle1` and `turtle2` never look alike.
     """
     stem = name.rstrip("0123456789")
     number = name[len(stem) :][-9:]

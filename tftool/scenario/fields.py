@@ -2,8 +2,7 @@
 
 A reader is a function from a node to a value. A reader that cannot read the value records the
 mistake and raises `Unreadable`. A reader of several values catches this exception and continues
-with the next value, so that one pass finds all mistakes. The readers of single values are in
-`units`.
+with the next value, so that one pass finds all mistakes. `units` has readers of single values.
 """
 
 import re
@@ -193,8 +192,7 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
         read: Reader of the value.
         default: Default value; without a default, the key is required.
         key: Key in the scenario, if it is not a valid name in Python.
-        beside: Whether the key is written next to the key that names the class, not inside that
-            key's value.
+        beside: Whether the key is next to the key that names the class, not inside its value.
     """
     return DeclaredField(read, default[0] if default else REQUIRED, key, beside)
 

@@ -100,8 +100,7 @@ class _ScenarioReader:
         duration: Duration of the scenario; None until it is read.
         names: Names of the scenario's nodes; None until all nodes are read.
         looks: Total number of times at which the expectations read so far are judged.
-        not_a_tree: Positions of nodes whose edges contradict each other (two parents of a frame, or
-            a loop).
+        not_a_tree: Positions of nodes whose edges contradict each other (two parents, or a loop).
     """
 
     def __init__(self, given: Mapping[str, str], expects: bool) -> None:

@@ -60,8 +60,7 @@ class Play:
         Args:
             scenario: Scenario to play.
             clock: Clock of the world.
-            stand_ins: For nodes to replace, functions that start the replacement, by the name of
-                the node.
+            stand_ins: Functions that start the replacement of a node, by the node's name.
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)

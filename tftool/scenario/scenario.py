@@ -55,8 +55,7 @@ class When:
     """Times at which an expectation is judged, in nanoseconds since the start.
 
     Attributes:
-        kind: "at" one time; "by" a time, before which the condition must hold once; or "during" a
-            period.
+        kind: "at" one time; "by" a time, before which it must hold once; or "during" a period.
         first: First time of judging.
         last: Last time of judging.
         every: Interval between the times of judging.

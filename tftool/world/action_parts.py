@@ -89,8 +89,7 @@ class ActionParts:
             name: Name of the action.
             interface: Type of the action, "package/action/Name".
             on_feedback: Function called with each FeedbackMessage.
-            on_status: Function called with the states of all goals when the state of a goal
-                changes.
+            on_status: Function called with all goals' states when the state of a goal changes.
             warn: Function called with a sentence for the log.
         """
         self._world = world

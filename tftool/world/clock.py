@@ -289,14 +289,14 @@ class WallClock(Clock):
 
         Args:
             rate: Seconds of the clock per real second.
-            epoch: First time, such as the start of a recording; None for the present time less the
-                head start.
+            epoch: First time, such as a recording's start; None for the present less the head
+                start.
             head_start: Nanoseconds of the past to simulate first, as fast as possible, so that the
                 world is already moving when a user first sees it.
 
         Raises:
-            ValueError: If `rate` is not a positive number between a billionth and a
-                billion, the head start negative, or the epoch not after 0.
+            ValueError: If `rate` is not a positive number between a billionth and a billion, the
+                head start negative, or the epoch not after 0.
         """
         # Beyond these rates, real durations would not be finite numbers of seconds.
         if not 1e-9 <= rate <= 1e9:
@@ -518,8 +518,8 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
     """Run a coroutine to its end on an event loop of `clock`.
 
     The first SIGINT or SIGTERM cancels the coroutine, so that every `finally` runs. Code that does
-    not end within two seconds is named on stderr. A second signal ends the process with status 130
-    at once.
+    not end in two seconds is named on stderr. A second signal ends the process at once, with status
+    130.
 
     Returns:
         Result of the coroutine.

@@ -1,8 +1,7 @@
 """Memory limit for the transforms of a live world; above it, the oldest samples are dropped.
 
 Like tf2's, a buffer prunes only by time. So a publisher with a very high rate, or with stamps a
-nanosecond apart, could fill the memory of every subscriber. Recordings have no such limit, because
-they end.
+nanosecond apart, could fill the memory of every subscriber. Recordings end, so they have no limit.
 """
 
 import os

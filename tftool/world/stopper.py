@@ -242,8 +242,7 @@ class Stopper:
 def leave_screen() -> None:
     """Restore the terminal of a full-screen app; registered in `Clock.when_killed`.
 
-    This ends the alternate screen, shows the cursor, and ends the reports of mouse, focus and
-    pasted text.
+    This ends the alternate screen and the reports of mouse, focus and pastes, and shows the cursor.
     """
     for number in (2, 1):
         if os.isatty(number):

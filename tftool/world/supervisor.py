@@ -23,8 +23,7 @@ class Resident:
     Attributes:
         name: Name, unique in the world.
         rank: Number in the order of joining; within a phase, lower numbers run first.
-        is_shown: Whether lists of nodes show this name. It is false for a program, whose nodes are
-            shown instead.
+        is_shown: Whether lists of nodes show the name; false for a program, whose nodes are shown.
     """
 
     name: str

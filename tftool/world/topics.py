@@ -1,7 +1,6 @@
 """Typed topics within one process, goals of actions, and servers by name.
 
-Delivery is a direct call: `publish` calls every subscriber, in the order of subscription, before it
-returns.
+Delivery is direct: `publish` calls every subscriber, in order of subscription, and then returns.
 """
 
 import asyncio
@@ -29,14 +28,11 @@ class Topic(Generic[T]):
         kind: Type of the values.
         count: Number of values that were published.
         latest: Value that was published last; None before the first value.
-        on_demand: Function called when a subscriber is added or removed; None without other
-            processes.
+        on_demand: Function called when a subscriber is added or removed; None without a session.
         sender: Publisher of the value that is being delivered; None if unknown.
-        relay: Function that sends values to other processes, called last; None without other
-            processes.
+        relay: Function that sends values to other processes, called last; None without a session.
         far_subscribers: Number of subscribers in other processes.
-        is_far: Whether the topic is only listed, because other processes use it and this process
-            does not.
+        is_far: Whether the topic is only listed: other processes use it, and this process does not.
         is_removed: Whether the world has removed the topic; another topic may have its name by now.
     """
 
@@ -181,8 +177,7 @@ class GoalHandle:
         feedback: Last feedback; None before the first feedback.
         on_cancel: Function called when the client requests cancellation, for a server that decides
             by `decide_cancel`; None for a server that always agrees.
-        decided: Future of whether the server accepts the goal; None for a server that accepts every
-            goal.
+        decided: Future of whether the server accepts the goal; None if it accepts every goal.
         patience: Seconds to wait until a server in another process accepts the goal or a
             cancellation; None for no limit.
         goal_id: Id of 16 bytes.

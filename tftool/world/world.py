@@ -381,8 +381,8 @@ class World:
     ) -> Callable[[], None]:
         """Call `callback` with each goal of an action, before the server receives it.
 
-        Returns a function that ends the calls. Exceptions of the callback are reported under the
-        name `owner`.
+        Returns a function that ends the calls. Exceptions of the callback are reported under
+        `owner`.
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
@@ -401,8 +401,7 @@ class World:
             name: Name of the action.
             goal: Goal message.
             on_feedback: Function called with each feedback.
-            patience: Seconds to wait until a server in another process accepts the goal; None for
-                no limit.
+            patience: Seconds to wait until another process accepts the goal; None for no limit.
             goal_id: Id of 16 bytes for the goal; None for a new id.
 
         Raises:

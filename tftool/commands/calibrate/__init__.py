@@ -16,8 +16,7 @@ class CalibrateOptions(Command, shares=False, poses=True):
     such as odometry and a camera's SLAM, or an arm and a tag on it. The result is the pose of one
     moving frame in the other (the mount), the pose of one fixed frame in the other, and the clock
     offset, each with a 95 % interval. If the motions do not determine the mount, a sentence says
-    which motion to record next. The exit status is 0 if the mount is solved or partly solved, else
-    1.
+    which motion to record next. The exit status is 0 if the mount is solved, also partly, else 1.
 
     tftool calibrate run.mcap --moving odom:base_link --moving world:camera
     tftool calibrate arm.bag --moving base:tool0 --moving camera:tag

@@ -281,8 +281,7 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
     """Assign each value of --moving to the file that has its frames.
 
     Raises:
-        UsageError: If values are missing, or one motion is computed from the published mounting
-            pose.
+        UsageError: If values are missing, or one motion includes the published mounting pose.
     """
     if len(opened) == 1:
         if len(words) != 2:

@@ -147,8 +147,7 @@ async def watch_session(
 ) -> None:
     """Listen to a world and write a report once a period.
 
-    Time is counted from the moment when the frames are connected. The last report is written at the
-    end.
+    Time is counted from when the frames are connected. The last report is written at the end.
 
     Args:
         world: World to listen to.

@@ -131,8 +131,7 @@ def _run_command(connection: Connection, words: list[str]) -> int:
     """Print and run another tftool command, in the same session.
 
     Raises:
-        UsageError: If options connect to another machine; the user must give them to the tftool
-            command.
+        UsageError: If options connect to another machine; they must be given to the other command.
     """
     if connection.reach.is_asked:
         raise UsageError(

@@ -281,8 +281,7 @@ def read(
 ) -> Connection:
     """Create a connection from the values of a command's options.
 
-    `reach` contains the options of the middlewares; `address` is a session's address, if FROM is an
-    address.
+    `reach` has the options of the middlewares; `address` is FROM, if FROM is a session's address.
 
     Raises:
         UsageError: If options contradict each other.

@@ -207,8 +207,7 @@ class Invocation(NamedTuple):
     """Data passed from `main` to a command, as the `obj` of click's context.
 
     Attributes:
-        providers: Functions that create clocks and connections to other processes; None except in
-            tests.
+        providers: Functions that create clocks and connections to processes; None except in tests.
         run: Function that runs another command line of tftool, and returns its exit status.
     """
 

@@ -57,8 +57,7 @@ class PairWait:
         """Wait until the transform can be looked up.
 
         Args:
-            newer_than: Newest stamp from a publisher that has left; only data with later stamps
-                ends the wait.
+            newer_than: Newest stamp of a publisher that has left; only later stamps end the wait.
 
         Raises:
             TransformException: If the transform is not available in time, or never will be.

@@ -270,8 +270,7 @@ class LiveDisplays:
     def round(self) -> dict[str, bytes]:
         """Return the packed data of topics with new messages, up to a limit of bytes per call.
 
-        Topics that exceed the limit are first in the next call. Calls follow the rate of the pages'
-        updates.
+        Topics that exceed the limit are first in the next call. Calls follow the pages' updates.
         """
         told: dict[str, bytes] = {}
         room = MOST_BYTES

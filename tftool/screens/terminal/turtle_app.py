@@ -1,8 +1,7 @@
 """Terminal app of demo and teleop: field, tree, a pair of frames, log; keys drive a turtle.
 
 The screen observes a world, and changes it only by the keys passed to `press`. The screen shows the
-world's time. The number of pictures per second of real time is fixed, however fast the world's time
-runs.
+world's time. The number of pictures per real second is fixed, however fast world time runs.
 """
 
 import asyncio
@@ -52,7 +51,7 @@ class TurtleApp(PanelApp):
 
     Args:
         scene: Scene to show.
-        press: Function called with a key that drives, such as "up" or "g"; None if no turtle can be
+        press: Function called with a key that drives, such as "up"; None if no turtle can be
             driven.
         setting: Options of the screen.
         idle: Node that draws while no key is pressed; None if there is none.

@@ -33,8 +33,7 @@ class LinkOption:
 class Reach:
     """Networks and processes that a middleware may use, beyond this machine's own processes.
 
-    Subclasses are frozen dataclasses. An object made without arguments opens nothing to the
-    outside.
+    Subclasses are frozen dataclasses. Without arguments, an object opens nothing to the outside.
     """
 
     __slots__ = ()

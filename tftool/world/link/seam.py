@@ -100,8 +100,7 @@ class Middleware:
     """This process in a ROS graph. Names have no leading slash.
 
     `Reach.join` creates an instance. No other process of this machine can join until `settle` or
-    `close` is called. A method that a middleware does not override announces nothing, or refuses to
-    write.
+    `close` is called. A method that is not overridden announces nothing, or refuses to write.
 
     Attributes:
         graph: Graph of the other processes; filled before the constructor returns.

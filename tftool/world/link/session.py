@@ -55,8 +55,7 @@ class Link(LinkContext):
         decide at the same time whether to host.
 
         Raises:
-            LinkError: If the session's folder cannot be used, or the middleware is missing or
-                refuses.
+            LinkError: If the session's folder is unusable, or the middleware is missing or refuses.
         """
         super().__init__(options, options.reach.join(options))
         self._nodes: dict[str, Callable[[], None]] = {}

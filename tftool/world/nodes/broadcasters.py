@@ -215,8 +215,7 @@ class Noise(Node):
 
     Each broadcast has its own error, normally distributed in each coordinate and about each axis.
     The drift is a random walk in the plane: after t seconds it is normally distributed, with the
-    square root of t times the value for one second. The same seed gives the same errors on every
-    machine.
+    square root of t times the value for one second. Equal seeds give equal errors on every machine.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST

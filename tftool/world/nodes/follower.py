@@ -52,8 +52,8 @@ class Follower(Node):
             period: Nanoseconds between two commands.
             delay: Age of the leader's pose to follow, nanoseconds.
             fixed_frame: Frame that does not move during the delay, through which the lookup goes.
-                If None, both frames are looked up in the past, so that the turtle steers by its own
-                past pose.
+                If None, both frames are looked up in the past, and the turtle steers by its past
+                pose.
             distance_gains: Gains from a distance in metres to a speed in m/s.
             bearing_gains: Gains from an angle in radians to a turn rate in rad/s.
             dead_band: Distance in metres at which the leader counts as reached.

@@ -88,8 +88,8 @@ class RobotStatePublisher(Node):
             name: Name of the node.
             robot: The robot, whose description is also published.
             frame_prefix: Prefix of every frame's name, such as `left/`.
-            publish_frequency: Largest rate in hertz at which a joint's frame is broadcast; 0 for
-                every message.
+            publish_frequency: Largest rate in hertz at which a joint is broadcast; 0 for every
+                message.
             ignore_timestamp: Whether to broadcast every message's frames, whatever its stamp.
             topics: Topics of joint states and of the description.
 

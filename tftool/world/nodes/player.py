@@ -70,8 +70,7 @@ class Player(Node):
             rate: Seconds of the recording per second of `pace`.
             is_paused: Whether to begin paused.
             is_looping: Whether to start again at the end.
-            is_restamped: Whether to replace each stamp by the time of sending, and publish no
-                `/clock`.
+            is_restamped: Whether to replace stamps by the time of sending, and publish no `/clock`.
             is_silent: Whether to publish no `/clock` although the recording's stamps are kept.
             names_topics: Whether to name the topic as the sender of a transform if the sending node
                 was not recorded. If false, this node is named.

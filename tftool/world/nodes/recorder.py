@@ -57,8 +57,7 @@ class Recorder:
         Args:
             world: World of the topics.
             taker: Receiver of every message.
-            link: Connection through which the world has joined a session; None for a world of this
-                process only.
+            link: Connection to the session that the world has joined; None if it joined none.
             names: Further topics to record, without a leading slash.
             everything: Whether to record all topics.
             clock: Clock for the time of reception; None for `pace_of(world.clock)`.

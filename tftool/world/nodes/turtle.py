@@ -184,8 +184,7 @@ class Turtle:
             draw: Function called with the strokes of teleports.
 
         Returns:
-            Stroke of the motion, to be drawn after the colour sensor was read; None if nothing is
-            drawn.
+            Stroke of the motion, to draw after the colour sensor was read; None if there is none.
         """
         if self._settled:
             return None

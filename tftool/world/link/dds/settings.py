@@ -85,8 +85,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
         environment: Environment variables of ROS 2; None for this process's.
 
     Raises:
-        LinkError: If a place is neither an interface nor an address, or the environment forbids
-            discovery.
+        LinkError: If a place is no interface and no address, or the environment forbids discovery.
     """
     variables = os.environ if environment is None else environment
     interfaces: list[str] = []

@@ -275,8 +275,7 @@ class RosTopic(NamedTuple):
 
     Attributes:
         name: Name of the topic, without a leading slash.
-        type: Type, such as "sensor_msgs/msg/LaserScan"; the type's name on the server if ROS has no
-            such type.
+        type: Type, such as "sensor_msgs/msg/LaserScan"; the server's type if ROS has no such type.
     """
 
     name: str

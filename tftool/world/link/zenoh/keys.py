@@ -1,7 +1,6 @@
 """zenoh's names for ROS: types and hashes, keys, tokens (announcements), attachments.
 
-The names are those of ROS 2 over zenoh (`rmw_zenoh`), so that the other process can be a ROS 2
-node.
+The names are those of ROS 2 over zenoh (`rmw_zenoh`), so the other process can be a ROS 2 node.
 """
 
 import hashlib
@@ -244,7 +243,6 @@ def _named_attachment(raw: bytes) -> Attachment:
 def gid_of(token: str) -> bytes:
     """Return the 16-byte gid of a publisher, derived from its token.
 
-    ROS 2 also derives gids from tokens, with another hash function. Gids are only compared for
-    equality.
+    ROS 2 also derives gids from tokens, with another hash. Gids are only compared for equality.
     """
     return hashlib.blake2b(token.encode(), digest_size=16).digest()

@@ -41,8 +41,7 @@ class Certificates:
         """Check the content of each file, because zenoh's own errors do not name the file.
 
         Raises:
-            InputError: If a file is not a PEM file of its kind, or the key belongs to another
-                certificate.
+            InputError: If a file is not of its kind, or the key belongs to another certificate.
         """
         import ssl
 

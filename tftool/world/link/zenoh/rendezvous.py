@@ -119,8 +119,7 @@ class Rendezvous:
         folder: Folder of the members' sockets.
         endpoint: Endpoint of this process, in zenoh's notation.
         password: Password of this folder's members; "" if the sockets' permissions suffice.
-        others: Endpoints of the other members that responded when `enter` ran, with their process
-            ids.
+        others: Endpoints and process ids of other members that responded when `enter` ran.
     """
 
     def __init__(self, domain: int, home: Path | None = None) -> None:
