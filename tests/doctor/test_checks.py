@@ -42,10 +42,10 @@ def test_two_statics_with_different_parents_are_a_fight_too():
     made.static("laser", "camera", at=0.5)
     alone = found(made, "two-parents")
     assert set(alone.edges) == {("base_link", "camera"), ("laser", "camera")}
-    assert alone.consequence.startswith("camera loses its connection to one root")
-    made.static("camera", "lens")
-    both = found(made, "two-parents").consequence
-    assert both.startswith("camera, lens lose their connection to one root")
+    # Both parents are on the robot, so that a lookup finds a way through either.
+    assert alone.severity is Severity.WARNING
+    made.static("tripod", "camera", at=0.6)
+    assert found(made, "two-parents").severity is Severity.ERROR
 
 
 def away(t: float) -> tuple[float, ...]:
@@ -109,7 +109,7 @@ def test_a_wheel_that_is_zero_every_other_time_has_joint_states_of_two_sources()
     conflict = found(made, "publisher-conflict")
     assert conflict.severity is Severity.WARNING
     assert "one value 101 times, others 99 times, by turns" in conflict.evidence[0]
-    assert "joint_state_publisher that sends zeros" in conflict.fixes[0].text
+    assert conflict.fixes[0].text.startswith("find who publishes joint states")
 
 
 def test_a_mount_with_two_values_that_hardly_differ_is_no_error():
@@ -132,13 +132,14 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
     assert conflict.facts["apart"] == pytest.approx(0.04)
     assert conflict.confidence is Confidence.LIKELY
     assert conflict.evidence[0].startswith("base_link in odom: A and B, 10 stamps carry two values")
-    assert conflict.severity is Severity.ERROR
+    # Without names of publishers, the values are no proof.
+    assert conflict.severity is Severity.WARNING
 
     few = robot()
     for at in (2.0, 5.0):
         few.sent("odom", "base_link", at, (0.5 * at + 0.04, 0.0, 0.0, *NO_TURN))
     conflict = found(few, "publisher-conflict")
-    assert (conflict.severity, conflict.confidence) == (Severity.WARNING, Confidence.POSSIBLE)
+    assert (conflict.severity, conflict.confidence) == (Severity.NOTE, Confidence.POSSIBLE)
     assert [fix.text.split(":")[0] for fix in conflict.fixes] == ["find its publishers"]
     assert "ros2 topic info --verbose /tf" in conflict.fixes[0].text
 
@@ -165,7 +166,7 @@ def test_one_node_with_two_values_on_tf_and_in_its_odometry_is_one_finding():
         made.sent("odom", "base_link", at, shifted)
         made.odometry.sent("odom", "base_link", at, shifted, topic="/odom")
 
-    assert ids(made) == ["publisher-conflict"]
+    assert ids(made, notes=True) == ["publisher-conflict"]
     conflict = found(made, "publisher-conflict")
     assert conflict.topics == ("/odom",)
     assert "2 stamps carry two values (and on /odom)" in conflict.evidence[0]
@@ -362,7 +363,9 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
 
     made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
     finding = found(made, "split-tree")
-    assert (finding.severity, finding.topics) == (Severity.ERROR, ("/image",))
+    assert (finding.severity, finding.topics) == (Severity.WARNING, ("/image",))
+    made.hears("/points", "camera_optical", kind="sensor_msgs/PointCloud2")
+    assert found(made, "split-tree").severity is Severity.ERROR
 
 
 def test_trees_that_nothing_joins_are_one_finding():
@@ -394,7 +397,7 @@ def test_wheels_of_one_message_with_two_publishers_are_one_finding():
         (("base_link", "left"), ("base_link", "right")),
         (("base_link", "head"),),
     ]
-    assert conflicts[0].message.startswith("left in base_link, right in base_link are published")
+    assert conflicts[0].message.startswith("left in base_link, right in base_link have two sources")
 
 
 def test_odometry_messages_say_which_transform_is_missing():
@@ -450,7 +453,7 @@ def test_a_frame_in_two_conventions_that_nothing_uses_is_a_note():
     made.static("map", "map_ned")
     assert found(made, "split-tree").severity is Severity.NOTE
     made.hears("/marker", "map_ned", kind="geometry_msgs/PoseStamped")
-    assert found(made, "split-tree").severity is Severity.ERROR
+    assert found(made, "split-tree").severity is Severity.WARNING
 
 
 def test_names_that_are_empty_or_equal():
@@ -471,6 +474,12 @@ def test_a_base_below_map_beside_odom_is_out_of_line():
     made.moving("map", "base_link")
     made.moving("map", "odom", pose=stands)
     assert found(made, "rep105-shape").edges == (("map", "base_link"),)
+    # The odom beside the robot is only there for its name.
+    assert (
+        "odom in map never moves, and nothing hangs from odom"
+        in (found(made, "rep105-shape").evidence[0])
+    )
+    assert "first stop its constant publisher" in found(made, "rep105-shape").fixes[0].text
 
     above = Robot()
     above.moving("odom", "map")

@@ -15,7 +15,9 @@ def test_a_frame_that_no_transform_names_is_told_with_what_fits():
     made.hears("/scan", "laser_frame")
     finding = found(made, "unknown-frame")
     assert (finding.frames, finding.topics) == (("laser_frame",), ("/scan",))
-    assert finding.fixes[0].text == "set frame_id of the driver to laser"
+    assert finding.fixes[0].text == (
+        "if laser is the frame of this sensor, set frame_id to it in the publisher of /scan"
+    )
 
 
 def test_a_slash_in_a_header_has_its_own_check():
@@ -87,8 +89,9 @@ def test_unknown_frames_with_one_cure_are_one_finding():
     made = robot()
     for name in ("utm", "wgs84"):
         made.hears(f"/{name}", name, kind="sensor_msgs/NavSatFix")
-    assert ids(made) == ["unknown-frame"]
+    assert ids(made, notes=True) == ["unknown-frame"]
     finding = found(made, "unknown-frame")
+    assert finding.severity is Severity.NOTE
     assert finding.message == "no transform names utm, wgs84"
     assert [line.split(" (")[0] for line in finding.evidence] == ["utm: /utm", "wgs84: /wgs84"]
 

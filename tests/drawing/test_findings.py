@@ -20,7 +20,7 @@ def jumping() -> Robot:
         "odom", "base_link", pose=lambda t: (0.5 * t + (2.5 if t > 5 else 0.0), 0, 0, *NO_TURN)
     )
     made.static("camera_link", "camera_optical", (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5))
-    made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
+    made.hears("/points", "camera_optical", kind="sensor_msgs/PointCloud2")
     return made
 
 
@@ -37,21 +37,20 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "made up: columns, 8.0 s, 2 topics, 5 frames, 2 trees, 402 transforms",
         "",
         "error  split-tree: camera_link is not joined to the tree of odom",
-        "       tree 2: camera_link, camera_optical; used by /image (80 messages)",
+        "       tree 2: camera_link, camera_optical; used by /points (80 messages)",
         "       so:  nothing in it can be placed in odom, and nothing of odom in it",
-        "       fix: nothing in the data says where to join camera_link: check the node that "
-        "should publish that (a driver, the robot description and its joint states, a "
-        "localiser)",
+        "       fix: nothing in the data says where to join camera_link: find the node that "
+        "should publish that",
         "",
         "warning  teleport: base_link in odom jumps 2.51 m within 20 ms",
         "       base_link in odom: 2.51 m and 0° at 1750000005.020, once; usual 0.5 m/s",
         "       so:  things placed before and after the jump do not fit together; REP-105 "
         "wants this transform "
         "continuous",
-        "       fix: check the source at that moment: encoder overflow, a reset of the filter, "
-        "wheel slip, a tracker that mistook the body",
+        "       fix: list the jumps, and compare them with the sensors at these times:",
+        "            tftool doctor RECORDING --steps --pair odom:base_link",
         "",
-        "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /image)"
+        "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /points)"
         " · coverage fine · robot description: skipped, no URDF given",
         "1 error, 1 warning. `tftool doctor --explain split-tree` tells more; "
         "`--markdown` prints this for an issue.",
@@ -61,10 +60,21 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
 def test_a_clean_report_counts_the_checks():
     diagnosis = robot().judged()
     last = shown(findings.render(diagnosis)).splitlines()[-1]
-    assert last == f"nothing found; {diagnosis.ran} checks ran, 8 skipped (--verbose says why)"
+    assert last == f"nothing found; {diagnosis.ran} checks ran, 9 skipped (--verbose says why)"
     assert "skipped: static-not-latched: what publishers offer" in shown(
         findings.render(diagnosis, verbose=True)
     )
+
+
+def test_notes_are_counted_and_shown_on_request():
+    made = robot()
+    made.hears("/image", "laser", kind="sensor_msgs/Image")
+    brief, whole = (shown(findings.render(made.judged(), verbose=v)) for v in (False, True))
+    assert brief.splitlines()[-1].endswith("; 1 note: --verbose")
+    assert "image-not-optical" not in brief
+    assert "note  image-not-optical" in whole
+    made.moving("odom", "base_link", end=5.0, pose=lambda _: (9.0, 0.0, 0.0, *NO_TURN))
+    assert "warning (1 more note: --verbose). " in shown(findings.render(made.judged()))
 
 
 def test_a_consequence_is_one_line_below_its_cause():

@@ -56,8 +56,9 @@ class Check:
             subject, ids of the checks separated by blanks). The first pair that fits is used. The
             subject is the thing that both findings must be about: "edge", "child" or "frame";
             "stream" (an edge or a topic); "path" (an edge on the path to the sensor, or the
-            topic); "gap" (like "path", but only if all late data is in gaps); or "anything"
-            (the findings need not have anything in common).
+            topic); "gap" (like "path", but only if all late data is in gaps); "mixed" (like
+            "child", but only if data of several publishers is mixed); or "anything" (the findings
+            need not have anything in common).
     """
 
     id: str

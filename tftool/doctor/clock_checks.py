@@ -8,7 +8,6 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
-from tftool.doctor.missing_joins import quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track
@@ -16,29 +15,22 @@ from tftool.doctor.wording import several, span
 
 check = checks_of(Area.CLOCKS)
 
-_SYNCHRONISE = (
-    Fix(
-        "synchronise the clocks: chrony with one computer as server, PTP for lidars, or "
-        "the driver's timestamp mode"
-    ),
-    Fix("a larger timeout does not help against a constant offset"),
-)
 _SET_CLOCK = Fix(
-    "set the clock of the computer that is off (chronyc tracking shows it): give it NTP or chrony"
+    "compare the clocks of the computers (`date`, `chronyc tracking`), and set the one that is off"
 )
-_PLAY_AGAIN = Fix(
-    "a recording was probably played beside nodes that run on the present time: {play_again}"
+_PLAY_AGAIN = Fix("a recording was played beside nodes that run on the present time: {play_again}")
+_LOOK = Fix(
+    "compare the clocks of the computers (`date`, `chronyc tracking`); if all agree, old data was "
+    "played beside new data: {play_again}"
+)
+_OLDER = Fix(
+    "compare the clocks of the robot and the recorder (`date`); if they agree, an older recording "
+    "was played again"
 )
 _BOTH = 0.05
 """Fraction of an edge's samples on another clock above which they come from a second source."""
 _PLAYED = seconds(3600)
 """Offset of stamps from which old data is likelier than two clocks."""
-_COMPARE = (
-    Fix(
-        "compare the clocks of the two computers (chronyc tracking); if they agree, or both "
-        "are one computer, the node needs that time: wait for it"
-    ),
-)
 
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two offsets, nanoseconds, that belong to one clock."""
@@ -82,10 +74,16 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     tracks = [one for one in odd if isinstance(one, Track)]
     heards = [one for one in odd if isinstance(one, Heard)]
     sample, usual = _example(odd, sim_is_odd), _example(others, not sim_is_odd)
-    # Without /clock there is no simulation that the other nodes follow.
-    is_unset = sim_is_odd and not len(read)
     setting = "false" if sim_is_odd else "true"
-    odd_clock = "a clock that was never set" if is_unset else "the simulation's clock"
+    names = ["the simulation's clock", "the wall clock"]
+    fix = Fix(model.words["sim_time"].format(setting=setting))
+    if not len(read):
+        names[0] = "a clock that counts from 1970"
+        fix = Fix(
+            "no /clock was recorded: a simulation, or a computer whose clock was never set; "
+            "{which_clock}"
+        )
+    odd_clock, usual_clock = names if sim_is_odd else names[::-1]
     yield Hit(
         edges=tuple(track.edge for track in tracks),
         topics=tuple(sorted({heard.topic for heard in heards})),
@@ -96,11 +94,11 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
             "odd": [one.name for one in odd],
             "odd_stamp": sample,
             "usual_stamp": usual,
-            "odd_clock": odd_clock if sim_is_odd else "the wall clock",
-            "usual_clock": "the wall clock" if sim_is_odd else "the simulation's",
+            "odd_clock": odd_clock,
+            "usual_clock": usual_clock,
             "setting": setting,
         },
-        fixes=(_SET_CLOCK if is_unset else Fix(model.words["sim_time"].format(setting=setting)),),
+        fixes=(fix,),
         alone=True,
     )
 
@@ -132,9 +130,8 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}",
     detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
     "stamps",
-    consequence="none for lookups within the recording; a live listener on another computer "
+    consequence="none for lookups within the recording; a live listener on the recorder's computer "
     "refuses all of it",
-    fixes=(Fix("set the clock of the robot (chrony, NTP), if it was not played again on purpose"),),
     causes=(
         "the robot's clock was never set: it has no battery and no network",
         "the recording was played again and recorded anew",
@@ -158,7 +155,10 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "of": model.shift.of,
             "most": "all" if model.shift.streams == model.shift.of else "most",
         },
+        # What was recorded before is stamped before its reception.
+        fixes=(_OLDER if model.shift.by > 0 else _SET_CLOCK,),
         alone=True,
+        loud=not model.was_played and not any(_is_unshifted(model, h) for h in model.heard),
     )
 
 
@@ -174,8 +174,8 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     " different moments",
     fixes=(
         Fix(
-            "lower the tolerance that is added to its stamp (transform_tolerance, "
-            "transform_time_offset), or set the publisher's clock"
+            "compare the clocks of the computers (`chronyc tracking`); if they agree, look for an "
+            "offset that the publisher adds to its stamps (transform_tolerance)"
         ),
     ),
     causes=(
@@ -228,7 +228,7 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
         for other in others
         if abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
     ]
-    told = f"; so are {several(also)}: their computer's clock is ahead" if also else ""
+    told = f"; so are {several(also)}" if also else ""
     return hit_of(track, {"ahead": ahead, "also": also, "clock": told}, severity=severity)
 
 
@@ -284,7 +284,7 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="the median latency is above {transforms:g} s for a transform (an error above the "
     "cache time) or {messages:g} s for messages",
     headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
-    detail="{what}: {late:span} late (median)",
+    detail="{what}: {late:span} late (median){varies}",
     consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
     causes=(
         "the stamp is copied from an old measurement",
@@ -325,22 +325,23 @@ _STEADY = seconds(0.1)
 
 def _late(model: Model, stream: "Track | Heard", name: str, severity: Severity) -> Hit:
     low, high = (int(one) for one in np.percentile(stream.latency, (10, 90)))
+    varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
     cure = (
-        "stamp each transform when it is made, not with the last measurement's stamp; compare the "
-        "clocks (chronyc tracking)"
+        "look for what delays these messages: the network, the recorder, a busy computer"
+        if varies
+        else "compare the clocks of the computers (`chronyc tracking`), and its stamps with those "
+        "of the data it is made from"
     )
-    queues = f"the delay varies by {span(high - low)}" if high - low > _STEADY else ""
     for other in model.heard:
         # Nobody dates a transform by a message that has not come.
         soon = 4 * abs(other.median_latency) < stream.median_latency
         if soon and np.isin(stream.stamps, other.stamps).mean() > 0.5:
-            queues = f"{other.topic} has the same stamps, {span(other.median_latency)} late"
-    if queues:
-        cure = (
-            f"{queues}: these messages wait in a queue, and no clock is wrong; look for a slow "
-            "network, a slow recorder or a busy computer; send less, or record on the robot"
-        )
-    facts = {"what": name, "late": stream.median_latency}
+            cure = (
+                f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
+                "messages wait in a queue, and no clock is wrong; look for a slow network, or "
+                "record on the robot"
+            )
+    facts = {"what": name, "late": stream.median_latency, "varies": varies}
     return hit_of(stream, facts, severity=severity, fixes=(Fix(cure),))
 
 
@@ -389,9 +390,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             steps = np.diff(np.sort(heard.stamps))
             allowed += float(np.median(steps)) if len(steps) else 0.0
         ahead = -heard.median_latency
-        # In a recording with a shift, a stream with the right clock differs from all others.
-        is_off = model.shift is not None and 2 * abs(ahead) > abs(model.shift.by)
-        if ahead > allowed or is_off:
+        if ahead > allowed or _is_unshifted(model, heard):
             same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
             alike[same].append(heard)
     groups = _offsets(model) if alike else []
@@ -402,7 +401,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         told = ""
         if model.shift is not None and len(heards) < len(streams):
             told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
-        twice, sources = _on_both_clocks(model, streams)
+        sources = _on_both_clocks(model, streams)
         yield Hit(
             edges=tuple(one.edge for one in streams if isinstance(one, Track)),
             topics=tuple(dict.fromkeys(heard.topic for heard in heards)),
@@ -419,22 +418,34 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "so": "no lookup across the two clocks can succeed"
                 if told
                 else "each lookup at these stamps asks for what is not there"
-                + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
+                + (
+                    " yet, by the same amount for ever; a larger timeout does not help"
+                    if ahead > 0
+                    else " any more"
+                ),
             },
-            fixes=(*cures_of_offset(model, ahead), *twice),
+            severity=Severity.ERROR if told and abs(ahead) > model.settings.cache_time else None,
+            fixes=(cure_of_offset(model, ahead),),
             alone=True,
         )
     if not alike:
         yield from _groups_apart(model, limits)
 
 
-def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tuple[Fix, ...], str]:
-    """Return remedies and evidence for edges whose samples come from two clocks.
+def _is_unshifted(model: Model, heard: Heard) -> bool:
+    """Whether messages are on the recorder's clock, in a recording whose other stamps are not."""
+    is_judged = len(heard.stamps) >= 3 and heard.is_spatial and model.shift is not None
+    by = 0 if model.shift is None else model.shift.by
+    return is_judged and 2 * abs(heard.median_latency) > abs(by)
+
+
+def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
+    """Return evidence for edges whose samples come from two clocks.
 
     Such an edge has two publishers: one on the wrong clock, and one on the clock that the other
     streams use.
     """
-    fixes, told = [], ""
+    told = ""
     for track in streams:
         near = np.abs(4 * track.latency) < abs(0 if model.shift is None else model.shift.by)
         if isinstance(track, Track) and np.mean(near) > _BOTH:
@@ -442,29 +453,22 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> tuple[tup
                 f"; {track.name} has two sources, {np.count_nonzero(near):,} of its samples are "
                 "on the clock of the others"
             )
-            drop = quoted(f"{track.parent}:{track.child}")
-            fixes.append(
-                Fix(
-                    f"stop one of the two; from a recording that is played, take {track.name} out:",
-                    f"tftool edit RECORDING -o CLEAN --drop {drop}",
-                )
-            )
-    return tuple(fixes), told
+    return told
 
 
-def cures_of_offset(model: Model, ahead: Duration) -> tuple[Fix, ...]:
-    """Return the remedies for stamps that differ from the time of reception.
+def cure_of_offset(model: Model, ahead: Duration) -> Fix:
+    """Return the next step for stamps that differ from the time of reception.
 
     Args:
         model: The evidence, prepared.
         ahead: Time by which stamps are later than reception, nanoseconds. A very long time means
             replayed data rather than two unsynchronised clocks.
     """
-    if abs(ahead) < _PLAYED:
-        return _SYNCHRONISE
+    if model.was_played:
+        return _PLAY_AGAIN
     # What was recorded before is stamped before its reception.
-    is_old = model.shift is not None and model.shift.by > 0
-    return (_PLAY_AGAIN if is_old else _SET_CLOCK,)
+    is_old = abs(ahead) > _PLAYED and model.shift is not None and model.shift.by > 0
+    return _LOOK if is_old else _SET_CLOCK
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -502,7 +506,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
                 "others, steadily: a delay in its driver, or another clock",
                 "so": "a delay is waited for; a clock that is off stays off",
             },
-            fixes=_COMPARE,
+            fixes=(_SET_CLOCK,),
             alone=True,
         )
 

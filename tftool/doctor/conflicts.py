@@ -1,13 +1,13 @@
 """Evidence that two sources publish one transform with different values."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.findings import Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import BASES, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Places, Track, last_part
 from tftool.doctor.wording import span
@@ -33,6 +33,8 @@ def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severit
 
     Such a conflict is small, or concerns a frame in which no sensor or child frame is placed.
     """
+    if hit.confidence is not Confidence.CERTAIN:
+        return Severity.NOTE if hit.confidence is Confidence.POSSIBLE else Severity.WARNING
     worst, turned = hit.facts["worst"], hit.facts["most_turned"]
     assert isinstance(worst, float)
     assert isinstance(turned, float)
@@ -40,10 +42,7 @@ def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severit
         poses = np.hstack((track.translations, track.rotations))[track.by_stamp]
         if len(np.unique(poses.round(6), axis=0)) == 2:
             return Severity.WARNING
-    has_users = any(one.is_spatial and one.frame == track.child for one in model.heard)
-    is_base = track.is_localisation or is_odometry(track) or last_part(track.child) in BASES
-    is_drawn_only = not has_users and len(model.below(track.child)) == 1 and not is_base
-    return Severity.WARNING if is_drawn_only else None
+    return Severity.WARNING if model.is_minor(track) else None
 
 
 def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
@@ -67,13 +66,11 @@ def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
     )
     told = _conflict(track, ("A", "B"), (moving, resting[near]), Confidence.LIKELY)
     text = f"one value {len(resting):,} times, others {len(moving):,} times, by turns"
-    seen = " (seen from the values; perhaps one publisher, fed by two sources of joint states)"
     cure = (
-        "find who publishes joint states: `{publishers} /joint_states`; stop a "
-        "joint_state_publisher that sends zeros beside the real source, or name that source in "
-        "its source_list"
+        "find who publishes joint states: `{publishers} /joint_states`; one of them always sends "
+        "one value"
     )
-    facts = {**told.facts, "told": text, "seen": seen}
+    facts = {**told.facts, "told": text}
     return replace(told, facts=facts, fixes=(Fix(cure),))
 
 
@@ -94,7 +91,11 @@ def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
         mine, theirs = places[senders == first], places[senders == second]
         stamps, others = track.stamps[mine], track.stamps[theirs]
         if stamps[0] > others[-1] or others[0] > stamps[-1]:
-            continue
+            # Publishers on two clocks send at the same time, with other stamps.
+            mine, theirs = (places[np.argsort(track.logs[places])] for places in (mine, theirs))
+            stamps, others = track.logs[mine], track.logs[theirs]
+            if stamps[0] > others[-1] or others[0] > stamps[-1]:
+                continue
         inside = (stamps >= others[0]) & (stamps <= others[-1])
         stamps, mine = stamps[inside], mine[inside]
         if len(mine) < limits["least"]:
@@ -132,11 +133,7 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     owned = (mine[differ], theirs[differ])
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
     hit = _conflict(track, ("A", "B"), owned, sure)
-    hit = replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
-    if sure is Confidence.POSSIBLE:
-        topic = track.topics[0] if track.topics else "/tf"
-        hit = replace(hit, fixes=(Fix(f"find its publishers: `{{publishers}} {topic}`"),))
-    return hit
+    return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
 
 
 def _count_returns(track: Track, firsts: Places) -> int:
@@ -318,9 +315,15 @@ def _conflict(
         late.append(int(np.median(track.latency[places])))
     known = confidence is Confidence.CERTAIN
     apart, turned = track.apart(*owned), track.turned(*owned)
-    seen = "" if known else " (seen from the values, publishers unknown)"
+    seen = f": {names[0]} and {names[1]}" if known else ", by turns"
     if not known and len(track.nodes) == 1 and len(track.publishers) == 1:
-        seen = f" (seen from the values; both by {track.nodes[0]}, which two sources may feed)"
+        seen = f", by turns, both sent by {track.nodes[0]}"
+    still = [
+        f"; all poses of {name} are equal"
+        for name, places in zip(names, owned, strict=True)
+        if known and _is_still(track, places)
+    ]
+    still = still if len(still) == 1 else []
     return Hit(
         edges=(track.edge,),
         publishers=names if known else track.nodes,
@@ -337,16 +340,23 @@ def _conflict(
             "rates": rates,
             "latencies": late,
             "told": f"{rates[0]:.3g} and {rates[1]:.3g} Hz, latencies {span(late[0])} and "
-            f"{span(late[1])}",
+            f"{span(late[1])}{''.join(still)}",
             "apart": float(np.median(apart)),
             "turned": float(np.median(turned)),
             "worst": float(np.max(apart)),
             "most_turned": float(np.max(turned)),
             "seen": seen,
         },
-        fixes=(switches_off(track),),
+        fixes=(find_publishers([track]),),
         alone=True,
     )
+
+
+def _is_still(track: Track, places: Places) -> bool:
+    """Whether all of some samples of an edge have one pose."""
+    first = np.full(len(places), places[0])
+    apart, turned = track.apart(places, first), track.turned(places, first)
+    return bool(apart.max() < 1e-6 and turned.max() < 1e-4)
 
 
 def is_odometry(track: Track) -> bool:
@@ -354,20 +364,10 @@ def is_odometry(track: Track) -> bool:
     return last_part(track.parent).startswith("odom")
 
 
-def switches_off(track: Track) -> Fix:
-    """Return the remedy to switch off one of an edge's two publishers.
-
-    The names of the edge's frames decide which setting the text names.
-    """
-    if track.is_localisation:
-        return Fix(
-            "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "
-            "publish_map_tf: false (ZED); a replayed transform: remove it from the recording:",
-            f"tftool edit RECORDING -o CLEAN --drop {quoted(f'{track.parent}:{track.child}')}",
-        )
-    if is_odometry(track):
-        return Fix("switch one of the odometry transforms off: {odometry_off}")
-    return Fix(
-        "stop one of the two publishers, or give the frames of one another name; for a joint, look "
-        "also for two publishers of its state"
-    )
+def find_publishers(tracks: Sequence[Track]) -> Fix:
+    """Return the next step if a transform has one publisher too many."""
+    nodes = sorted({node for track in tracks for node in track.nodes})
+    if len(nodes) > 1:
+        return Fix(f"stop all but one of its publishers: {', '.join(nodes)}")
+    topics = sorted({topic for track in tracks for topic in track.topics}) or ["/tf"]
+    return Fix("find its publishers: " + ", ".join(f"`{{publishers}} {topic}`" for topic in topics))

@@ -14,7 +14,7 @@ from tftool.doctor.gap_checks import gap, holes
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_checks import stands_still
-from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
+from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part, rate
 from tftool.doctor.wording import ALIKE, arrival, span
 from tftool.recordings.contract import Stamps
 
@@ -24,7 +24,8 @@ check = checks_of(Area.COVERAGE)
 @check(
     "static-missing",
     Severity.ERROR,
-    rule="no static topic has a message, and messages are in frames that tf does not know. "
+    rule="no static topic has a message, and messages are in frames that tf does not know. A "
+    "warning without a scan, a point cloud or a range among them. "
     "Not reported if there is no static topic and constants are sent on /tf, as in "
     "early ROS 1",
     headline="the statics are missing: {why}",
@@ -61,7 +62,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     why = "there is no /tf_static in it"
     if static:
         why = f"{static[0].name} is there and has no message"
-    cure = model.words["record"]
+    cure = "look whether the robot sends any: `{publishers} /tf_static`; if so, {record}"
     if model.lacks_state_publisher:
         why = "robot_state_publisher did not run (joint states came, but no transform of a joint)"
         cure = "start robot_state_publisher with the robot's description"
@@ -71,6 +72,9 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         topics=tuple(sorted({heard.topic for heard in unknown})),
         count=sum(len(heard.stamps) for heard in unknown),
         facts={"frames": names, "why": why},
+        severity=None
+        if any(last_part(heard.type) in PLACED for heard in unknown)
+        else Severity.WARNING,
         fixes=(Fix(cure),),
         alone=True,
     )
@@ -263,7 +267,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     "is {seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
     " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
     "{messages:g} messages, which are not markers or those of an IMU, a compass or a "
-    "satellite receiver",
+    "satellite receiver, nor odometry, paths or maps; a warning needs a share above {some:g}",
     headline="{topics} {topics:arrives|arrive} before the transforms {topics:it needs|they need}",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
@@ -281,7 +285,14 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         "SteveMacenski/slam_toolbox#576",
         "ApolloAuto/apollo#12088",
     ),
-    limits={"seconds": 0.1, "never": 0.05, "refused": 0.5, "note": 0.05, "messages": 5},
+    limits={
+        "seconds": 0.1,
+        "never": 0.05,
+        "refused": 0.5,
+        "some": 0.1,
+        "note": 0.06,
+        "messages": 5,
+    },
     needs=(
         "log times",
         "headers",
@@ -322,7 +333,7 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
     for heard in model.heard:
         if not heard.is_spatial or len(heard.stamps) < limits["messages"]:
             continue
-        if last_part(heard.type) in _NOT_PLACED:
+        if last_part(heard.type) in _NOT_PLACED or heard.type.startswith("nav_msgs/"):
             continue
         if heard.frame in around or last_part(heard.frame) in _WORLDS:
             continue  # it is placed in the world without the robot's pose
@@ -352,7 +363,9 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
         (waits.serves(50), waits.serves(95), int(served.max())) if len(served) else (0, 0, 0)
     )
     refused = float(np.count_nonzero(waits.waits > 0)) / len(waits.waits)
-    if p95 > limits["seconds"] * NANOSECONDS or never > limits["never"]:
+    if refused > limits["some"] and (
+        p95 > limits["seconds"] * NANOSECONDS or never > limits["never"]
+    ):
         severity = Severity.WARNING
     elif refused > limits["refused"] and p95 > limits["note"] * NANOSECONDS:
         severity = Severity.NOTE
@@ -386,6 +399,7 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
         severity=severity,
         fixes=_cures(heard, waits, limits["seconds"]),
         alone=True,
+        loud=True,
     )
 
 
@@ -597,4 +611,4 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
 def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recorder was killed, or the file is damaged: only the first part was read."""
     if model.evidence.damage:
-        yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True)
+        yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True, loud=True)

@@ -8,6 +8,7 @@ import numpy as np
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.stamp_stream import PLACED, last_part
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import unit
 from tftool.robots.description import RobotJoint
@@ -44,7 +45,7 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
     "joint-without-state",
     Severity.ERROR,
     rule="a movable joint that follows no other is in no JointState of the recording, and no"
-    " transform has its link",
+    " transform has its link. A warning without a scan, a point cloud or a range below it",
     headline="{joint} has no state: {child} has no frame",
     detail="{joint} ({kind}) moves {below}",
     consequence="robot_state_publisher publishes nothing below such a joint",
@@ -82,6 +83,9 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
                 "below": below,
                 "kind": joint.type,
             },
+            severity=None
+            if any(last_part(h.type) in PLACED and h.frame in (child, *below) for h in model.heard)
+            else Severity.WARNING,
         )
 
 
@@ -110,7 +114,8 @@ def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
 @check(
     "urdf-frame-unpublished",
     Severity.WARNING,
-    rule="a link of the robot description is in no transform of the whole recording",
+    rule="a link of the robot description is in no transform of the whole recording; a note if no "
+    "message is in it",
     headline="{where} of the robot description: in no transform",
     detail="{frame}: {reason}",
     consequence="nothing can be placed in these frames",
@@ -156,6 +161,7 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
             edges=() if joint is None else ((model.prefix + joint.parent, frame),),
             frames=(frame,),
             facts={"frame": frame, "reason": reason},
+            severity=None if any(h.frame == frame for h in model.heard) else Severity.NOTE,
             fixes=(Fix(fix),),
         )
 
@@ -167,8 +173,9 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
     "m or {degrees:g}°",
     headline="{where} {concerned:differs|differ} from the robot description",
     detail="{edge}: {apart:m} and {turned:deg} apart; {joint} has {says}, tf {has}",
-    consequence="the calibrated mount and the published one differ",
-    fixes=(Fix("publish it once: remove the second publisher, or write the calibration down"),),
+    consequence="programs that use the description and programs that use tf place this part "
+    "differently",
+    fixes=(Fix("find its publishers: `{publishers} /tf_static` lists them"),),
     causes=(
         "a calibration is published beside the description",
         "the robot runs with an older description",
@@ -178,6 +185,7 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
         "description",
         "valid description",
     ),
+    because_of=(("edge", "static-changed"),),
 )
 def urdf_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
     """A static differs from the robot description's fixed joint."""

@@ -1,6 +1,6 @@
 """Evidence for a diagnosis, collected from a recording, a buffer or a session."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -58,6 +58,8 @@ class Evidence:
         robot: Robot model from the given or recorded description; None without a readable one.
         mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None without odometry.
+        negative: For each topic of Odometry with negative variances: the number of such messages,
+            the number of all, and the least variance.
         mounts: Sensors' mounts (static poses) measured from motion; None if not requested.
     """
 
@@ -79,6 +81,7 @@ class Evidence:
     robot: Robot | None = None
     mistakes: tuple[str, ...] = ()
     odometry: Transforms | None = None
+    negative: Mapping[str, tuple[int, int, float]] = field(default_factory=dict)
     mounts: "tuple[MeasuredMount, ...] | None" = None
 
 
@@ -209,6 +212,7 @@ def _evidence_of_source(
         robot=described.robot,
         mistakes=described.mistakes,
         odometry=source.transforms(odometry) if odometry else None,
+        negative=_negative_variances(source, odometry),
         name=source.name,
         kind=source.kind,
         transforms=transforms,
@@ -220,6 +224,28 @@ def _evidence_of_source(
         start=source.start,
         end=source.end,
     )
+
+
+def _negative_variances(
+    source: Recorded, topics: Sequence[str]
+) -> dict[str, tuple[int, int, float]]:
+    """Return the numbers of Odometry messages with a negative variance (see `Evidence`)."""
+    least: dict[str, list[float]] = {}
+    for message in source.messages(topics) if topics else ():
+        # A message ends with a pose, its covariance, a twist, and its covariance.
+        if len(message.payload) >= _ODOMETRY_TAIL:
+            tail = np.frombuffer(message.payload[-_ODOMETRY_TAIL:], dtype="<f8")
+            least.setdefault(message.sender.topic, []).append(float(tail[7:43:7].min()))
+    found = {}
+    for topic, values in least.items():
+        wrong = [value for value in values if value < 0.0 and value != -1.0]
+        if wrong:
+            found[topic] = (len(wrong), len(values), min(wrong))
+    return found
+
+
+_ODOMETRY_TAIL = 8 * (7 + 36 + 6 + 36)
+"""Bytes of an Odometry message after its names."""
 
 
 def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:

@@ -16,7 +16,7 @@ import numpy as np
 from tftool.base.errors import ExtrapolationException, TransformException
 from tftool.base.stamps import CACHE_TIME, LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 from tftool.buffer.buffer import Buffer
-from tftool.doctor.clock_checks import cures_of_offset
+from tftool.doctor.clock_checks import cure_of_offset
 from tftool.doctor.coverage_checks import Waits, least_rate, rounded_up, waits_of
 from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Edge
@@ -164,6 +164,10 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
     if slashed:
         text = f'and set frame_id to "{name}": no frame of tf2 begins with a slash'
         remedies.append(Remedy("name", text))
+    if not remedies:
+        where = "this recording" if model.evidence.recorded else f"this {model.evidence.kind}"
+        text = f"nothing in {where} publishes {name}: start the node that should, and record /tf"
+        remedies.append(Remedy("publisher", text))
     return Reason(
         Cause.UNKNOWN_FRAME, tuple(why), tuple(remedies), ("a timeout: nothing publishes it",)
     )
@@ -253,20 +257,23 @@ def _is_simulated(stamp: Stamp) -> bool:
 
 def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
     stamp = int(track.sorted_stamps[-1])
-    clock = "the simulation's clock" if _is_simulated(stamp) else "the wall clock"
-    other = "the wall clock" if _is_simulated(stamp) else "the simulation's"
+    names = ["the simulation's clock", "the wall clock"]
     setting = "false" if _is_simulated(stamp) else "true"
+    text = trace.model.words["sim_time_of"].format(setting=setting, edge=link.name)
+    if not len(trace.model.evidence.clock[0]):
+        names[0] = "a clock that counts from 1970"
+        text = (
+            "no /clock was recorded: a simulation, or a computer whose clock was never set; "
+            f"{trace.model.words['which_clock']}"
+        )
+    clock, other = names if _is_simulated(stamp) else names[::-1]
     return Reason(
         Cause.CLOCK_MIXTURE,
         (
             f"{link.name} is stamped with {clock}: {dated(stamp)}",
             f"the question is on {other}: {dated(trace.moment)}",
         ),
-        (
-            Remedy(
-                "clock", trace.model.words["sim_time_of"].format(setting=setting, edge=link.name)
-            ),
-        ),
+        (Remedy("clock", text),),
         ("a timeout, a larger cache: the two clocks never meet",),
     )
 
@@ -288,10 +295,7 @@ def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
             f"{several([track.name for track in off])} {is_or_are} {span(abs(ahead))} off the "
             "other clocks: no lookup across the two clocks can succeed",
         ),
-        tuple(
-            Remedy("clock", in_words(fix.text, model.words))
-            for fix in cures_of_offset(model, ahead)[:1]
-        ),
+        (Remedy("clock", in_words(cure_of_offset(model, ahead).text, model.words)),),
         ("a timeout, a larger cache: the two clocks never meet",),
     )
 
@@ -382,7 +386,7 @@ def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
             f"{link.name} ended at {moment(last)}, {span(trace.moment - last)} before the "
             "question, and nothing follows",
         ),
-        (Remedy("publisher", "check the node that publishes it: it crashed or hangs"),),
+        (Remedy("publisher", "check whether its publisher still runs"),),
         ("a timeout: nothing comes any more",),
     )
 

@@ -95,6 +95,7 @@ class Finding:
         fixes: Remedies, the most likely first.
         because_of: Id of the finding that explains this one; None if there is none.
         known: Whether the report given as the baseline already has this finding.
+        is_shown: Whether a report shows the finding without --verbose.
     """
 
     id: str
@@ -115,6 +116,7 @@ class Finding:
     fixes: tuple[Fix, ...] = ()
     because_of: str | None = None
     known: bool = False
+    is_shown: bool = True
 
     @property
     def fingerprint(self) -> str:
@@ -172,3 +174,5 @@ class Hit:
     """Whether the hit becomes a separate finding, even if there are similar hits. A word instead
     merges the hits with this word; the fact `named` is then the name in the headline.
     """
+    loud: bool = False
+    """Whether a note is shown without --verbose."""

@@ -39,11 +39,12 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     Severity.ERROR,
     rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
     "share of {share:g}, before the recording's end, while other streams continue; of "
-    "{samples:g} samples or more, except detections of a camera that have no children",
+    "{samples:g} samples or more, except detections of a camera that have no children. A warning "
+    "if all moving transforms end; a note for a part of a robot that no sensor message is in",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
-    fixes=(Fix("check the node that publishes it: it crashed or hangs"),),
+    fixes=(Fix("check whether its publisher still runs: `{publishers} /tf`"),),
     causes=(
         "a node that crashed",
         "a lost sensor",
@@ -88,6 +89,11 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             since=last,
             until=model.end,
             count=1,
+            severity=Severity.NOTE
+            if model.is_minor(track)
+            else None
+            if any(other.logs[-1] - last > least for other in model.dynamic)
+            else Severity.WARNING,
         )
 
 
@@ -113,14 +119,11 @@ def _is_detection(model: Model, track: Track) -> bool:
     Severity.WARNING,
     rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
     "samples or more; a note for transforms that are published on change (variation "
-    "above {variation:g})",
+    "above {variation:g}), and for a part of a robot that no sensor message is in",
     headline="{where} {concerned:has a gap|have gaps}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
     consequence="lookups inside it interpolate across the gap, or refuse during it",
-    fixes=(
-        Fix("check what stopped then: if all edges stop together, the recorder or the network"),
-    ),
     causes=(
         "load",
         "a network that drops",
@@ -131,7 +134,7 @@ def _is_detection(model: Model, track: Track) -> bool:
     "timeouts of consumers cover shorter gaps",
     because_of=(
         ("child", "publisher-conflict two-parents"),
-        ("edge", "edge-stopped nan-transform clock-offset outage"),
+        ("edge", "edge-stopped nan-transform clock-offset outage stale-stamp"),
     ),
 )
 def gap(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -148,6 +151,8 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             if other is not track
             and any(low < end and begin < high for low, high in known[other.edge])
         ]
+        quiet = {h.topic for h in model.heard if _is_silent(h, begin, end)}
+        silent = [*also, *sorted(quiet)]
         steps = track.steps
         regular = steps[steps <= _least_gap(track, limits)] if len(found) <= 3 else steps
         mean = float(regular.mean()) if len(regular) else 0.0
@@ -162,15 +167,30 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
                 "length": end - begin,
                 "period": track.period,
                 "also": also,
-                "beside": f"; at the same time: {several(also)}" if also else "",
+                "beside": f"; at the same time: {several(silent)}" if silent else "",
                 "unusable": missing,
                 "why": f"; {missing} samples in it are unusable (NaN)" if missing else "",
             },
             since=begin,
             until=end,
             count=len(found),
-            severity=Severity.NOTE if on_change else Severity.WARNING,
+            severity=Severity.NOTE if on_change or model.is_minor(track) else Severity.WARNING,
+            fixes=(
+                Fix(
+                    "look for what these have in common: one source, one node, the network"
+                    if silent
+                    else "all else went on: look at its publisher at that time"
+                ),
+            ),
         )
+
+
+def _is_silent(heard: Heard, begin: int, end: int) -> bool:
+    """Whether a topic has no message in the middle of a gap, although it has more before."""
+    margin = (end - begin) // 5
+    low, high = np.searchsorted(np.sort(heard.stamps), (begin + margin, end - margin))
+    usual = len(heard.stamps) * (end - begin - 2 * margin) / max(1, int(np.ptp(heard.stamps)))
+    return bool(low == high) and usual > 2
 
 
 @check(
@@ -182,12 +202,7 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="nothing arrived for {length:span} on {streams} of {of} streams",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="whatever was stamped then came late, in a burst, or never",
-    fixes=(
-        Fix(
-            "look for what they share: the network, the computer or the recorder; record on the "
-            "robot"
-        ),
-    ),
+    fixes=(Fix("look at the network and the recorder at that time; record on the robot"),),
     causes=(
         "a network that was gone",
         "a recorder or a disk that hung",
@@ -262,7 +277,7 @@ def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}",
     consequence="one sample answers only for its own stamp, and only while the cache keeps it",
-    fixes=(Fix("send a mount with a StaticTransformBroadcaster (on /tf_static)"),),
+    fixes=(Fix("if it is a mount, send it on /tf_static; if it moves, send it regularly"),),
     causes=("a mount sent with a TransformBroadcaster",),
     why="tf2 interpolates between two samples and never extrapolates from one",
     because_of=(
@@ -283,7 +298,7 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="no topic carries a transform",
     headline="there are no transforms",
     consequence="nothing can be placed in another frame",
-    fixes=(Fix("record /tf and /tf_static too"),),
+    fixes=(Fix("look whether the robot sends any: `{publishers} /tf`; if so, record it"),),
     causes=("/tf and /tf_static were not in the recorder's list",),
     because_of=(("anything", "namespaced-topic"),),
 )

@@ -19,6 +19,7 @@ from tftool.doctor import description_checks as description
 from tftool.doctor import gap_checks as gaps
 from tftool.doctor import mount_checks as mounts
 from tftool.doctor import name_checks as names
+from tftool.doctor import odometry_checks as odometry
 from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
 from tftool.doctor import stamp_checks as stamps
@@ -38,7 +39,7 @@ CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
         *(publishers, shape, names, clocks, stamps),
-        *(gaps, coverage, values, mounts, description),
+        *(gaps, coverage, values, odometry, mounts, description),
     )
     for check in room.check.checks
 }
@@ -202,6 +203,8 @@ def _findings(
             _joined(CHECKS[key[0]], group, limits[key[0]], words),
             because_of=key[2],
             severity=key[1],
+            is_shown=key[2] is None
+            and (key[1] is not Severity.NOTE or any(hit.loud for hit in group)),
         )
         for key, group in grouped.items()
     ]
@@ -255,11 +258,13 @@ def _is_calm(check: Check, hit: Hit) -> bool:
 
 def _share(hit: Hit, cause: Hit, common: str) -> bool:
     match common:
+        case "gap" | "mixed" if not hit.facts.get(common):
+            return False
         case "anything":
             return True
         case "edge":
             return bool(set(hit.edges) & set(cause.edges))
-        case "child":
+        case "child" | "mixed":
             children = {child for _, child in cause.edges}
             mine = {child for _, child in hit.edges} | set(hit.frames)
             # Two alternating parents also cause the tree below the unused parent.
@@ -267,8 +272,6 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
             return bool(children & mine) or bool(parents & set(hit.frames))
         case "frame":
             return bool(set(hit.frames) & set(cause.frames))
-        case "gap" if not hit.facts.get("gap"):
-            return False
         case "path" | "gap":
             path = hit.facts.get("path")
             edges = {(str(a), str(b)) for a, b in path} if isinstance(path, list) else set()

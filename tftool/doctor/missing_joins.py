@@ -7,11 +7,8 @@ from dataclasses import dataclass
 from tftool.doctor.findings import Edge, Fix
 from tftool.doctor.model import Model, Tree
 from tftool.doctor.ros_words import is_ros1
-from tftool.doctor.stamp_stream import Track, last_part
+from tftool.doctor.stamp_stream import BASES, Track, last_part
 from tftool.geometry.rigid import Transform
-
-BASES = ("base_link", "base_footprint", "base")
-"""Usual names of the frame on which a robot's sensors are mounted."""
 
 _PLAIN = frozenset({"base", "link", "frame", "footprint", "body", ""})
 
@@ -116,8 +113,8 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
         by = ", ".join(Track(edge, odometry).topics)
         why = f"{len(edge):,} Odometry messages ({by}) say {edge.child} in {edge.parent}"
         fix = Fix(
-            f"{why}, and nothing publishes it as a transform: let the controller or the EKF do it "
-            "(enable_odom_tf, publish_tf: true; MAVROS: tf/send: true); to use it meanwhile:",
+            f"{why}, and nothing publishes it as a transform: let the publisher of {by} do it; to "
+            "use the messages meanwhile:",
             f"tftool echo {quoted(edge.parent)} {quoted(edge.child)} RECORDING --with-odometry",
         )
         return Join((edge.parent, edge.child), why, fix, guess=False)
@@ -154,7 +151,7 @@ def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Tr
         return None
     return Fix(
         f"let {moving[0].name} end at {root}, the root of the mounts, instead of "
-        f"{moving[0].child} (base_frame, robot_base_frame), or leave {parent} out of the mounts"
+        f"{moving[0].child}, or leave {parent} out of the mounts"
     )
 
 
@@ -166,7 +163,7 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
     if not maps:
         return None
     why = f"REP-105 has a localiser publish {tree.root} in {maps[0]}"
-    fix = Fix(f"{why}: check whether it runs (AMCL, a SLAM), and in which frames it publishes")
+    fix = Fix(f"{why}: check whether one runs, and which frames it publishes")
     return Join((maps[0], tree.root), why, fix)
 
 
@@ -180,8 +177,11 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
         if _prefix(name) != _prefix(root) or distinctive_words(name) != distinctive_words(root):
             continue
         why = f"{name} is near: {root} may be a frame of the same part"
-        fix = _mount(model, f"{why}; if so, publish where it is:", name, root)
-        return Join((name, root), why, fix)
+        if model.lacks_statics and model.evidence.recorded:
+            return Join((name, root), why, _mount(model, why, name, root))
+        return Join(
+            (name, root), why, Fix(f"{why}: look which of the two its publisher should use")
+        )
     return None
 
 

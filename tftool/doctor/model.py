@@ -3,6 +3,7 @@
 This module reads no files; see `evidence`.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,7 +14,7 @@ from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
 from tftool.doctor.evidence import Evidence
 from tftool.doctor.ros_words import ros_words
-from tftool.doctor.stamp_stream import JOINT_STATES, WILD, Heard, Stream, Track, last_part
+from tftool.doctor.stamp_stream import BASES, JOINT_STATES, WILD, Heard, Stream, Track, last_part
 from tftool.recordings.contract import Stamps
 from tftool.recordings.description_frames import prefix_of
 from tftool.recordings.timeline import through_clock
@@ -167,6 +168,12 @@ class Model:
         )
 
     @cached_property
+    def was_played(self) -> bool:
+        """Whether `rosbag play` published some of the data, by the name of its node."""
+        nodes = (last_part(one.node) for one in self.evidence.publishers)
+        return any(re.fullmatch(r"play_\d{15,}|rosbag2_player", node) for node in nodes)
+
+    @cached_property
     def words(self) -> Mapping[str, str]:
         """Commands and settings for texts, of the ROS version that made the recording."""
         return ros_words(self.evidence)
@@ -314,6 +321,19 @@ class Model:
                 found.add(one)
                 waiting += self._children.get(one, ())
         return frozenset(found)
+
+    def is_minor(self, track: Track) -> bool:
+        """Whether an edge only places a part of a robot that no sensor message is in: a wheel."""
+        below = self.below(track.child)
+        is_robot = any(last_part(frame) in BASES for frame in self.tree_of[track.child].frames)
+        if not is_robot or len(below) > 2 or last_part(track.child).startswith(("odom", "map")):
+            return False
+        if any(last_part(frame) in BASES for frame in below):
+            return False
+        return not any(
+            h.is_spatial and h.type.startswith("sensor_msgs/") and h.frame.lstrip("/") in below
+            for h in self.heard
+        )
 
     @cached_property
     def _children(self) -> dict[str, list[str]]:

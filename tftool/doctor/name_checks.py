@@ -2,7 +2,7 @@
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from tftool.base.plain_text import near_names
 from tftool.doctor.check import checks_of, hit_of, threads
@@ -10,7 +10,7 @@ from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import distinctive_words, is_world, proposed_frame, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
-from tftool.doctor.stamp_stream import Heard, family, last_part
+from tftool.doctor.stamp_stream import PLACED, Heard, family, last_part
 
 check = checks_of(Area.NAMES)
 
@@ -29,7 +29,7 @@ MOST_COMPARED = 300_000
     Severity.ERROR,
     rule="the frame of a message with a position is in no transform of the whole recording. A "
     "warning if none of the messages is a scan, a point cloud or a range, which costmaps and "
-    "maps have to place",
+    "maps have to place; a note if nothing but the frame of a localiser or of the earth is unknown",
     headline="no transform names {named}",
     detail="{frame}: {says}{hint}",
     consequence="none of these messages can be placed anywhere",
@@ -72,7 +72,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         if robots:
             hint += f"; {len(robots)} robots use this name: {', '.join(robots)}"
         first = min(int(heard.logs[0]) for heard in heards)
-        fixes = _renames(model, name, alike, [heard.type for heard in heards])
+        fixes = _renames(model, name, alike, heards)
         yield Hit(
             frames=(name,),
             topics=tuple(sorted(heard.topic for heard in heards)),
@@ -86,16 +86,19 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 "alike": alike,
                 "hint": hint,
             },
-            severity=None
-            if any(last_part(heard.type) in _PLACED for heard in heards)
-            else Severity.WARNING,
+            severity=_severity(name, heards, fixes),
             fixes=fixes,
             alone=fixes[0].text if len(fixes) == 1 and not fixes[0].command else True,
         )
 
 
-_PLACED = frozenset({"LaserScan", "MultiEchoLaserScan", "PointCloud", "PointCloud2", "Range"})
-"""Types of messages that costmaps, maps and localisers have to place."""
+def _severity(name: str, heards: Iterable[Heard], fixes: Sequence[Fix]) -> Severity | None:
+    """Return the severity of a finding about an unknown frame; None for an error."""
+    if any(last_part(heard.type) in PLACED for heard in heards):
+        return None
+    # A recording for a localiser has goals and reference poses in its map.
+    is_vague = is_world(name) and not any(fix.command for fix in fixes)
+    return Severity.NOTE if is_vague else Severity.WARNING
 
 
 def _sharing(heards: Iterable[Heard]) -> list[str]:
@@ -152,22 +155,20 @@ _KINDS = {
 }
 
 
-def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tuple[Fix, ...]:
-    fixes = [Fix(f"set frame_id of the driver to {alike[0]}")] if alike else []
+def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> tuple[Fix, ...]:
+    topic = heards[0].topic
+    fixes = []
+    if alike:
+        text = f"if {alike[0]} is the frame of this sensor, set frame_id to it in the publisher of"
+        fixes.append(Fix(f"{text} {topic}"))
     if _is_scoped(model, name):
         fixes.append(Fix("{scoped}"))
-    join = proposed_frame(model, name.removeprefix("/"), kinds)
+    join = proposed_frame(model, name.removeprefix("/"), [heard.type for heard in heards])
     if join is not None:
         # Evidence for the frame itself comes before similar names.
         fixes = [join.fix, *fixes] if join.why else [*fixes, join.fix]
     if not fixes:
-        source = "a localiser" if is_world(name) else "a driver, robot_state_publisher"
-        fixes = [
-            Fix(
-                "set frame_id of the publisher to the name in tf, or start what should publish "
-                f"the frame ({source})"
-            )
-        ]
+        fixes = [Fix("find the node that should publish the frame, or another name for it in tf")]
     if name.startswith("/"):
         fixes.append(Fix(f'and set frame_id to "{name[1:]}": no frame of tf2 begins with a slash'))
     return tuple(fixes)
@@ -249,7 +250,7 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{first} and {second} differ only in spelling",
     detail="{users}",
     consequence="they are two frames: things placed in one are not in the other",
-    fixes=(Fix("use one spelling; {most} has more users"),),
+    fixes=(Fix("if they are one frame, use one spelling; {most} has more users"),),
     causes=("names typed by hand in two places",),
     because_of=(("frame", "namespace-twins"),),
 )
@@ -272,7 +273,7 @@ def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{first} and {second} look like two spellings of one name",
     detail="{users}",
     consequence="they are two frames: things placed in one are not in the other",
-    fixes=(Fix("use one spelling; {most} has more users"),),
+    fixes=(Fix("if they are one frame, use one spelling; {most} has more users"),),
     causes=("names typed by hand in two places",),
     limits={"shortest": 5, "long": 10},
     because_of=(("frame", "namespace-twins"),),
@@ -378,8 +379,8 @@ def _shared(one: str, other: str) -> int:
     consequence="the frames with the prefix and those without are two trees",
     fixes=(
         Fix(
-            "use one scheme: prefix all names (frame_prefix: {prefix}), or none and remap "
-            "/tf:=tf and /tf_static:=tf_static in every node"
+            "if they are one frame, use one scheme: prefix all names (frame_prefix: {prefix}), or "
+            "none and remap /tf:=tf and /tf_static:=tf_static in every node"
         ),
     ),
     causes=(

@@ -10,10 +10,9 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.conflicts import (
     fed_twice,
-    is_odometry,
+    find_publishers,
     named_conflict,
     severity_of,
-    switches_off,
     unnamed_conflict,
     values_at_one_stamp,
 )
@@ -29,19 +28,12 @@ check = checks_of(Area.PUBLISHERS)
     "two-parents",
     Severity.ERROR,
     rule="a frame has two parents among the statics, or changes its parent more than "
-    "{switches:g} times and keeps each for less than {stay:g} s on average",
+    "{switches:g} times and keeps each for less than {stay:g} s on average. A warning if both "
+    "parents are below one root",
     headline="{child} changes between the parents {parents}",
     detail="{sources}; changes {switches:times}, first at {first:moment}",
-    consequence="{lost} {lost:loses its|lose their} connection to one root while the other parent "
-    "is in force: the robot jumps, and lookups fail now and then",
-    fixes=(
-        Fix(
-            "let the transform end at the robot's root frame ({root}) instead of {child} "
-            "(robot_base_frame, base_frame, LIO-SAM's baselinkFrame), switch one of the two "
-            "off (publish_tf: false or similar), or chain them (RTAB-Map's "
-            "odom_guess_frame_id)"
-        ),
-    ),
+    consequence="a lookup of {lost} goes through the parent that was sent last; a lookup that "
+    "needs the other parent {so}",
     causes=(
         "visual odometry or SLAM publishes odom to base_link beside the robot description",
         "a driver's base frame is a link below the root",
@@ -83,8 +75,12 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
             "switches": switches,
             "lost": sorted(model.below(child)),
             "root": roots[0] if roots[0] != child else tracks[0].parent,
+            "so": "fails meanwhile"
+            if len(set(roots)) > 1
+            else "gets another way, and perhaps another pose",
         },
-        fixes=tuple(switches_off(track) for track in tracks if is_odometry(track)),
+        severity=None if len(set(roots)) > 1 else Severity.WARNING,
+        fixes=(find_publishers(tracks),),
         alone=True,
     )
 
@@ -94,16 +90,17 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     Severity.ERROR,
     rule="two publishers with at least {least:g} samples each overlap in time and differ by "
     "more than {metres:g} m (or {degrees:g}°) and by more than one step. Where "
-    "publishers are unknown: {samples:g} stamps or more have two values that differ so "
-    "much (a warning from {stamps:g} on) and one of the two interrupts the motion of "
+    "publishers are unknown: {stamps:g} stamps or more have two values that differ so "
+    "much and one of the two interrupts the motion of "
     "the other, or the samples alternate between two tracks "
     "(a sample belongs to a track within {reach:g} m + {speed:g} m/s, a radian counting"
     " as half a metre). Each track needs {samples:g} samples and a share of {share:g}, "
     "the track must change {changes:g} times or more, and motion at constant velocity "
-    "must explain all samples {worse:g} times worse than each track alone. A warning if "
+    "must explain all samples {worse:g} times worse than each track alone. A warning if the "
+    "publishers are unknown, if "
     "nothing is below the frame and no message is in it, or for a mount with two values "
     "less than {slight:g} m and {slight_degrees:g}° apart",
-    headline="{named} {many:is|are} published by {first} and {second} with different values{seen}",
+    headline="{named} {many:has|have} two sources with different values{seen}",
     detail="{edge}: {first} and {second}, {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
     consequence="{named} {many:jumps|jump} back and forth, and so does everything below",
@@ -178,12 +175,12 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "static-and-dynamic",
     Severity.ERROR,
-    rule="a frame is the child of a transform on a static and of one on a dynamic topic",
+    rule="a frame is the child of a transform on a static and of one on a dynamic topic. A "
+    "warning if the parent is the same and the kind changes once",
     headline="{child} is sent on /tf and on /tf_static",
     detail="moving: {moving}; static: {static}; the kind changes {turns:times}, at most "
     "{history:span} of history are kept",
     consequence="each change of kind clears the history of {child}: lookups in the past fail",
-    fixes=(Fix("keep one of the two: a moving frame on /tf, a mount on /tf_static"),),
     causes=(
         "SLAM beside the robot description, with other parents",
         "an old tf static publisher beside a new one",
@@ -203,7 +200,12 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
         order = np.argsort(logs, kind="stable")
         turns = np.flatnonzero(np.diff(kinds[order].astype(np.int8)))
         bounds = np.concatenate((logs[order][:1], logs[order][turns + 1], logs[order][-1:]))
-        root = ends_at_the_root(model, moving[child], statics)
+        is_one_edge = len({track.edge for track in tracks}) == 1
+        fix = ends_at_the_root(model, moving[child], statics)
+        if fix is None:
+            fix = find_publishers(tracks)
+        if is_one_edge and any(track.moves for track in moving[child]):
+            fix = Fix(f"{child} moves: stop the publisher of the static one. {fix.text}")
         yield Hit(
             edges=tuple(dict.fromkeys(track.edge for track in tracks)),
             frames=(child,),
@@ -217,7 +219,8 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "turns": len(turns),
                 "history": int(np.diff(bounds).max()) if len(bounds) > 1 else 0,
             },
-            fixes=() if root is None else (root,),
+            severity=Severity.WARNING if is_one_edge and len(turns) < 2 else None,
+            fixes=(fix,),
             alone=True,
         )
 
@@ -248,10 +251,10 @@ def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.WARNING,
     rule="a static has 2 to {values:g} different values (apart by {metres:g} m or {radians:g} rad)",
     headline="{where} {concerned:was|were} published again with another value",
-    detail="{edge}: {values} values, {moved:m} and {turned:deg} apart",
+    detail="{edge}: {values} values, {moved:m} and {turned:deg} apart: {shown}",
     consequence="everything placed with the old value moves when the new one arrives, also in the "
     "past",
-    fixes=(Fix("find the second publisher: often two launch files publish the same mount"),),
+    fixes=(Fix("find its publishers: `{publishers} /tf_static` lists them"),),
     causes=(
         "two launch files",
         "a recalibration while recording",
@@ -294,6 +297,9 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]
                     "values": len(kept),
                     "moved": float(track.apart(np.array(kept), first).max()),
                     "turned": float(track.turned(np.array(kept), first).max()),
+                    "shown": ", then ".join(
+                        " ".join(f"{n:.4g}" for n in track.translations[one]) for one in kept[:3]
+                    ),
                 },
                 since=int(track.logs[changes[0]]),
                 until=int(track.logs[changes[-1]]),
@@ -320,7 +326,7 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
     consequence="if it is a mount, {so}",
-    fixes=(Fix("if it cannot move, send it once on /tf_static: {mount_node}"),),
+    fixes=(Fix("if {where} cannot move, send {concerned:it|each} once on /tf_static"),),
     causes=("the static publisher of the old tf package",),
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},
@@ -363,7 +369,8 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             },
             since=None,
             confidence=Confidence.POSSIBLE,
-            alone=not waits,
+            alone="waits" if waits else "",
+            loud=waits,
         )
 
 

@@ -9,48 +9,42 @@ _ROS2 = {
     "publishers": "ros2 topic info --verbose",
     "sim_time": "set use_sim_time: {setting} for the nodes that publish them; `ros2 param get NODE "
     "use_sim_time` prints a node's setting",
+    "which_clock": "`ros2 param get NODE use_sim_time` and `date` on its computer show which",
     "sim_time_of": "use_sim_time: {setting} for the node that publishes {edge}",
     "play_again": "play with --clock and set use_sim_time: true; in Python on humble restart, or "
     "clear the buffer",
+    "loop_option": "`ros2 bag play` without --loop",
     "jumped_back": "C++ listeners clear their buffers, Python ones up to humble refuse all new "
     "data as old (TF_OLD_DATA) until the old time is reached again",
-    "repeats": "ROS 2 ignores equal ones and lets the later of different ones win",
     "record": "record /tf and /tf_static",
     "buffer": "Buffer(cache_time=Duration(seconds={needed}))",
     "cache": "keep more",
-    "odometry_off": "publish_odom_tf: false (Gazebo), enable_odom_tf: false "
-    "(diff_drive_controller), publish_odom_tfs: false (Create 3), publish_tf: false "
-    "(robot_localization, RTAB-Map odometry)",
     "remap": "--ros-args -r /tf:={moving} -r /tf_static:={static}",
     "scoped": "in Gazebo, give the sensor the name in tf: <gz_frame_id>NAME</gz_frame_id>",
     "states": "start joint_state_publisher or the joint state broadcaster",
     "latched": "with durability transient_local",
     "volatile": "volatile",
-    "mount_node": "tf2_ros's static_transform_publisher, robot_state_publisher",
 }
 _ROS1 = {
     "now": "rospy.Time.now() (C++: ros::Time::now())",
     "publishers": "rostopic info",
+    "which_clock": "`rosparam get use_sim_time` and `date` on its computer show which",
     "sim_time": "`rosparam set use_sim_time {setting}`, then start the nodes that publish them "
     "again: a node reads it only at its start",
     "sim_time_of": "`rosparam set use_sim_time {setting}` before the publisher of {edge} starts",
     "play_again": "`rosparam set use_sim_time true` before any node starts, and play with --clock; "
     "restart listeners that keep the old data",
+    "loop_option": "`rosbag play` without -l",
     "jumped_back": "listeners on simulated time clear their buffers, others refuse all new data as "
     "old (TF_OLD_DATA) until the old time is reached again",
-    "repeats": "tf2 of noetic drops them and prints TF_REPEATED_DATA for each",
     "record": "record /tf and /tf_static (split recordings: rosbag record --repeat-latched)",
     "buffer": "tf2_ros.Buffer(rospy.Duration({needed}))",
     "cache": "keep more (Python ignores the argument if it is named cache_time: ros_comm#2270)",
-    "odometry_off": "publishOdomTF: false (Gazebo), enable_odom_tf: false "
-    "(diff_drive_controller), publish_tf: false (robot_localization, RTAB-Map odometry)",
     "remap": "/tf:={moving} /tf_static:={static}",
     "scoped": "in Gazebo, give the sensor the name in tf: <frameName>NAME</frameName>",
     "states": "start joint_state_publisher or joint_state_controller",
     "latched": "latched",
     "volatile": "without latching",
-    "mount_node": "static_transform_publisher of tf2_ros, not of tf; robot_state_publisher with "
-    "use_tf_static: true",
 }
 _BOTH = {name: f"{text} (ROS 1: {_ROS1[name]})" for name, text in _ROS2.items()}
 

@@ -5,9 +5,9 @@ from collections.abc import Iterator, Mapping
 
 from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import BASES, proposed_join
+from tftool.doctor.missing_joins import proposed_join
 from tftool.doctor.model import Limits, Model, Tree
-from tftool.doctor.stamp_stream import Track, last_part, overlap
+from tftool.doctor.stamp_stream import BASES, PLACED, Track, last_part, overlap
 from tftool.doctor.wording import several
 
 check = checks_of(Area.SHAPE)
@@ -34,7 +34,7 @@ JUDGED_EMPTY = frozenset(
     headline="the frames form a loop: {circle}",
     consequence='lookups that follow the parents to the root fail: "The tf tree is invalid because '
     'it contains a loop."',
-    fixes=(Fix("publish one direction only"),),
+    fixes=(Fix("publish one direction only: `{publishers} /tf` lists the publishers"),),
     causes=("odom above body and body above odom at once",),
     links=threads("rai-opensource/spot_ros2#374"),
 )
@@ -102,8 +102,8 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
 @check(
     "split-tree",
     Severity.ERROR,
-    rule="there is more than one root. An error if messages are in a frame of a smaller "
-    "tree; a note if each tree is a whole robot, or if no message is in one of two "
+    rule="there is more than one root. An error if scans, point clouds or ranges are in a frame of "
+    "a smaller tree; a note if each tree is a whole robot, or if no message is in one of two "
     "trees that hold one frame in two conventions (odom, odom_ned)",
     headline="{named} {many:is|are} not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
@@ -137,7 +137,8 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         if tree.is_circle:
             continue
         topics = _messages_in(model, tree)
-        severity = Severity.ERROR if topics else Severity.WARNING
+        is_placed = any(last_part(h.type) in PLACED and h.frame in tree.frames for h in model.heard)
+        severity = Severity.ERROR if is_placed else Severity.WARNING
         if (_is_complete(main) and _is_complete(tree)) or _is_convention(tree, topics):
             severity = Severity.NOTE
         join = proposed_join(model, main, tree)
@@ -169,8 +170,8 @@ def nothing_says(model: Model, root: str) -> Fix:
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
     return Fix(
-        f"nothing in the data says where to join {root}: check the node that should publish "
-        f"that (a driver, the robot description and its joint states, a localiser){static}"
+        f"nothing in the data says where to join {root}: find the node that should publish "
+        f"that{static}"
     )
 
 
@@ -205,12 +206,7 @@ def _is_complete(tree: Tree) -> bool:
     headline="{where}: a frame is its own parent",
     detail="{frame}: {count:times}",
     consequence="tf2 drops it, so that the intended transform is missing",
-    fixes=(
-        Fix(
-            "two options of the publisher name one frame for two roles: give each role a "
-            "frame of its own"
-        ),
-    ),
+    fixes=(Fix("look at the frame names in the settings of its publisher: `{publishers} /tf`"),),
     causes=(
         "published_frame and odom_frame of cartographer are equal",
         "base frame and odometry frame of rf2o are equal",
@@ -237,7 +233,7 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{what} has no frame name",
     detail="{what}: {detail}, {count:times}",
     consequence="tf2 drops such a transform, and such a message cannot be placed",
-    fixes=(Fix("set frame_id in the driver that publishes it"),),
+    fixes=(Fix("set frame_id in the node that publishes it"),),
     causes=(
         "a message that was never filled",
         "a camera whose frame id was never set",
@@ -291,13 +287,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     "children of odom",
     headline="map, odom and base are not a chain: {where}",
     detail="{found}",
-    consequence="navigation expects the chain map, odom, base (REP-105); a frame has one parent",
-    fixes=(
-        Fix(
-            "let the localiser publish odom in map: (base in map) times the inverse of (base "
-            "in odom)"
-        ),
-    ),
+    consequence="programs that expect REP-105 (odom in map, base in odom) get another pose or none",
     causes=("a localiser publishes map to base_link",),
     links=(
         REP105,
@@ -321,26 +311,36 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
             above = parent_of.get(base, "")
             chain = [track.parent for track in model.above(base)]
             if above in named["map"] and not set(named["odom"]) & set(chain):
-                yield _shape((above, base), f"{base} hangs from {above}, beside odom")
+                found, dummy = f"{base} hangs from {above}, beside odom", ""
+                for odom in named["odom"]:
+                    track = model.parents.get(odom)
+                    if track is not None and not track.moves and len(model.below(odom)) == 1:
+                        found += f"; {track.name} never moves, and nothing hangs from {odom}"
+                        dummy = f"to put {odom} between the two, first stop its constant publisher"
+                yield _shape(model, (above, base), found, dummy=dummy)
             for odom in named["odom"]:
                 if parent_of.get(odom) == base and set(chain) & set(named["map"]):
-                    yield _shape((base, odom), f"{odom} hangs from {base}, below map")
+                    yield _shape(model, (base, odom), f"{odom} hangs from {base}, below map")
     for one in named["map"]:
         chain = [track.parent for track in model.above(one)]
         if set(chain) & set(named["odom"]):
-            yield _shape((chain[0], one), f"{one} hangs from {chain[0]}, below odom")
+            yield _shape(model, (chain[0], one), f"{one} hangs from {chain[0]}, below odom")
     for foot in named["base_footprint"]:
         for link in named["base_link"]:
             above = parent_of.get(foot, "")
             if above in named["odom"] and parent_of.get(link) == above:
                 text = f"{foot} and {link} both hang from {above}"
-                yield _shape((above, link), text, (above, foot))
+                yield _shape(model, (above, link), text, (above, foot))
 
 
-def _shape(edge: tuple[str, str], found: str, *more: tuple[str, str]) -> Hit:
+def _shape(
+    model: Model, edge: tuple[str, str], found: str, *more: tuple[str, str], dummy: str = ""
+) -> Hit:
+    nodes = ", ".join(model.parents[edge[1]].nodes) or "its publisher (`{publishers} /tf`)"
     return Hit(
         edges=(edge, *more),
         frames=tuple(dict.fromkeys(name for one in (edge, *more) for name in one)),
         confidence=Confidence.LIKELY,
         facts={"found": found},
+        fixes=(Fix(dummy or f"look at the frame names in the settings of {nodes}"),),
     )

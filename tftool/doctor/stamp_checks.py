@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
@@ -84,7 +84,10 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             )
         # A localiser has another remedy.
         alone = isinstance(one, Heard) or one.is_localisation
-        yield hit_of(one, facts, count=count, alone=alone, fixes=(_unfreeze(model, one),))
+        # A marker is only drawn.
+        severity = Severity.NOTE if isinstance(one, Heard) and "Marker" in one.type else None
+        fixes = (_unfreeze(model, one),)
+        yield hit_of(one, facts, count=count, alone=alone, severity=severity, fixes=fixes)
 
 
 def _unfreeze(model: Model, stream: Track | Heard) -> Fix:
@@ -92,8 +95,8 @@ def _unfreeze(model: Model, stream: Track | Heard) -> Fix:
     if isinstance(stream, Track) and stream.is_localisation:
         # A localiser's stamp is that of its last scan: a newer stamp would be wrong.
         return Fix(
-            "look at the scan topic and its transforms: a localiser repeats the stamp of the last "
-            "scan it could use, so find out why its scans stopped; do not stamp it anew"
+            "compare the stamp with those of the scans: a localiser without new scans repeats the "
+            "last one"
         )
     name = "t" if isinstance(stream, Track) else "message"
     return Fix(f"set the stamp inside the loop: {name}.header.stamp = {{now}}")
@@ -138,25 +141,21 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     "repeated-stamp",
     Severity.WARNING,
     rule="more than {samples:g} samples, and a share above {share:g}, repeat a stamp with "
-    "any value. In ROS 2 only samples with another value count, and no transform from map to "
+    "another value; in noetic, which prints a warning for each, with any value. A note if all "
+    "values are equal in a share below {flood:g}. In ROS 2 no transform from map to "
     "odometry is reported",
     headline="{where} {concerned:repeats|repeat} stamps",
-    detail="{edge}: {count} of {of} samples repeat a stamp",
-    consequence="{repeats}",
-    fixes=(
-        Fix("send a transform only when its stamp is newer than the last one's"),
-        Fix(
-            "where two nodes send it (a simulator's wheels and robot_state_publisher), switch one "
-            "off: `{publishers} /tf` lists them"
-        ),
-    ),
+    detail="{edge}: {count} of {of} samples repeat a stamp, {different} of them with another value"
+    "{by}",
+    consequence="{so}",
+    fixes=(Fix("look at how these stamps are made: `{publishers} /tf` lists the publishers"),),
     causes=(
         "a filter publishes faster than its data",
         "the same pose is sent once per sensor",
         "two nodes with one frame",
     ),
     links=threads("at-wat/neonavigation#612", "uf-mil/mil#1097"),
-    limits={"samples": 2, "share": 0.05},
+    limits={"samples": 2, "share": 0.05, "flood": 0.25},
     because_of=(
         ("anything", "time-jump-back"),
         ("child", "publisher-conflict two-parents"),
@@ -165,6 +164,7 @@ _FROZEN = {"times": 10, "seconds": 1.0}
 def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Stamps are sent twice: TF_REPEATED_DATA in ROS 1."""
     is_old = is_ros1(model.evidence)
+    warns = is_old and model.evidence.end > _NOETIC
     for track in model.dynamic:
         places = track.by_stamp
         if track.is_orderly or (track.is_localisation and not is_old):
@@ -174,26 +174,60 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         some, others = places[again], places[again + 1]
         differ = (track.apart(some, others) > 1e-6) | (track.turned(some, others) > 1e-4)
-        told = differ | is_old  # ROS 2 ignores equal ones
-        count = int(np.count_nonzero(told))
+        told = differ | warns  # tf2 is silent about equal ones before noetic and in ROS 2
+        count, different = int(np.count_nonzero(told)), int(np.count_nonzero(differ))
         if count > limits["samples"] and count > limits["share"] * len(places):
+            few = different <= limits["samples"] and count < limits["flood"] * len(places)
+            so = "a lookup at such a stamp uses one of its poses"
+            if warns:
+                so = "tf2 drops them and prints TF_REPEATED_DATA for each"
             yield hit_of(
                 track,
-                {"count": count, "of": len(places)},
+                {
+                    "count": count,
+                    "of": len(places),
+                    "different": different,
+                    "so": so,
+                    "by": f"; sent by {', '.join(track.nodes)}" if track.nodes else "",
+                },
                 since=int(track.logs[some[told]].min()),
                 count=count,
+                severity=Severity.NOTE if few or model.is_minor(track) else None,
             )
+
+
+@check(
+    "sent-twice",
+    Severity.NOTE,
+    rule="the messages of a sensor or of odometry have {share:g} times as many stamps as they have "
+    "different stamps, or more, of {samples:g} messages or more in one frame",
+    headline="{where} {concerned:sends|send} each message several times",
+    detail="{topic}: {count} messages have {different} different stamps",
+    consequence="programs that use the topic do the work of each message again",
+    fixes=(Fix("count its publishers: `{publishers} {topic}`"),),
+    limits={"share": 1.8, "samples": 20},
+    because_of=(("anything", "time-jump-back"), ("stream", "frozen-stamp zero-stamp")),
+)
+def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Messages of a sensor are sent more than once."""
+    for heard in model.heard:
+        is_sensor = heard.type.startswith("sensor_msgs/") or heard.type == "nav_msgs/Odometry"
+        stamps = heard.stamps[heard.stamps != 0]
+        if not is_sensor or len(stamps) < limits["samples"] or stands_still(heard):
+            continue
+        different = len(np.unique(stamps))
+        if len(stamps) >= limits["share"] * different:
+            yield hit_of(heard, {"count": len(stamps), "different": different}, loud=True)
 
 
 @check(
     "time-jump-back",
     Severity.ERROR,
     rule="within 1 s, at least two streams and half of all step back by more than 1 s",
-    headline="time went back by {back:span}, {count:times}",
+    headline="time went back by {back:span}, {count:times}{loop}",
     detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
     "streams; all that follows is about what came before",
     consequence="{jumped_back}",
-    fixes=(Fix("{play_again}"),),
     causes=(
         "play --loop",
         "a simulation was reset",
@@ -209,6 +243,12 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
     if not model.laps:
         return
     first = model.laps[0]
+    is_loop = _is_played_again(model)
+    text = (
+        "find what stepped: a simulation that was reset, a recording played twice, a clock set back"
+    )
+    if is_loop:
+        text = "play it once ({loop_option}), or restart the listeners at each lap"
     yield Hit(
         since=first.log,
         until=model.laps[-1].log,
@@ -220,9 +260,27 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
             "back": first.before - first.after,
             "streams": first.streams,
             "count": len(model.laps),
+            "loop": ": a recording was played in a loop" if is_loop else "",
         },
+        fixes=(Fix(text),),
         alone=True,
     )
+
+
+def _is_played_again(model: Model) -> bool:
+    """Whether transforms come again, bit for bit, with the stamps that they had before."""
+    fewest = again = 0
+    for track in model.dynamic:
+        rows = np.ascontiguousarray(track.records).view("V64").ravel()
+        parts = np.unique(rows[: track.lap]), np.unique(rows[track.lap :])
+        # The recorder may have begun or ended in the middle of a lap.
+        fewest += min(len(part) for part in parts)
+        again += len(np.intersect1d(*parts, assume_unique=True))
+    return again > 0.9 * fewest > 0
+
+
+_NOETIC = seconds(1_590_000_000)
+"""Time since which ROS 1 has a tf2 that prints TF_REPEATED_DATA: May 2020."""
 
 
 @check(
@@ -232,7 +290,7 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:sends|send} samples that are too old to be kept",
     detail="{edge}: {count:times}, up to {behind:span} behind",
     consequence="tf2 drops them and warns TF_OLD_DATA",
-    fixes=(Fix("restart the publisher that still has the old clock; or clear the buffer"),),
+    fixes=(Fix("find where these stamps come from: `{publishers} /tf` lists the publishers"),),
     causes=(
         "a restarted publisher or simulation",
         "a replayed recording beside the live robot",

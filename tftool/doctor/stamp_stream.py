@@ -144,6 +144,11 @@ class Track(Stream):
         return f"{self.child} in {self.parent}"
 
     @cached_property
+    def records(self) -> Stamps:
+        """Stamps and poses of all laps as recorded, shape (n, 8)."""
+        return self.in_order(self._edge.records)
+
+    @cached_property
     def translations(self) -> Floats:
         """Translations of the samples in `stamps`, metres, shape (n, 3)."""
         return self.in_order(self._edge.translations)[: self.lap]
@@ -366,6 +371,12 @@ def bounded(stamps: Stamps) -> Stamps:
 
 JOINT_STATES = "sensor_msgs/JointState"
 """Type of messages from which robot_state_publisher computes transforms."""
+
+BASES = ("base_link", "base_footprint", "base")
+"""Usual names of the frame on which a robot's sensors are mounted."""
+
+PLACED = frozenset({"LaserScan", "MultiEchoLaserScan", "PointCloud", "PointCloud2", "Range"})
+"""Types of messages that costmaps, maps and localisers have to place."""
 
 NOT_SPATIAL = frozenset(
     {

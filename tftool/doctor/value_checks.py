@@ -4,15 +4,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.doctor.check import REP103, REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import BASES, base_of
+from tftool.doctor.missing_joins import base_of, quoted
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import ZERO_QUATERNION, Track, last_part
-from tftool.doctor.wording import metres
+from tftool.doctor.stamp_stream import BASES, ZERO_QUATERNION, Places, Track, last_part
+from tftool.doctor.wording import metres, span
 from tftool.geometry.quaternions import IDENTITY, Triple, angle_between, multiply, rotate
-from tftool.geometry.rigid_arrays import angles_between, unit
+from tftool.geometry.rigid_arrays import unit
+from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.VALUES)
 
@@ -28,9 +29,7 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
     headline="{where} {concerned:has|have} numbers that are none",
     detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
     consequence="the frame stops or disappears; things placed through it have no position",
-    fixes=(
-        Fix("check the source: a division by zero, a filter that diverged, a joint without state"),
-    ),
+    fixes=(Fix("look at what its publisher did at that time: `{publishers} /tf`"),),
     causes=(
         "an estimator or simulation that diverged",
         "a NaN joint command",
@@ -118,21 +117,18 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.WARNING,
     rule="a step above {metres:g} m at more than {speed:g} m/s (or above {radians:g} rad at "
     "more than {turning:g} rad/s) and at {times:g} times the 95 % quantile of the "
-    "speed, in a share of at most {share:g} of the steps or {few:g} of them; of "
-    "{samples:g} samples or more",
+    "speed, in a share of at most {share:g} of the steps ({triggered:g} if each comes within 50 ms "
+    "after a position message) or {few:g} of them; of "
+    "{samples:g} samples or more of one publisher. A note for a part of a robot that no sensor "
+    "message is in",
     headline="{where} {concerned:jumps|jump} {far} within {within:span}",
-    detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}; usual {usual:.2g} m/s",
+    detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
-    fixes=(
-        Fix(
-            "check the source at that moment: encoder overflow, a reset of the filter, wheel "
-            "slip, a tracker that mistook the body"
-        ),
-    ),
     causes=(
         "encoder overflow",
         "a reset of the filter",
         "wheel slip",
+        "a satellite receiver in the filter of the odometry",
     ),
     links=(
         *threads("ROBOTIS-GIT/turtlebot3#926"),
@@ -145,57 +141,116 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
         "turning": 20.0,
         "times": 8.0,
         "share": 0.02,
+        "triggered": 0.05,
         "few": 3,
         "samples": 10,
     },
     why="steady motion has a usual speed; more jumps than that are noise, or two publishers",
     because_of=(
         ("anything", "time-jump-back"),
-        ("child", "publisher-conflict two-parents"),
+        ("mixed", "publisher-conflict two-parents"),
     ),
 )
 def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame jumps faster than it can move."""
     for track in model.dynamic:
-        places = track.by_stamp
-        if track.is_localisation or len(places) < limits["samples"]:
+        if track.is_localisation:
             continue
-        some, others = places[:-1], places[1:]
-        apart = track.strides
-        spins = track.has_turns(some, others, limits["radians"])
-        if not spins and not (apart > limits["metres"]).any():
-            continue
-        gaps = np.diff(track.sorted_stamps) / NANOSECONDS
-        later = gaps > 0.0
-        gaps = np.where(later, gaps, 1.0)
-        turned = track.turned(some, others)
-        moved = _jumps(apart, gaps, limits["metres"], limits["speed"], limits["times"])
-        spun = _jumps(turned, gaps, limits["radians"], limits["turning"], limits["times"])
-        jumps = np.flatnonzero((moved | spun) & later)
-        if not len(jumps) or len(jumps) > max(limits["few"], limits["share"] * len(gaps)):
-            continue
-        worst = int(jumps[np.argmax(apart[jumps])])
-        if not moved[worst]:
-            worst = int(jumps[np.argmax(turned[jumps])])
-        is_odometry = last_part(track.parent).startswith("odom")
-        yield hit_of(
-            track,
-            {
-                "jump": float(apart[worst]),
-                "turn": float(turned[worst]),
-                "far": metres(float(apart[worst]))
-                if moved[worst]
-                else f"{np.degrees(turned[worst]):.3g}°",
-                "within": int(gaps[worst] * NANOSECONDS),
-                "at": int(track.stamps[others[worst]]),
-                "usual": float(np.median(apart / gaps)),
-                "count": len(jumps),
-                "also": "; REP-105 wants this transform continuous" if is_odometry else "",
-            },
-            since=int(track.logs[others[jumps[0]]]),
-            until=int(track.logs[others[jumps[-1]]]),
-            count=len(jumps),
+        senders = track.senders[track.by_stamp] if len(track.nodes) > 1 else None
+        for number in (0,) if senders is None else np.unique(senders).tolist():
+            places = track.by_stamp if senders is None else track.by_stamp[senders == number]
+            hit = _jump(model, track, places, limits) if len(places) >= limits["samples"] else None
+            if hit is not None:
+                yield hit
+
+
+def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | None:
+    """Return the hit about jumps among some samples of an edge; None without jumps.
+
+    Args:
+        model: The evidence, prepared.
+        track: The edge.
+        places: Samples of one publisher in the order of their stamps, shape (n,).
+        limits: Thresholds of `teleport`.
+    """
+    some, others = places[:-1], places[1:]
+    is_whole = len(places) == len(track.by_stamp)
+    apart = track.strides if is_whole else track.apart(some, others)
+    spins = track.has_turns(some, others, limits["radians"])
+    if not spins and not (apart > limits["metres"]).any():
+        return None
+    gaps = np.diff(track.stamps[places]) / NANOSECONDS
+    later = gaps > 0.0
+    gaps = np.where(later, gaps, 1.0)
+    turned = track.turned(some, others)
+    moved = _jumps(apart, gaps, limits["metres"], limits["speed"], limits["times"])
+    spun = _jumps(turned, gaps, limits["radians"], limits["turning"], limits["times"])
+    jumps = np.flatnonzero((moved | spun) & later)
+    topic, after = _trigger(model, track.logs[others[jumps]])
+    share = limits["triggered"] if topic else limits["share"]
+    if not len(jumps) or len(jumps) > max(limits["few"], share * len(gaps)):
+        return None
+    worst = int(jumps[np.argmax(apart[jumps])])
+    if not moved[worst]:
+        worst = int(jumps[np.argmax(turned[jumps])])
+    is_odometry = last_part(track.parent).startswith("odom")
+    usual = float(np.median(apart[later] / gaps[later]))
+    return hit_of(
+        track,
+        {
+            "jump": float(apart[worst]),
+            "turn": float(turned[worst]),
+            "far": metres(float(apart[worst]))
+            if moved[worst]
+            else f"{np.degrees(turned[worst]):.3g}°",
+            "within": int(gaps[worst] * NANOSECONDS),
+            "at": int(track.stamps[others[worst]]),
+            "usual": f"; usual {usual:.2g} m/s" if usual else "",
+            "after": f"; each at most {span(after)} after a message of {topic}" if topic else "",
+            "count": len(jumps),
+            "also": "; REP-105 wants this transform continuous" if is_odometry else "",
+            "mixed": is_whole,
+        },
+        since=int(track.logs[others[jumps[0]]]),
+        until=int(track.logs[others[jumps[-1]]]),
+        count=len(jumps),
+        severity=Severity.NOTE if model.is_minor(track) else None,
+        fixes=(_look_at_jumps(track, topic),),
+    )
+
+
+def _look_at_jumps(track: Track, topic: str) -> Fix:
+    if not topic:
+        return Fix(
+            "list the jumps, and compare them with the sensors at these times:",
+            f"tftool doctor RECORDING --steps --pair {quoted(':'.join(track.edge))}",
         )
+    return Fix(
+        f"look at how the publisher of {track.name} uses {topic}: a position that jumps belongs "
+        "in a filter for odom in map (REP-105)"
+    )
+
+
+def _trigger(model: Model, jumps: Stamps) -> tuple[str, int]:
+    """Return the position topic after whose messages all jumps come, and the longest delay.
+
+    Without such a topic, or if the delays may be chance, the topic is empty.
+    """
+    best = "", _SOON
+    for heard in model.heard:
+        if last_part(heard.type) not in ("NavSatFix", "Odometry") or len(jumps) < 3:
+            continue
+        before = np.searchsorted(heard.logs, jumps, side="right") - 1
+        delays = jumps - heard.logs[before]
+        lasts = int(heard.logs[-1] - heard.logs[0])
+        is_rare = 2 * len(heard.logs) * _SOON < lasts
+        if is_rare and before.min() >= 0 and delays.max() < best[1]:
+            best = heard.topic, int(delays.max())
+    return best
+
+
+_SOON = seconds(0.05)
+"""Maximum time, nanoseconds, from a message to the jump that it triggers."""
 
 
 def _jumps(
@@ -219,14 +274,14 @@ def _jumps(
     headline="{where} {concerned:does|do} not have optical axes",
     detail="{edge}: {off:.3g}° off",
     consequence="images and clouds in it are rotated",
-    fixes=(Fix('make it a fixed joint with rpy="-1.5708 0 -1.5708", and name it in the driver'),),
+    fixes=(Fix('if images are in it, make it a fixed joint with rpy="-1.5708 0 -1.5708"'),),
     causes=("the optical frame was given the axes of the body",),
     links=(
         REP103,
         *threads("ros-simulation/gazebo_ros_pkgs#1329"),
     ),
-    limits={"degrees": 5.0, "metres": 0.1},
-    why="calibrated cameras are off by up to 5°",
+    limits={"degrees": 30.0, "metres": 0.1},
+    why="calibrated cameras are off by up to 5°, and a tilt may be in the same transform",
 )
 def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
     """An _optical frame does not have optical axes."""
@@ -326,132 +381,6 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
         if last_part(track.parent) in BASES:
             break
     return rotate(turn, (0.0, 1.0, 0.0)), rotate(turn, (0.0, 0.0, 1.0))
-
-
-@check(
-    "odometry-tf-mismatch",
-    Severity.WARNING,
-    rule="an Odometry message and the transform of the same two frames and the same stamp "
-    "differ by more than {metres:g} m or {degrees:g}°, in a share above {share:g} of "
-    "such pairs; a note if tf has no transform of these frames",
-    headline="{topic} {differs} {edge}",
-    detail="{found}",
-    consequence="programs that use the message and programs that use tf may see the robot in "
-    "different places",
-    causes=(
-        "the message is the wheels', the transform a filter's",
-        "the filter's publish_tf is off and another node sends the transform",
-    ),
-    limits={"metres": 0.05, "degrees": 2.0, "share": 0.5},
-    needs=("odometry",),
-    because_of=(
-        ("frame", "split-tree"),
-        ("child", "static-and-dynamic"),
-    ),
-)
-def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
-    """An odometry message and the transform of the same frames disagree."""
-    odometry = model.evidence.odometry
-    if odometry is None:
-        return
-    tracks = {track.edge: track for track in model.tracks}
-    for edge in odometry.edges:
-        told = Track(edge, odometry)
-        track = tracks.get(told.edge)
-        topic = ", ".join(told.topics)
-        if track is None:
-            if {edge.parent, edge.child} <= model.frames and not _is_same_base(model, told):
-                yield _no_such_transform(model, told, topic)
-            continue
-        hit = _disagreement(track, told, topic, model.end, limits)
-        if hit is not None:
-            yield hit
-
-
-def _is_same_base(model: Model, told: Track) -> bool:
-    """Whether a message's child and parent are both frames of the robot's base.
-
-    All frames between them in tf must be base frames too, such as base_footprint.
-    """
-    above = model.above(told.child)
-    parents = [track.parent for track in above]
-    if told.parent not in parents:
-        return told.parent == told.child
-    between = {told.child, *parents[: parents.index(told.parent)]}
-    return {last_part(name) for name in between} <= set(BASES)
-
-
-def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
-    above = model.parents.get(told.child)
-    hangs = f"in tf {told.child} hangs from {above.parent}" if above else "in tf it has no parent"
-    return hit_of(
-        told,
-        {
-            "topic": topic,
-            "differs": "and tf connect other frames:",
-            "found": f"{topic} says {told.name}; {hangs}",
-        },
-        since=None,
-        frames=told.edge,
-        topics=told.topics,
-        severity=Severity.NOTE,
-        fixes=(
-            Fix(
-                "compare the child_frame_id of the messages with the base frame of tf: one "
-                "of the two is probably the wrong frame"
-            ),
-        ),
-        alone=True,
-    )
-
-
-def _disagreement(
-    track: Track, told: Track, topic: str, end: Stamp, limits: Limits
-) -> "Hit | None":
-    """Return a hit if an edge and an odometry topic often have different poses at one stamp.
-
-    Args:
-        track: The edge in tf.
-        told: The poses in the odometry messages.
-        topic: Name of the odometry topic.
-        end: Log time after which messages are ignored.
-        limits: The thresholds.
-
-    Returns:
-        The hit; None if few poses differ, or the edge is static.
-    """
-    if track.static:
-        return None
-    places = told.by_stamp[told.logs[told.by_stamp] <= end]
-    _, mine, theirs = np.intersect1d(track.sorted_stamps, told.stamps[places], return_indices=True)
-    if not len(mine):
-        return None
-    some, others = track.by_stamp[mine], places[theirs]
-    away = track.translations[some] - told.translations[others]
-    apart = np.sqrt(np.einsum("ij,ij->i", away, away))
-    turned = angles_between(unit(track.rotations[some]), unit(told.rotations[others]))
-    wrong = (apart > limits["metres"]) | (turned > np.radians(limits["degrees"]))
-    count = int(np.count_nonzero(wrong))
-    if count <= limits["share"] * len(wrong):
-        return None
-    return Hit(
-        edges=(track.edge,),
-        topics=told.topics,
-        publishers=tuple(dict.fromkeys((*track.nodes, *told.nodes))),
-        since=int(track.logs[some[wrong]].min()),
-        count=count,
-        facts={
-            "topic": topic,
-            "edge": track.name,
-            "differs": "and tf disagree about",
-            "apart": float(np.median(apart)),
-            "turned": float(np.median(turned)),
-            "found": f"{count:,} of {len(wrong):,} pairs of one stamp, usually "
-            f"{metres(float(np.median(apart)))} and {np.degrees(np.median(turned)):.3g}° apart",
-        },
-        fixes=(Fix("let one node publish both, from one estimate"),),
-        alone=True,
-    )
 
 
 @check(

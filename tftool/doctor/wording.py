@@ -52,9 +52,9 @@ def moment(stamp: int) -> str:
 
 
 def dated(stamp: int) -> str:
-    """Format a stamp in seconds, with its date or with "(simulation)"."""
+    """Format a stamp in seconds, with its date or with "(no date)"."""
     if stamp < SIMULATED_BELOW:
-        return f"{moment(stamp)} (simulation)"
+        return f"{moment(stamp)} (no date)"
     day = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=stamp // 1000)
     return f"{moment(stamp)} ({day.day} {day:%B %Y})"
 
@@ -115,7 +115,7 @@ class _Words(string.Formatter):
             case "m":
                 return metres(value)
             case "deg":
-                return f"{value * 57.29577951308232:.3g}°"
+                return f"{value * 57.29577951308232:.3g}°" if value > 1e-4 else "0°"
             case "%":
                 return f"{value * 100:.3g} %"
             case "times":

@@ -46,7 +46,7 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
         parts.append(Text(visible(f"latencies: {diagnosis.model.reference}")))
     folded = _folded(diagnosis)
     for finding in diagnosis.findings:
-        if finding.because_of is not None and not verbose:
+        if not finding.is_shown and not verbose:
             continue
         parts += [Text(""), *_told(finding, verbose=verbose)]
         if not verbose:
@@ -64,7 +64,7 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
 
 def so_far(diagnosis: Diagnosis) -> list[Text]:
     """Return lines for a live view: the findings that no other finding explains, worst first."""
-    found = [finding for finding in diagnosis.findings if finding.because_of is None]
+    found = [finding for finding in diagnosis.findings if finding.is_shown]
     return [_first_line(one) for one in sorted(found, key=lambda one: one.severity.rank)]
 
 
@@ -136,7 +136,7 @@ def _last_arrival(model: Model) -> Stamp:
 
 def areas(diagnosis: Diagnosis) -> str:
     """Return a line with the areas (groups of checks) that have no finding."""
-    wrong = {finding.area for finding in diagnosis.findings}
+    wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
     for area in Area:
@@ -163,17 +163,21 @@ def _latencies(model: Model, area: Area) -> str:
 
 def summary(diagnosis: Diagnosis) -> str:
     """Return a line with the number of findings and the command that explains more."""
-    counts = counted(diagnosis)
-    if not counts:
+    told = [one for one in diagnosis.findings if one.is_shown]
+    quiet = [f for f in diagnosis.findings if f.because_of is None and not f.is_shown]
+    if not told:
         skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
         why = " (--verbose says why)" if skipped else ""
-        return f"nothing found; {count(diagnosis.ran, 'check')} ran{skipped}{why}"
-    told = [one for one in diagnosis.findings if one.because_of is None]
+        notes = f"; {count(len(quiet), 'note')}: --verbose" if quiet else ""
+        return f"nothing found; {count(diagnosis.ran, 'check')} ran{skipped}{why}{notes}"
     # The first finding among those with the worst severity.
     worst = min(told, key=lambda one: one.severity.rank)
+    numbers = [(one.value, sum(f.severity is one for f in told)) for one in Severity]
+    counts = ", ".join(count(number, word) for word, number in numbers if number)
+    notes = f" ({count(len(quiet), 'more note')}: --verbose)" if quiet else ""
     calm = "" if worst.severity is not Severity.NOTE else "If all works, leave it so. "
     return (
-        f"{counts}. {calm}`tftool doctor --explain {worst.id}` tells more; "
+        f"{counts}{notes}. {calm}`tftool doctor --explain {worst.id}` tells more; "
         "`--markdown` prints this for an issue."
     )
 
@@ -435,7 +439,7 @@ def as_row(finding: Finding) -> dict[str, Any]:
 
 def as_markdown(diagnosis: Diagnosis) -> str:
     """Return a diagnosis as Markdown, a table and then details, with escaped names."""
-    told = [finding for finding in diagnosis.findings if finding.because_of is None]
+    told = [finding for finding in diagnosis.findings if finding.is_shown]
     lines = [f"**tftool doctor** {_code(head(diagnosis.model))}", ""]
     if told:
         lines += ["| | id | what |", "| --- | --- | --- |"]
@@ -447,8 +451,7 @@ def as_markdown(diagnosis: Diagnosis) -> str:
         for one in told:
             lines += [f"**{one.id}**", "", *_fenced(_plain(one)), ""]
         lines += ["</details>", ""]
-    text = summary(diagnosis) if not told else f"{counted(diagnosis)}."
-    lines.append(text)
+    lines.append(summary(diagnosis) if not told else f"{counted(diagnosis)}.")
     return "\n".join(lines) + "\n"
 
 

@@ -1,0 +1,121 @@
+"""The checks of jumps and of odometry messages, each on a small robot of its own."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+
+from rosbags.rosbag1 import Writer
+from rosbags.typesys import Stores, get_typestore
+
+from tests.doctor.judged import found, ids
+from tests.doctor.robots import NO_TURN, Robot, drives, robot, stands
+from tftool import open_recording
+from tftool.doctor.evidence import evidence_of
+from tftool.doctor.findings import Severity
+from tftool.doctor.judge import judge
+
+STORE = get_typestore(Stores.ROS1_NOETIC)
+
+
+def corrected(t: float) -> tuple[float, ...]:
+    """A drive along x that steps by two metres 20 ms after each whole second."""
+    return (0.5 * t, 2.0 * (int(t - 0.02) % 2), 0.0, *NO_TURN)
+
+
+def test_jumps_after_each_message_of_a_satellite_receiver_name_its_topic():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", hz=100.0, pose=corrected)
+    made.hears("/fix", "base_link", 1.0, "sensor_msgs/NavSatFix", latency=0.01)
+    jump = found(made, "teleport")
+    assert "after a message of /fix" in jump.evidence[0]
+    assert "uses /fix" in jump.fixes[0].text
+
+    # One jump is no pattern, and messages at 100 Hz come before everything.
+    often = robot(odometry=False)
+    often.moving("odom", "base_link", hz=100.0, pose=corrected)
+    often.hears("/wheels", "odom", 100.0, "nav_msgs/Odometry")
+    jump = found(often, "teleport")
+    assert jump.fixes[0].command == "tftool doctor RECORDING --steps --pair odom:base_link"
+
+
+def test_each_publisher_of_a_frame_is_searched_for_jumps_by_itself():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", pose=stands, node="/stray")
+    made.moving("odom", "base_link", pose=drives, hz=30.0, node="/wheels")
+    made.moving("odom", "base_link", pose=lambda t: (9.0, *drives(t)[1:]), node="/far", end=1.0)
+    assert ids(made) == ["publisher-conflict"]
+    assert "teleport" not in [one.id for one in made.judged().findings]
+
+    jumps = robot(odometry=False)
+    jumps.moving("odom", "base_link", pose=lambda _: (50.0, 0.0, 0.0, *NO_TURN), node="/camera")
+    jumps.moving("odom", "base_link", hz=100.0, pose=corrected, node="/filter")
+    jumps.hears("/fix", "base_link", 1.0, "sensor_msgs/NavSatFix", latency=0.01)
+    assert {*ids(jumps)} == {"publisher-conflict", "teleport"}
+    assert "all poses of /camera are equal" in found(jumps, "publisher-conflict").evidence[0]
+    assert "usual 0.5 m/s" in found(jumps, "teleport").evidence[0]
+
+
+def test_a_part_that_is_only_drawn_jumps_as_a_note():
+    made = robot()
+    made.moving("base_link", "wheel", pose=lambda t: (2.5 if t > 5 else 0.0, t, 0.0, *NO_TURN))
+    assert found(made, "teleport").severity is Severity.NOTE
+
+
+def far_away(height: float) -> Robot:
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", pose=lambda t: (0.5 * t, 0.0, height, *NO_TURN))
+    made.odometry = Robot()
+    made.odometry.moving("odom", "", hz=1.0, topic="/odometry/gps", node="/navsat")
+    return made
+
+
+def test_a_filter_far_below_the_positions_that_it_uses():
+    finding = found(far_away(-800.0), "odometry-tf-mismatch")
+    assert finding.message == "/odometry/gps and tf are far apart about base_link in odom"
+    assert "z is first -800.00 m in tf, 0 mm there" in finding.evidence[0]
+    # A drift that is shorter than ten metres beyond the way is no fault.
+    assert ids(far_away(-8.0)) == []
+
+
+def test_two_nodes_may_estimate_one_pose_differently():
+    for node, severity in (("/wheels", Severity.NOTE), ("/filter", Severity.WARNING)):
+        made = robot(odometry=False)
+        made.moving("odom", "base_link", node="/filter")
+        made.odometry = Robot()
+        beside = lambda t: (0.5 * t, 0.3, 0.0, *NO_TURN)  # noqa: E731
+        made.odometry.moving("odom", "base_link", pose=beside, topic="/odom", node=node)
+        assert found(made, "odometry-tf-mismatch").severity is severity
+
+
+def test_negative_variances_are_read_from_the_messages(tmp_path):
+    path = tmp_path / "run.bag"
+    kind = "nav_msgs/msg/Odometry"
+    made = {name.split("/")[-1]: STORE.types[name] for name in STORE.types}
+    zero = made["Vector3"](0.0, 0.0, 0.0)
+    pose = made["Pose"](made["Point"](1.0, 2.0, 3.0), made["Quaternion"](0.0, 0.0, 0.0, 1.0))
+    with Writer(path) as writer:
+        connection = writer.add_connection("/odometry/gps", kind, typestore=STORE)
+        for number, variance in enumerate((0.5, -1.0, -1.25, -0.25, 0.0)):
+            covariance = np.zeros(36)
+            covariance[7] = variance
+            time = STORE.types["builtin_interfaces/msg/Time"](100 + number, 0)
+            message = STORE.types[kind](
+                made["Header"](number, time, "odom"),
+                "base_link",
+                made["PoseWithCovariance"](pose, covariance),
+                made["TwistWithCovariance"](made["Twist"](zero, zero), np.full(36, -5.0)),
+            )
+            writer.write(connection, (100 + number) * 10**9, STORE.serialize_ros1(message, kind))
+    with open_recording(path) as recording:
+        evidence = evidence_of(recording)
+    # -1 says that a variance is not known.
+    assert evidence.negative == {"/odometry/gps": (2, 5, -1.25)}
+    transforms = robot().evidence()
+    findings = judge(replace(transforms, negative=evidence.negative)).findings
+    assert [one.id for one in findings if one.id == "negative-variance"] == []
+    odometry = replace(transforms, negative=evidence.negative, odometry=transforms.transforms)
+    (wrong,) = [one for one in judge(odometry).findings if one.id == "negative-variance"]
+    assert wrong.evidence == ("/odometry/gps: 2 of 5 messages, -1.25 at least",)
