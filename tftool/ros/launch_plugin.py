@@ -110,7 +110,7 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
             reason = '"fixture" keyword argument is required in a pytest.mark.launch() decorator'
             collector.warn(pytest.PytestCollectionWarning(f"{name}: {reason}"))
             test = pytest.mark.skip(reason)(test)
-        # pytest reads a test from its module or class.
+        # pytest gets a test as an attribute of its module or class.
         setattr(collector.obj, shown, test)
         items += collector.ihook.pytest_pycollect_makeitem(
             collector=collector, name=shown, obj=test
@@ -152,6 +152,6 @@ def pytest_fixture_setup(fixturedef: Any, request: Any) -> Iterator[None]:
         try:
             fixtures.launched(fixturedef.argname, options, service, value)
         finally:
-            # Last, so that it comes first: before the world of a fixture for many tests ends.
+            # Finalizers run in reverse order: this one must run before the fixture's world ends.
             fixturedef.addfinalizer(service.finish)
     return value

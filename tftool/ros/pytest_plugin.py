@@ -73,7 +73,7 @@ def _provide(root: Path) -> None:
         # Tests sleep and start threads as nodes do, so they need the same time.
         imports.__enter__().tested = root
         _imports.extend((variables, imports))
-        # The workspace around the tests: its interfaces, its packages' share folders and modules.
+        # Use the interfaces, share folders and modules of the workspace around the tests.
         workspace = Workspace(root)
         packages.use(workspace)
         _added.extend(workspace.module_folders())
@@ -97,8 +97,8 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
     """Explain a failed `import rclpy`; let packages have test files of the same name."""
     if _imports and isinstance(collector, pytest.Module):
-        # Packages made from one example have tests of one name. pytest imports them by that
-        # name alone, and keeps the first module itself.
+        # Packages made from one template have test files of the same name. pytest imports a test
+        # file by its name alone, and would reuse the first module.
         known = getattr(sys.modules.get(collector.path.stem), "__file__", None)
         if known and Path(known).name == collector.path.name and Path(known) != collector.path:
             del sys.modules[collector.path.stem]
@@ -135,7 +135,7 @@ def _program_of_fixture() -> Any:
         _shared.remove(runtime)
         runtime.__exit__(None, None, None)
 
-    # Before the fixture has got so far as to have an end of its own, so it comes after that.
+    # Registered before the fixture's own finalizer, so this one runs after it.
     _set_up[-1].addfinalizer(close)
     return runtime.program
 

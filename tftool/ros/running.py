@@ -171,7 +171,7 @@ class TurtlesOnDemand:
     def host_for_topics(self) -> None:
         """Start turtlesim if a program uses a topic of the first turtle."""
         if not self._is_asked and TURTLE_TOPICS & self._world.topics().keys():
-            # Not at once: the world is entering the topic at this moment.
+            # Not at once, because the world is just adding the topic.
             asyncio.get_running_loop().call_soon(self.host)
 
     def host(self) -> None:
@@ -239,7 +239,7 @@ def status_of(program: Program) -> int:
     Raises:
         NodeFailed: If the program raised an exception.
     """
-    # One that ended because we asked it to has done what it should.
+    # A program that tftool asked to end has succeeded.
     is_stuck = isinstance(program.failure, StuckError)
     if not program.status or (program.fiber.interrupted and not is_stuck):
         return 0

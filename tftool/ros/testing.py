@@ -43,7 +43,7 @@ class RosRuntime:
         self.program.fiber.end = self._ended
         self._thread = threading.Thread(target=self._live, name="tftool", daemon=True)
         self._thread.start()
-        # The first answer proves that the loop lives.
+        # A first request ensures that the loop runs.
         self.ask(lambda: None)
         return self
 

@@ -37,7 +37,7 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
         name: The name that a program tried to import.
         known: Names that the module has.
     """
-    # Only what may be a slip: another name of ROS 2's is none.
+    # Propose only a name that may be meant by mistake; other existing names of ROS 2 differ more.
     near = near_names(name, known, alike=0.8)
     package = module.partition(".")[0]
     elsewhere = sorted(
@@ -77,7 +77,7 @@ def near_keyword(keyword: str, called: Any) -> str:
         try:
             known |= set(inspect.signature(function).parameters)
         except (TypeError, ValueError):
-            continue  # One in C, or none.
+            continue  # A function in C, or none.
     return did_you_mean(keyword, known - {"self", "args", "kwargs"})
 
 
@@ -128,7 +128,7 @@ def error_sentence(error: BaseException) -> str:
         return str(error)
     what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     if isinstance(error, ModuleNotFoundError) and error.name and str(error).endswith("'"):
-        # Python's own sentence, which ends after the name.
+        # Python's own error text, which ends with the name.
         what += f"; {missing_package(error.name.partition('.')[0])}"
     what += _near_name(error)
     place = user_line_of_error(error.__traceback__)
@@ -160,7 +160,7 @@ def _near_name(error: BaseException) -> str:
         return ""
     if isinstance(error, AttributeError) and isinstance(error.name, str):
         return did_you_mean(error.name, dir(error.obj)) if error.obj is not None else ""
-    # A call is refused in the frame that calls: the names are known there.
+    # Python refuses a call in the calling frame, where the function's name is defined.
     names = {**vars(builtins), **frames[-1].f_globals, **frames[-1].f_locals}
     if isinstance(error, NameError) and isinstance(error.name, str):
         return did_you_mean(error.name, names)

@@ -164,7 +164,7 @@ def _robot_of(asked: Asked) -> "Robot | None":
     Raises:
         UsageError: If the description is not valid; the text lists the mistakes.
     """
-    # numpy comes with it, which other nodes do without.
+    # This imports numpy, which the other nodes do not need.
     from tftool.robots.robot_model import Robot, load_urdf
     from tftool.robots.urdf import parse_description
 
@@ -242,7 +242,7 @@ _TURTLE_TF: dict[str, tuple[str, Callable[[Asked], Node]]] = {
     ),
 }
 
-# package, executable: the node's name unless told, and what makes it.
+# By package and executable: the node's default name, and the function that creates the node.
 _OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
     ("turtlesim", "turtlesim_node"): ("turtlesim", _turtlesim),
     ("turtlesim", "draw_square"): ("draw_square", _plain(DrawSquare)),
@@ -269,7 +269,7 @@ COMMANDS = {
 }
 """Programs of ROS in whose place `tftool run` runs a command of tftool."""
 
-# Executables with a command of their own here.
+# Executables that tftool replaces by a command that needs a terminal of its own
 _ELSEWHERE = {
     ("turtlesim", "turtle_teleop_key"): "tftool teleop",
     **{names: shlex.join(("tftool", *words)) for names, words in COMMANDS.items()},
@@ -346,7 +346,7 @@ def start(
         UsageError: If there is no such package or executable; the text has the nearest name.
         InputError: If the file cannot be read or is not valid Python.
     """
-    # As where a workspace is sourced: each of its packages can import the others.
+    # As in a sourced workspace, each package can import the others.
     importing.look_behind(workspace.module_folders)
     if package is None:
         return _program(world, label, user_code.file_body(Path(executable)), argv, options, on_exit)

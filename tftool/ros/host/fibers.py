@@ -153,12 +153,12 @@ class Fiber:
         self._patience = PATIENCE if patience is None else patience
         self._give_up = GIVE_UP if give_up is None else give_up
         self._clock = clock or SimpleNamespace(interrupted=False)
-        # Two locks pass the turn: `_go` wakes the thread, `_rest` tells the loop that it sleeps
-        # again.
+        # Two locks decide which side runs: `_go` wakes the thread, and `_rest` tells the loop that
+        # the thread sleeps again.
         self._go = _taken_lock()
         self._rest = _taken_lock()
         self._request: Callable[[], Any] | None = None
-        # Written by one side while the other sleeps, so none of these needs a lock of its own.
+        # One side writes these attributes while the other side sleeps, so they need no lock.
         self._broken_off = ""
         self._answer: tuple[Any, BaseException | None] = (None, None)
         self._arrived: tuple[asyncio.AbstractEventLoop, asyncio.Future[None]] | None = None
@@ -176,7 +176,7 @@ class Fiber:
     def adopt(cls, name: str) -> "Fiber":
         """Make the calling thread a fiber; a loop in another thread then calls `drive`."""
         fiber = cls(name, lambda: None, strict=True)
-        # No thread to start, and none to raise in: the caller's own code is driven.
+        # The caller's own thread runs the code, so there is no thread to start or to interrupt.
         fiber._thread = None
         fiber.end = lambda: EndedError("the world has ended")
         _local.fiber = fiber
@@ -211,12 +211,13 @@ class Fiber:
         return value
 
     def _main(self, body: Callable[[], object]) -> None:
-        # The loop starts the thread before it is this fiber's turn.
+        # The loop starts the thread before it lets the thread run.
         self._go.acquire()
         _local.fiber = self
         try:
             body()
-        # SystemExit and KeyboardInterrupt too: how a program ended is the loop's to judge.
+        # This includes SystemExit and KeyboardInterrupt, because the loop decides how the program
+        # ended.
         except BaseException as error:
             self.error = error
         finally:
@@ -227,14 +228,14 @@ class Fiber:
         self._request = request
         if request is None:
             self.ended = True
-        # From here on the loop may run at any moment: nothing below touches the request.
+        # From here on the loop may run at any moment, so nothing below uses the request.
         self._rest.release()
         arrived = self._arrived
         if arrived is not None:
             loop, future = arrived
             try:
                 loop.call_soon_threadsafe(finish, future)
-            except RuntimeError:  # the loop is closed: this fiber was left alone
+            except RuntimeError:  # the loop is closed: it abandoned this fiber
                 return
 
     # The loop's side.
@@ -253,12 +254,13 @@ class Fiber:
         answer: tuple[Any, BaseException | None] = (None, None)
         first = True
         refused = late = 0
-        # An interrupted fiber is driven on: its `finally` blocks may publish and call services.
+        # An interrupted fiber goes on, because its `finally` blocks may publish and call services.
         while refused < AFTERLIFE:
             await self._turn(answer, go=not first or self._thread is not None)
             first = False
             request = self._request
-            # A None request is the body's end, or an adopted thread that was released.
+            # A request of None means that the code has ended, or that an adopted thread was
+            # released.
             if self.ended or request is None:
                 if self._broken_off:
                     self.error = StuckError(self._broken_off)
@@ -271,7 +273,7 @@ class Fiber:
                 continue
             try:
                 value = request()
-                # Waiting is the loop's work; the thread sleeps in `ask` meanwhile.
+                # The loop waits, while the thread sleeps in `ask`.
                 if inspect.isawaitable(value):
                     if self.interrupted:
                         discard(value)
@@ -308,7 +310,7 @@ class Fiber:
         loop = asyncio.get_running_loop()
         arrived = loop.create_future()
         self._arrived = (loop, arrived)
-        # On the wall clock a busy thread holds up nobody; it is only named.
+        # On the wall clock a busy thread delays nothing else, so it only causes a warning.
         alarm = loop.call_later(self._patience, self._say_busy)
         self._hand_over(answer, go)
         try:
@@ -318,7 +320,8 @@ class Fiber:
         finally:
             alarm.cancel()
             self._arrived = None
-        # The future reported the rest already; the lock is taken back for the next turn.
+        # The future has already reported that the thread sleeps; acquire the lock again for the
+        # next turn.
         self._rest.acquire(blocking=False)
 
     def _hand_over(self, answer: tuple[Any, BaseException | None], go: bool) -> None:
@@ -340,7 +343,7 @@ class Fiber:
             self._end_now()
             return
         place = self.place()
-        # Raised at the thread's next bytecode; code inside a C call does not hear it.
+        # The exception is raised at the thread's next bytecode; code inside a C call continues.
         self._raise_in_thread(SystemExit)
         self._rest.acquire(timeout=1.0)
         self.ended = True
@@ -353,7 +356,7 @@ class Fiber:
     def _rests_within(self, limit: float) -> bool:
         """Wait until the thread pauses; return False after `limit` real seconds or at a signal."""
         while limit > 0.0 and not self._clock.interrupted:
-            # In short parts, so that a signal that comes meanwhile is noticed.
+            # Wait in short parts, so that a signal meanwhile is noticed.
             part = min(limit, GRACE)
             if self._rest.acquire(timeout=part):
                 return True
@@ -371,7 +374,8 @@ class Fiber:
     async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
         """Interrupt a running thread: at its next request, or by an exception in its code."""
         self.interrupted = True
-        # A person at Ctrl-C waits and wants it broken off; at the end of --for that is a fault.
+        # After Ctrl-C a person waits, so busy code is interrupted; at the end of --for busy code is
+        # a fault.
         signalled = self._clock.interrupted
         for forced in (False, True):
             if forced:
@@ -383,12 +387,12 @@ class Fiber:
                 self._raise_in_thread(KeyboardInterrupt)
             arrived = loop.create_future()
             self._arrived = (loop, arrived)
-            # It came to rest between the last turn and now: its next request raises.
+            # The thread paused between the last turn and now, so its next request raises.
             if self._rest.acquire(blocking=False):
                 self._rest.release()
                 return
             grace = GRACE if signalled else GRACE_AT_END
-            with contextlib.suppress(asyncio.CancelledError):  # asked once more: be quicker
+            with contextlib.suppress(asyncio.CancelledError):  # cancelled once more: end sooner
                 await asyncio.wait([arrived], timeout=GRACE * 4 if forced else grace)
             if arrived.done():
                 return
@@ -416,7 +420,7 @@ def current() -> Fiber | None:
 
 
 def _taken_lock() -> threading.Lock:
-    # One thread releases it, another takes it: the fastest signal there is.
+    # One thread releases the lock and another acquires it, which is the fastest way to signal.
     lock = threading.Lock()
     lock.acquire()
     return lock

@@ -81,7 +81,7 @@ class _StandInModule(ModuleType):
             return known
         below = f"{self.__name__}.{name}"
         if name in self._modules():
-            # Nodes write rclpy.time.Time() after no more than `import rclpy`.
+            # Nodes use rclpy.time.Time() after `import rclpy` alone.
             return importlib.import_module(below)
         sentence = missing_name(self.__name__, name, known)
         if _is_import_from(sys._getframe(1)):
@@ -225,7 +225,8 @@ class _Finder(MetaPathFinder):
                 continue
             origin = Path(spec.origin or "")
             inside = self.tested is not None and origin.is_relative_to(self.tested)
-            # Where the tests lie around a checkout of tftool, that is still not their subject.
+            # Even if tftool's checkout is below the folder of the tests, tftool is not the code
+            # under test.
             ours = "site-packages" in origin.parts or fullname.partition(".")[0] == "tftool"
             if inside and spec.loader is not None and not ours:
                 spec.loader = _TestedLoader(spec.loader)
@@ -234,7 +235,7 @@ class _Finder(MetaPathFinder):
 
 
 def _spec(name: str) -> importlib.machinery.ModuleSpec:
-    # Every module is a package, so that a wrong name below one is named by our sentence.
+    # Every module is a package, so that tftool reports a wrong name below a module itself.
     return importlib.machinery.ModuleSpec(name, _StandInLoader(), is_package=True)
 
 
@@ -287,7 +288,7 @@ class _Arguments(UserList[str]):
     def data(self, value: list[str]) -> None:
         """Do nothing: each program has its own list of arguments."""
 
-    # A part must be a plain list: pytest shows all arguments of such a list.
+    # A slice must be a plain list, because pytest shows all arguments for a list of this class.
 
     def __getitem__(self, index: Any) -> Any:
         return self.data[index]

@@ -66,7 +66,7 @@ def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> 
     try:
         parts = list(installed_parts(package, siblings))
     except InputError:
-        return []  # Its own reader says so.
+        return []  # Reading the file reports the error.
     faults = [part for part in parts if part.fault]
     text = ""
     if any(part.file != file for part in faults) and file.parent.name == "launch":
@@ -158,7 +158,7 @@ def _launch_files(package: Package) -> Iterator[InstalledPart]:
 def _is_installed_by_cmake(package: Package) -> bool:
     path = package.path / "CMakeLists.txt"
     if not path.is_file():
-        return True  # Nothing builds it: ROS 2 is given the file itself.
+        return True  # ROS 2 uses the file itself, without a build.
     calls = re.findall(r"\binstall\s*\((.*?)\)", read_text(path), re.DOTALL | re.IGNORECASE)
     return any("launch" in call for call in calls)
 

@@ -172,7 +172,7 @@ class UserLock:
         """Return whether a thread holds the lock."""
         return self._held
 
-    _is_owned = locked  # A condition asks so; its own way, a failed acquire, counts as polling.
+    _is_owned = locked  # A condition calls this; its default counts as polling.
 
     def __enter__(self) -> bool:
         return self.acquire()
@@ -181,7 +181,7 @@ class UserLock:
         self.release()
 
 
-# The others are the standard library's own, on locks and conditions of these kinds.
+# The other classes are the standard library's, based on these locks and conditions.
 
 
 class UserRLock(threading._RLock):  # type: ignore[misc]

@@ -95,7 +95,8 @@ class RosOptions:
 
 def _fits(pattern: str, full: str, name: str) -> bool:
     if pattern == name:
-        # Of the command line; what a file says of a node without a namespace begins with '/'.
+        # The option comes from the command line. A parameter file's entry for a node without a
+        # namespace begins with '/'.
         return True
     pattern = pattern.strip("/")
     if pattern in ("", "**", full):

@@ -179,7 +179,7 @@ def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Pat
         below = target.strip("/")
         if f"{below}/".startswith(f"{share}/"):
             below = below[len(share) :].strip("/")
-        elif not below.startswith("lib/"):  # the prefix is the same folder here
+        elif not below.startswith("lib/"):  # the prefix is the source folder here
             continue
         for file in files:
             if isinstance(file, str) and (folder / file).is_file():
@@ -205,7 +205,7 @@ def _from_setup_py(path: Path) -> tuple[str, dict[str, str], Any]:
     try:
         tree = ast.parse(read_text(path), str(path))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        # It says so itself when it is built; here it only names no scripts.
+        # The build of the package reports the error; here the package only has no scripts.
         return "", {}, None
     literals = _Literals(path.parent)
     for call in ast.walk(tree):

@@ -97,7 +97,7 @@ class Program(Node):
             on_exit: Function called in the event loop's thread when the program has ended; without
                 it, a program that fails ends the run.
         """
-        self.world = world  # The fiber is made before it joins.
+        self.world = world  # The fiber is created before the node joins.
         self.label = name
         self.argv = list(argv)
         self.options = options or RosOptions()
@@ -192,7 +192,7 @@ class Program(Node):
             node.withdraw()
         self.nodes.clear()
         for loop in self.event_loops:
-            if not loop.is_running():  # as it is in a fiber that was left alone
+            if not loop.is_running():  # as in an abandoned fiber
                 loop.close()
         self.event_loops.clear()
 
@@ -245,7 +245,7 @@ class Program(Node):
         return asyncio.run_coroutine_threadsafe(_as_coroutine(request), self._loop).result()
 
     def _ask_beside(self, request: Callable[[], Any]) -> Any:
-        # A pool's thread, for which a fiber waits: the loop stands still meanwhile.
+        # The thread of a pool, for which a fiber waits: the loop waits meanwhile.
         value = request()
         if inspect.isawaitable(value):
             fibers.discard(value)
@@ -298,7 +298,7 @@ class Program(Node):
         return any(one.done() for one in waits)
 
     def _count(self, share: float) -> None:
-        # A loop that looks without ever waiting would hold simulated time still for ever.
+        # A loop that polls without waiting would stop simulated time for ever.
         fiber = fibers.current()
         if not self.strict or fiber is None:
             return
@@ -317,7 +317,7 @@ class Program(Node):
         Args:
             start: Time on tftool's clock at which this poll began, nanoseconds.
         """
-        now = time.monotonic_ns()  # real, for simulated time hardly moves meanwhile
+        now = time.monotonic_ns()  # real time, as simulated time hardly advances
         if start != self._polled_until:
             self._polls_since = now
         self._polled_until = self.clock.now()
@@ -372,7 +372,8 @@ def running() -> Program | None:
     fiber = fibers.current()
     owner: Program | None = None if fiber is None else fiber.owner
     if owner is None and fiber is None and len(_living) == 1:
-        # A thread that no program started, a pool's say: there is only one it can work for.
+        # Another library started this thread, for example a pool. If only one program runs, the
+        # thread works for this program.
         (owner,) = _living
     if owner is None and fiber is None and _outsiders is not None:
         owner = _outsiders()

@@ -181,7 +181,7 @@ def _summary(value: Any, kind: str) -> str:
 
 def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
     """Return a result of `plain` as YAML text that ends with a line end."""
-    import yaml  # Not for a command line alone.
+    import yaml  # Imported late, to keep command lines fast.
 
     if not isinstance(shown, dict | list):
         return f"{shown}\n"

@@ -96,7 +96,7 @@ class UserThread(threading.Thread):
             return
         self._owner = owner
         self._fiber = fiber = owner.new_fiber(self.name, self._run_told)
-        # In a list, for a task itself would be awaited.
+        # The task is in a list, because `ask` would await a task itself.
         (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def _run_told(self) -> None:
@@ -207,7 +207,7 @@ def _queues() -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     module.__dict__["__builtins__"] = builtins_for_users()
     spec.loader.exec_module(module)
-    # The one in C waits in real time; the exceptions are the same ones.
+    # The version in C waits in real time; both versions raise the same exceptions.
     module.__dict__["SimpleQueue"] = module._PySimpleQueue
     return module
 
@@ -295,7 +295,7 @@ def _get_event_loop() -> asyncio.AbstractEventLoop:
     else:
         if owner is None or found.is_running() or found in owner.event_loops:
             return found
-        # In a test's thread: one that would sleep in real time, or another test's.
+        # In a test's thread, this is a loop in real time, or the loop of another test.
         if not found.is_closed():
             _replaced.append(found)
     loop = UserEventLoop()

@@ -57,8 +57,8 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
     folder = path.resolve().parent
     module = ModuleType(name or path.stem)
     if (folder / "__init__.py").is_file():
-        # A node's file in its package imports that package by name, and files beside
-        # it by a dot, as when installed.
+        # As if installed, a node's file in a package can import the package by name, and
+        # neighbouring files with a leading dot.
         importing.look_in(folder.parent)
         module.__package__ = folder.name
     importing.look_in(folder)
@@ -70,7 +70,7 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
 
 def _reads(code: CodeType, name: str) -> bool:
     """Return whether a file's own statements, outside functions, read a global name."""
-    import dis  # Only for those that have ended without a node.
+    import dis  # Needed only for programs without a node.
 
     return any(
         step.opname == "LOAD_NAME" and step.argval == name for step in dis.get_instructions(code)
@@ -89,7 +89,7 @@ def compile_file(path: Path) -> CodeType:
     except OSError as error:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     try:
-        # An attribute that users' own `from __future__` decides, not ours.
+        # `from __future__` imports of tftool must not affect users' code.
         code: CodeType = compile(source, str(path), "exec", dont_inherit=True)
         return code
     except SyntaxError as error:

@@ -53,7 +53,7 @@ def pack_transform(message: Any) -> TransformStamped:
         stamp_of(message.header.stamp),
         message.header.frame_id,
         message.child_frame_id,
-        # Unchecked: a rotation of all zeros is refused by the buffer, in tf2's words.
+        # The rotation is not checked here: the buffer refuses a rotation of zeros with tf2's text.
         transform((moved.x, moved.y, moved.z), (turned.x, turned.y, turned.z, turned.w)),
     )
 

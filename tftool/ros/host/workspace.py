@@ -63,7 +63,7 @@ def _link(file: Path, target: Path) -> None:
     try:
         os.symlink(file.resolve(), target, target_is_directory=file.is_dir())
     except OSError:
-        # Windows asks for a privilege to make a link.
+        # Windows needs a privilege to create a symbolic link.
         if file.is_file():
             shutil.copy2(file, target)
 
@@ -98,7 +98,8 @@ class Workspace:
             for folder, is_marked in _folders(root, _DEPTH)
             if is_marked
         ]
-        # Interfaces are known before a program imports any: those here take precedence over ours.
+        # Interfaces must be found before a program imports one, as they take precedence over
+        # tftool's.
         if any((folder / kind).is_dir() for folder in self._marked for kind in _KINDS):
             _ = self._found
 
@@ -134,7 +135,8 @@ class Workspace:
     def _roots(self) -> list[Path]:
         roots = [self.start]
         for parent in [self.start, *self.start.parents][:4]:
-            # A package's folder belongs to the src it lies in; a src to nothing above it.
+            # A package's folder belongs to the src folder that contains it; a src folder belongs to
+            # no folder above it.
             if parent.name == "src":
                 roots.append(parent)
                 break
@@ -276,7 +278,8 @@ def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
         folder, depth = waiting.pop()
         try:
             with os.scandir(folder) as found:
-                # The first of two packages of one name counts, and src holds what is built.
+                # Of two packages with one name the first is used; src contains the sources of built
+                # packages.
                 entries = sorted(found, key=lambda one: (one.name != "src", one.name), reverse=True)
         except OSError:
             entries = []
@@ -285,14 +288,14 @@ def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
         for one in entries if depth else ():
             if one.name in _SKIPPED or one.name.startswith(".") or not _is_folder(one):
                 continue
-            # A package linked into a workspace; where other links lead is not looked at.
+            # A symbolic link to a package is followed; folders below it are not searched.
             waiting.append((one.path, 0 if one.is_symlink() else depth - 1))
 
 
 def _is_folder(entry: "os.DirEntry[str]") -> bool:
     try:
         return entry.is_dir()
-    except OSError:  # a link to itself, say
+    except OSError:  # for example a link to itself
         return False
 
 

@@ -252,7 +252,7 @@ class GroupAction(Action):
 
     def execute(self, context: LaunchContext) -> Any:
         """Return the actions of the group, between a Push and a Pop if the group has a scope."""
-        # Asked for outside, where they are passed from.
+        # The values are evaluated in the outer scope, from which they are passed.
         inside: list[Any] = [
             SetLaunchConfiguration(perform(context, name), perform(context, value))
             for name, value in self.launch_configurations.items()

@@ -35,7 +35,7 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
                         context.enter_file(path)
                         look(inner.entities)
                 except TftoolError:
-                    continue  # it is said when the file is really included
+                    continue  # the error is reported when the file is included
                 finally:
                     context.files = files
                 for name in set(found) - before & passed:
@@ -112,7 +112,8 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
     for below in ("launch", "."):
         path = folder / below / rest[0]
         if path.is_file():
-            # Where its author knows it, which is what its errors name.
+            # The path in the source folder, because error texts must name the file that the author
+            # knows.
             return path.resolve(), rest[1:]
     raise UsageError(f"package '{first}' has no launch file '{rest[0]}'. {_listed(folder)}")
 

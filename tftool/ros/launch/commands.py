@@ -55,7 +55,7 @@ def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> t
     Raises:
         UsageError: If the command cannot be started.
     """
-    # In a loop of its own: the world's loop stands still meanwhile.
+    # The command needs a separate event loop, because the world's loop waits meanwhile.
     with ThreadPoolExecutor(1) as pool:
         lines, status, is_killed = pool.submit(asyncio.run, _run_to_end(command)).result()
     for line, is_stdout in lines:
@@ -69,7 +69,7 @@ def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> t
 
 async def _run_to_end(command: SystemCommand) -> tuple[list[tuple[str, bool]], int, bool]:
     """Run a command; return its output lines, its exit status and whether it was killed."""
-    # In tftool's process group: Ctrl-C ends the command too.
+    # The command is in tftool's process group, so that Ctrl-C ends the command too.
     process, streams = await begin(command, leads_group=False)
     lines: list[tuple[str, bool]] = []
 
@@ -126,7 +126,7 @@ async def begin(
 
 
 def _cannot_run(command: SystemCommand, error: OSError) -> UsageError:
-    # A folder that is not there is told in the same words as a command that is not.
+    # The error text for a missing folder has the form of the one for a missing command.
     missing = "" if error.filename in (None, command.words[0]) else f" '{error.filename}'"
     return UsageError(f"cannot run '{command.words[0]}': {error.strerror}{missing}")
 
@@ -175,5 +175,6 @@ def interrupt(process: asyncio.subprocess.Process) -> None:
 def _send(process: asyncio.subprocess.Process, number: int) -> None:
     if process.returncode is None:
         with contextlib.suppress(ProcessLookupError):
-            # It leads a group of its own: a shell alone would not pass the signal on.
+            # The command has its own process group: a shell would not pass the signal to its
+            # children.
             os.killpg(process.pid, number)

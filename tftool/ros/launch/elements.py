@@ -139,7 +139,7 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
         where = f"{path}:{error.lineno}:{error.offset + 1}"
         raise InputError(f"{where}: {expat.ErrorString(error.code)}") from None
     except (LookupError, ValueError) as error:
-        # Expat asks Python for encodings that it does not know itself.
+        # Expat uses Python's codecs for encodings that it lacks.
         raise InputError(f"{path}:1: {error}; save the file as UTF-8") from None
     root = stack[0].children[0]
     if root.tag != "launch":
@@ -192,7 +192,7 @@ class _Yaml:
     def element(self, tag: str, node: Any, depth: int) -> Element:
         """Convert a mapping of attributes, or a list of actions, to one element."""
         element = Element(tag, self.where(node))
-        # An alias may stand inside what it stands for.
+        # An alias may occur inside its own anchor, without end.
         if depth > DEEPEST:
             raise element.too_deep()
         if isinstance(node, yaml.SequenceNode):

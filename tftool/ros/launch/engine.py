@@ -109,7 +109,7 @@ class Launch(Node):
         self.handlers: list[Any] = []
         self.labels: dict[str, str] = {}
         self._say = say
-        self._running: dict[str, Callable[[], object]] = {}  # how each is ended
+        self._running: dict[str, Callable[[], object]] = {}  # each ends a program
         self._timers: set[asyncio.Task[None]] = set()
         self._watches: set[asyncio.Task[None]] = set()
         self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
@@ -148,7 +148,7 @@ class Launch(Node):
             await self._over
         self.ended.set()
 
-    # What actions ask for
+    # Methods for actions
 
     def do(self, entities: Any) -> None:
         """Execute actions, and the actions that they return, one after the other.
@@ -256,7 +256,7 @@ class Launch(Node):
     def _note_start(self, action: Any, label: str, words: Sequence[str], **details: Any) -> None:
         """Log that a process has started, and emit a `ProcessStarted` event."""
         action.process_details = {"name": label, "cmd": list(words), **details}
-        shown = f": {shlex.join(words)}" if details else ""  # a node's are its package's business
+        shown = f": {shlex.join(words)}" if details else ""  # not for nodes
         self._say("INFO", label, f"process started{shown}")
         self.emit(ProcessStarted(**self._of(label)))
 
@@ -387,7 +387,7 @@ class Launch(Node):
                     on_exit=partial(self._program_ended, action, label),
                 )
             except executables.HasItsOwnCommand as error:
-                # The others do without it.
+                # The launch goes on without this program.
                 self.warn(f"left out: {error}")
                 return
             if isinstance(node, Program):
@@ -395,7 +395,7 @@ class Launch(Node):
                 self._running[label] = partial(self._remove, action, label, node)
             else:
                 self.labels[node.name] = label
-                # It lives as long as the world, which ends with the launch.
+                # The program runs as long as the world, which ends with the launch.
                 self._running[label] = partial(self._ended, action, label, 0, "")
             self._note_start(action, label, [executable.name, *executable.arguments])
 
@@ -420,7 +420,8 @@ class Launch(Node):
             self._note_start(action, label, command.words, cwd=cwd, env=env)
             if isinstance(self.clock, SimClock) and not self._contained:
                 status, reason = run_at_once(command, partial(self._line, label))
-                # Not at once: the handler of its end may stand further down in the file.
+                # Not at once, because the handler of the command's end may come later in the launch
+                # file.
                 self._start_task(self._end_soon(action, label, status, reason), self._watches)
             else:
                 self._start_task(self._watch(action, label, command), self._watches)
@@ -477,7 +478,7 @@ class Launch(Node):
 
     def _start(self, label: str, start: Callable[[], None], respawn: float | None) -> None:
         if self._closing:
-            # The end of one may be what another waits for to begin.
+            # The end of one program may start another one.
             return
         if respawn is not None:
             self._respawns[label] = (max(respawn, SOONEST), start)
@@ -506,22 +507,22 @@ class Launch(Node):
             status = await process.wait()
         self._ended(action, label, status, "")
 
-    # What ends
+    # Ends of programs
 
     def _remove(self, action: Any, label: str, node: Program) -> None:
         if node.is_begun:
             self.world.remove(node)
         else:
-            # Started in this very instant, it will not come to tell of its end.
+            # A program that was started in this instant does not report its end.
             self._program_ended(action, label, node)
 
     def _program_ended(self, action: Any, label: str, ended: Program) -> None:
-        # Its name is free: it may be started again.
+        # The node's name is free, so that the program may be started again.
         self.world.remove(ended)
         reason = "" if ended.failure is None else error_sentence(ended.failure)
         if isinstance(ended.failure, SystemExit):
             reason = ""
-        # Asked to end before it made its node, it finds rclpy shut down.
+        # A program that must end before it creates its node finds rclpy shut down.
         too_late = ended.interrupted and isinstance(ended.failure, NotInitializedException)
         interrupted = ended.status == 130 or too_late
         self._ended(action, label, 0 if interrupted else ended.status or 0, reason)

@@ -311,7 +311,7 @@ def _reset(element: Element) -> Any:
 def _executable(element: Element) -> Any:
     shell, text = _flag(element, "shell", "false"), element.need("cmd")
     return processes.ExecuteProcess(
-        # A shell reads its quotes itself.
+        # A shell interprets the quotes itself.
         cmd=[parsed(text, element.where)] if shell else _words(text, element),
         name=_optional(element, "name"),
         shell=shell,
@@ -383,7 +383,7 @@ def load_file(path: Path) -> LaunchDescription:
 def _from_python(path: Path) -> LaunchDescription:
     code = user_code.compile_file(path)
     module = ModuleType("launch_file")
-    module.__file__ = str(path.absolute())  # ROS 2's loader makes it so too
+    module.__file__ = str(path.absolute())  # as ROS 2's loader does
     try:
         exec(code, module.__dict__)
         make = module.__dict__.get(MAKES)

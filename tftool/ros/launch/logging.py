@@ -83,7 +83,7 @@ class LaunchConfig:
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
         """Set the format of lines in log files: a name such as "default", or "{levelname} …"."""
         if log_format == "default":
-            # Alone on the screen it is plain.
+            # Log files have the default format with times; on the screen it has none.
             _formatter(log_format, log_style)
             log_format = "default_with_timestamp"
         self._log_format = _formatter(log_format, log_style)

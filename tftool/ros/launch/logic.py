@@ -37,7 +37,7 @@ class EqualsSubstitution(Substitution):
         try:
             equal = math.isclose(float(left), float(right))
         except ValueError:
-            # As in ROS 2, '1' and '0' are truths beside one that is written out.
+            # As in ROS 2, '1' equals 'true' and '0' equals 'false' if the other text is a word.
             truths = [_TRUTHS.get(text.lower(), text) for text in (left, right)]
             equal = truths[0] == truths[1]
         return str(equal).lower()

@@ -31,7 +31,7 @@ class ParameterValue:
             TypeError: If the value is no substitution and not of the given type.
         """
         self.value_type = value_type
-        # A list of texts is one text where one value is wanted.
+        # If a single value is wanted, a list of texts is joined to one text.
         if _is_text(value) or (value_type in _SINGLE and _is_parts(value)):
             self.value = normalize_to_list_of_substitutions(value)
         elif value_type is None or _is_of(value, value_type) or _holds_texts(value):
@@ -230,7 +230,7 @@ def _evaluated(context: LaunchContext, value: Any) -> Any:
     if isinstance(value, ParameterValue):
         return value.evaluate(context)
     if isinstance(value, tuple):
-        # What a substitution gives is read as YAML, as ROS 2 reads it.
+        # As in ROS 2, the text of a substitution is parsed as YAML.
         value = _typed(perform(context, value), None)
     elif isinstance(value, list):
         each = (_evaluated(context, one) for one in value)

@@ -86,7 +86,7 @@ class Startable(Action):
         output: Any = "log",
         **kwargs: Any,
     ) -> None:
-        # These are about how real processes end, and where their output goes.
+        # These arguments concern the end and the output of processes.
         self.emulate_tty = kwargs.pop("emulate_tty", False)
         self.cached_output = kwargs.pop("cached_output", False)
         for name in ("sigterm_timeout", "sigkill_timeout", "log_cmd", "output_format"):
@@ -202,11 +202,11 @@ class ExecuteProcess(Startable):
         if (ros2 := _ros2_words(words, shell)) is not None:
             return self._execute_ros2(context, ros2)
         for package in context.workspace.packages.values():
-            # What only tftool can run: to a process of its own rclpy would be missing.
+            # Only tftool can run this program: a separate process would lack rclpy.
             if not shell and (found := package.executable_at(Path(words[0]))) is not None:
                 return self._execute_ros2(context, ["run", package.name, found, *words[1:]])
         if (node := _rclpy_program(words, shell, cwd, context)) is not None:
-            # A Python of its own would find no rclpy.
+            # A separate Python process would find no rclpy.
             file, argv = node
             options, arguments = names.parse(argv[1:])
             started = Executable(None, str(file), arguments, options, file.name, argv)
@@ -214,7 +214,7 @@ class ExecuteProcess(Startable):
             return None
         if shell:
             words = ["/bin/sh", "-c", " ".join(words)]
-        # The configuration of that name decides for every process, as in ROS 2.
+        # As in ROS 2, the launch configuration of that name overrides the action's argument.
         wanted = context.launch_configurations.get("emulate_tty", self.emulate_tty)
         command = SystemCommand(words, environment, cwd, is_true(perform(context, wanted)))
         context.launch.start_process(self, name, command, self.respawn_after(context))

@@ -125,7 +125,7 @@ def _kept(context: LaunchContext, name: str) -> Any:
 
 
 def _keep(context: LaunchContext, name: str, *more: Any) -> None:
-    # Another list: the scope outside keeps its own.
+    # Create a new list, because the outer scope must not change.
     configurations: dict[str, Any] = context.launch_configurations
     configurations[name] = [*_kept(context, name), *more]
 

@@ -29,7 +29,7 @@ class LaunchService:
         self._entities: list[Any] = []
         self._launch: Launch | None = None
         self._owner: program.Program | None = None
-        self._threads: set[int] = set()  # whose callers may await
+        self._threads: set[int] = set()  # threads whose callers get a coroutine
         self.errors: list[str] = []
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
@@ -94,7 +94,7 @@ class LaunchService:
         self._threads.add(threading.get_ident())
         try:
             while not launch.ended.is_set():
-                # The loop is the user's, and its time the world's.
+                # The event loop belongs to the user, and its time is the world's.
                 await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
         except asyncio.CancelledError:
             self._end(launch)
@@ -130,7 +130,7 @@ class LaunchService:
         return _nothing() if awaits else None
 
     def _end(self, launch: Launch) -> None:
-        # A launch file's own functions run on the loop's thread, which is no program's.
+        # Functions of a launch file run on the event loop's thread, which belongs to no program.
         if self._owner is not None:
             self._owner.ask(lambda: launch.shut_down("the program asked for it"))
 

@@ -328,7 +328,7 @@ class FindExecutable(Substitution):
         """
         name = perform(context, self.name)
         if name in (ROS2, XACRO):
-            # ExecuteProcess carries out the one itself, and Command the other.
+            # ExecuteProcess runs `ros2` itself, and Command runs `xacro`.
             return name
         found = shutil.which(name)
         if found is None:

@@ -38,7 +38,7 @@ class LaunchedService(LaunchService):
         Raises:
             AssertionError: If the description has several ReadyToTest actions.
         """
-        program.current()  # for a fixture of a module, the program that lasts as long
+        program.current()  # create the program of a fixture for several tests
         self.event_loop = UserEventLoop()
         if not (found := list(ready_actions(description.entities))):
             description.add_action(action := ReadyToTest())
@@ -66,7 +66,7 @@ class LaunchedService(LaunchService):
             self.shutdown(force_sync=True)
         self.event_loop = None
         self.wait()
-        # As in ROS 2 a process that fails is for the tests to judge.
+        # As in ROS 2, the tests decide about a failed process.
         if self.failed_itself:
             raise AssertionError("the launch has failed: its log lines above give the reason")
 
@@ -131,7 +131,7 @@ def fixture(
     """
     scope = kwargs.get("scope", "function")
     if scope != "function":
-        # The fixtures that all launches share must last as long as this one.
+        # The shared fixtures must have the scope of this fixture.
         module = sys._getframe(1).f_globals
         for name, made in SHARED.items():
             module.setdefault(name, made(scope))

@@ -34,7 +34,7 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
     async def wait(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:
         is_over = _limit(timeout)
         while not (holds := bool(condition(action, check))) and not is_over():
-            # In the loop of a user's test, whose time is the world's.
+            # This runs in the event loop of a user's test, whose time is the world's.
             await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
         if not holds:
             otherwise(action, check)

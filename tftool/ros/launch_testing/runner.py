@@ -59,7 +59,7 @@ class _Loader(unittest.TestLoader):
         """Return the tests of a class, or no tests if this loader does not load that class."""
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._after_end:
             return unittest.TestSuite()
-        # A class of its own for each launch, which gets that launch's values.
+        # Each launch needs its own copy of the class, which gets the launch's values.
         own = {"__module__": testCaseClass.__module__, "__qualname__": testCaseClass.__qualname__}
         return super().loadTestsFromTestCase(type(testCaseClass.__name__, (testCaseClass,), own))
 
@@ -109,7 +109,7 @@ class TestRun:
         )
         self.markers = getattr(test_description_function, "__markers__", {})
         for case in self.all_cases() if param_args else ():
-            # A name that says what it was launched with.
+            # Add the values of the parameters to the test's name.
             old = case._testMethodName
             case._testMethodName = f"{old}{self._values()}"
             setattr(case, case._testMethodName, getattr(case, old))
@@ -257,7 +257,7 @@ def _failed(cases: Sequence[Any], reason: str) -> TestResult:
     stream.writeln(reason)
     for case in cases:
         result.startTest(case)
-        # Without a traceback: the lines of this module say nothing.
+        # The traceback is omitted, because lines of this module do not help users.
         result.addFailure(case, cast(Any, (AssertionError, AssertionError(reason), None)))
     return result
 

@@ -131,7 +131,7 @@ class ActionClient(Requester):
                 return None
             goal_key = bytes(goal_id.uuid)
             handle = self.seat.world.send_goal(self.full, copy, on_feedback, goal_id=goal_key)
-            # Shielded: the decision is the server's, whether or not this client waits for it.
+            # Shielded, because the server decides whether or not this client waits.
             accepted = handle.decided is None or await asyncio.shield(handle.decided)
             return ClientGoalHandle(self, goal_id, handle if accepted else None)
 

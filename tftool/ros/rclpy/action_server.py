@@ -246,7 +246,7 @@ class ActionServer(WorkQueue):
         try:
             response = await outcome(self._on_goal(handle.request))
         except Exception:
-            # As in ROS 2 it ends the executor that spins; the client must not wait for ever.
+            # As in ROS 2, the exception ends the executor; the client must not wait for ever.
             ask(lambda: self._decide(goal, False))
             raise
         accepted = ask(lambda: self._decide(goal, response == GoalResponse.ACCEPT))
@@ -280,7 +280,7 @@ class ActionServer(WorkQueue):
             try:
                 result = await outcome(chosen(handle))
             except Exception as error:
-                # As in ROS 2 it ends the goal, and nothing else.
+                # As in ROS 2, the exception ends only the goal.
                 logger.error(f"Error raised in execute callback: {error_sentence(error)}")
                 result = self.type_.Result()
             if handle.is_active:

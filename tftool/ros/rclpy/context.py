@@ -39,7 +39,7 @@ class Context:
         if self._valid:
             raise RuntimeError("Context.init() must only be called once")
         for word in args or ():
-            word.encode()  # as in ROS 2, only text is taken
+            word.encode()  # as in ROS 2, arguments must be valid text
         if args is not None and "--ros-args" in args and list(args) != self._program.argv:
             self.options, _ = names.parse(list(args))
         if domain_id is not None and domain_id < 0:

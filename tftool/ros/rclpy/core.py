@@ -169,7 +169,7 @@ def wait_for_message(
             arrived.set_result(message)
 
     subscription = node.create_subscription(msg_type, topic, keep, qos_profile)
-    # The callback that waits may keep the node's other callbacks from running.
+    # The waiting callback may prevent the node's other callbacks from running.
     subscription.passes_busy_group = True
     try:
         wait_for(seat_of(node), arrived, None if time_to_wait < 0 else time_to_wait)

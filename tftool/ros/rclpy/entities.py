@@ -101,8 +101,8 @@ class WorkQueue(NodeEntity):
 class Requester(WorkQueue):
     """Entity that sends requests to a server; each response is a piece of work."""
 
-    # An answer completes a future and calls no callback by itself, so a callback that
-    # waits for it gets it.
+    # A response only completes a future and calls no callback. So it is processed even if a
+    # callback of the same group waits for it.
     passes_busy_group = True
 
     def __init__(self, seat: NodeSeat, group: Any) -> None:
@@ -289,7 +289,7 @@ class Timer(NodeEntity):
         """Return the timer's callback; set the next call to the next multiple of the period."""
         now, due = self.seat.world.clock.now(), self.due
         self._last = now
-        # As fast as possible must not hold simulated time still.
+        # A timer with period 0 must not stop simulated time.
         fastest = TICK if self.seat.program.strict else 0
         if not self._period:
             self.due = now + fastest

@@ -167,7 +167,7 @@ class Executor:
             if not self._context.ok() or self._over:
                 return
             did_something = self._step(deadline, future)
-            # Work due at the deadline itself is still done, however much it is.
+            # All work that is due at the deadline is still done.
             if self._late(deadline) and (not did_something or self._late(deadline, by=1)):
                 return
 
@@ -241,7 +241,7 @@ class Executor:
         self._wake_from_anywhere()
 
     def _wake_from_anywhere(self) -> None:
-        # A thread that spins registers its waker before it looks at what there is to do.
+        # A spinning thread registers its waker before it looks for work.
         if self._wakers:
             self._program.ask(self.wake)
 
@@ -265,7 +265,8 @@ class Executor:
             self._has_released = False
             self.wake()
         while True:
-            # Registered before it looks: what another thread sets while it looks wakes it.
+            # Registered before the search for work, so that work added by another thread meanwhile
+            # wakes it.
             waker: asyncio.Future[None] = asyncio.get_running_loop().create_future()
             self._wakers.append(waker)
             try:
@@ -375,7 +376,7 @@ class MultiThreadedExecutor(Executor):
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Execute the nodes' callbacks until a future is done or the timeout has passed."""
         if self._let_go is not None:
-            # A callback waits: it may be what the last of the threads is busy with.
+            # A callback waits for the future, and may occupy the last worker thread.
             super().spin_until_future_complete(future, timeout_sec)
         else:
             self._lead(future, self._deadline(timeout_sec))
@@ -409,7 +410,8 @@ class MultiThreadedExecutor(Executor):
         def left() -> None:
             self._workers -= 1
             if self._let_go is not None and self._let_go is not let_go:
-                # Busy when the next turn began, which counted on it: that needs another one.
+                # This worker was busy when the next round began, which needs another worker in its
+                # place.
                 self._hire(self._let_go)
             self.wake()
 

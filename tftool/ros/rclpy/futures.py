@@ -40,12 +40,13 @@ class Future:
         self._callbacks: list[Callable[[Any], object]] = []
         self._watchers: list[Callable[[Any], object]] = []
         self._executor = executor
-        # Answers come on other threads than questions. Never held while a callback runs.
+        # Results come from other threads than the calls. The lock is never held while a callback
+        # runs.
         self._mutex = threading.Lock()
 
     def __await__(self) -> Generator[Any, None, Any]:
         task = _asyncio_task()
-        # Of two that wait, the inner one is asked: asyncio's own task or an executor's.
+        # If tasks of asyncio and of an executor are nested, the innermost one decides how to wait.
         in_asyncio = task is not None and task is not _STEPPING.beneath
         while not self._done and not self._cancelled:
             if in_asyncio:
@@ -63,7 +64,7 @@ class Future:
                 over.set_result(None)
 
         def tell(_: Any) -> None:
-            with contextlib.suppress(RuntimeError):  # The loop has closed: it waits no more.
+            with contextlib.suppress(RuntimeError):  # The loop is closed.
                 loop.call_soon_threadsafe(settle)
 
         self.watch(tell)

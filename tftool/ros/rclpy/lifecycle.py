@@ -73,7 +73,7 @@ _REQUESTS = (
     Transition(7, "shutdown", "active", "shuttingdown"),
 )
 
-# Where success, failure and an error lead, in the order of their numbers.
+# Goal states of success, failure and error, in the order of their numbers
 _OUTCOMES = {
     "configuring": ("inactive", "unconfigured", "errorprocessing"),
     "cleaningup": ("unconfigured", "inactive", "errorprocessing"),
@@ -295,7 +295,7 @@ def _ask(node: Any, before: LifecycleState) -> TransitionCallbackReturn:
     try:
         return TransitionCallbackReturn(getattr(node, callback)(before))
     except Exception as error:
-        # As in ROS 2 the node goes on; there, nothing is said.
+        # As in ROS 2, the node goes on; ROS 2 logs nothing.
         node.get_logger().error(f"{callback} failed: {type(error).__name__}: {error}")
         return TransitionCallbackReturn.ERROR
 

@@ -103,7 +103,7 @@ class RcutilsLogger:
         speaker = name or self.name
         text = str(message)
 
-        # Read here: the frame goes on while the loop works.
+        # Read the line number here, because the frame continues while the loop works.
         line = 0 if frame is None else frame.f_lineno
 
         def say() -> None:
@@ -126,7 +126,7 @@ class RcutilsLogger:
         Raises:
             ValueError: If severity, name or settings differ from those of the first call.
         """
-        # The last tells two calls on one line apart.
+        # The last instruction's index distinguishes two calls on one line.
         place = (frame.f_code, frame.f_lasti) if frame is not None else None
         call = self._calls.get(place)
         if call is None:

@@ -49,7 +49,7 @@ class Subscriber(SimpleFilter):
         return self.topic
 
     def __getattr__(self, key: str) -> Any:
-        # It can be used like the subscription itself.
+        # The attributes of the subscription are available here too.
         if key == "sub":
             raise AttributeError(key)
         return getattr(self.sub, key)
@@ -181,7 +181,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         stamp, slop = time.nanoseconds, self.slop.nanoseconds
         self._keep(stamp, msg, my_queue)
         if stamp not in my_queue:
-            return  # older than all of a full queue
+            return  # the queue is full of newer messages
         near = [
             [stamp]
             if queue is my_queue

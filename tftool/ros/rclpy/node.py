@@ -91,7 +91,7 @@ class Node(NodeGraph, NodeParameters):
         if enable_logger_service:
             self._serve_own(logger_services())
 
-    if not TYPE_CHECKING:  # to a type checker, every name would be one
+    if not TYPE_CHECKING:  # a type checker would accept every name
 
         def __getattr__(self, name: str) -> Any:
             sentence = f"'{type(self).__name__}' object has no attribute '{name}'"
@@ -99,7 +99,7 @@ class Node(NodeGraph, NodeParameters):
                 sentence += ": super().__init__('its_name') comes before everything else of a node"
             raise AttributeError(sentence)
 
-    # Who it is
+    # Names, clock and executor
 
     def get_name(self) -> str:
         """Return the node's name."""
@@ -138,7 +138,7 @@ class Node(NodeGraph, NodeParameters):
             return
         if before is not None:
             before.remove_node(self)
-        # An executor of a program's own may not know that it serves the node from now on.
+        # An executor of the user's own class may not know that it serves the node from now on.
         self._tftool.executor = (
             executor if executor is not None and executor.add_node(self) else None
         )
@@ -167,7 +167,7 @@ class Node(NodeGraph, NodeParameters):
         """Return a service's full name; unless `only_expand`, after remapping."""
         return f"/{self._tftool.full(service, remap=not only_expand, is_service=True)}"
 
-    # What it has
+    # Publishers, timers and other entities
 
     def create_publisher(
         self,
@@ -255,7 +255,8 @@ class Node(NodeGraph, NodeParameters):
         return self.__keep(Timer, callback, period, group, goes_by, autostart)
 
     def _warn_of_missing_callback(self, place: CodeLine | None) -> None:
-        # rclpy takes None too, for a timer that is only waited for; a student's calls nothing.
+        # rclpy accepts None too, for a timer that is only waited for; in a learner's node it is a
+        # mistake.
         if place is not None:
             self.get_logger().warning(
                 "the callback of this timer is None, so it calls nothing: write self.callback, "
@@ -335,7 +336,7 @@ class Node(NodeGraph, NodeParameters):
                 if not seat.world.has_service(full):
                     seat.add(Service, seat, kind, f"~/{below}", full, answer, group)
 
-        # In one go: another program's thread may come between two requests.
+        # In one request, because another program's thread may run between two requests.
         seat.program.ask(offer)
 
     def __keep(self, make: Callable[..., E], *args: Any) -> E:

@@ -156,7 +156,7 @@ class NodeGraph:
         found = {
             name: {kind}
             for name, topic in world.topics().items()
-            # Topics without a type stay among tftool's own nodes: the keys that are pressed, say.
+            # Topics without a ROS type, such as pressed keys, are known only to tftool's own nodes.
             if (kind := interface_name(topic.kind))
         }
         for name in world.endpoints.topics():
@@ -220,7 +220,7 @@ class NodeGraph:
             if isinstance(one, Client):
                 yield one.full, one.srv_type.interface__
 
-    # One node's
+    # Entities of one node
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False

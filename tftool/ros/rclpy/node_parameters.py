@@ -50,7 +50,7 @@ class NodeParameters:
         self._on_set_parameters_callbacks: list[Setter] = []
         self._post_set_parameters_callbacks: list[Callable[..., Any]] = []
         self.__declare_one("use_sim_time", False, None, False)
-        # What ROS's own nodes have, and `ros2 param list` shows.
+        # ROS's own nodes have this parameter, and `ros2 param list` shows it.
         self.__declare_one("start_type_description_service", True, None, False)
         if automatic:
             for name, value in self._parameter_overrides.items():
@@ -521,14 +521,14 @@ def services_of(node: NodeParameters) -> Iterator[tuple[str, Any, Answer]]:
     """Yield the services that read and set a node's parameters: name, type, handler."""
 
     def values(names: Sequence[str]) -> list[Any]:
-        # None at all if one has no value, as in ROS 2.
+        # As in ROS 2, return no values if one parameter has none.
         try:
             return [one.get_parameter_value() for one in node.get_parameters(names)]
         except (ParameterNotDeclaredException, ParameterUninitializedException):
             return []
 
     def change(parameters: Sequence[Any]) -> Any:
-        # A request may name a type that is none, or a value that is not of its type.
+        # A request may contain an invalid type, or a value of another type.
         try:
             changes = [Parameter.from_parameter_msg(one) for one in parameters]
             return node.set_parameters_atomically(changes)

@@ -34,7 +34,7 @@ class ParameterType(IntEnum):
         """
         if value is None:
             return cls.NOT_SET
-        for kind, number in SCALARS.items():  # bool before int, which it is as well
+        for kind, number in SCALARS.items():  # bool comes before int, because bool is a subclass
             if isinstance(value, kind):
                 return cls(number)
         if isinstance(value, list | tuple | array.array):

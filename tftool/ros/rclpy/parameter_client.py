@@ -55,7 +55,7 @@ class AsyncParameterClient:
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
         """Block until the other node's parameter services exist; return False at the timeout."""
         seat = seat_of(self.node)
-        # Waited for together: one after the other, each would have the whole time for itself.
+        # Wait for all services together, so that the timeout applies to all of them.
         names = [client.full for client in self._clients.values()]
         return seat.wait_until(lambda: all(map(seat.world.has_service, names)), timeout_sec)
 

@@ -134,7 +134,8 @@ class Silence:
             self._timer.cancel()
 
     def _wait(self, limit: int) -> None:
-        # Not restarted at each sign of life, as there may be thousands: checked at its end.
+        # The timer is not restarted at each sign of life, as there may be thousands; the time is
+        # checked at its end.
         clock = self._seat.program.clock
         self._timer = clock.timer(self._last + limit, Phase.WATCH)
         self._timer.add_done_callback(lambda timer: self._look(timer, limit))

@@ -70,7 +70,7 @@ class NodeSeat:
         while any(other.name == name for other in self.world.nodes if other is not self.program):
             number += 1
             name = f"{wanted}_{number}"
-        # Hidden nodes are tools, and there may be many: two terminals with 'ros2 topic echo'.
+        # Hidden nodes are tools, of which several may run: two terminals with 'ros2 topic echo'.
         is_tool = self.name.startswith("_")
         if name != wanted and not is_tool:
             self.program.say(
@@ -82,7 +82,7 @@ class NodeSeat:
         elif name in self.world.far_nodes and not is_tool:
             self.program.say("WARN", name, names.named_twice(name))
         if self.program.name == name:
-            # The executable and its node share a name, as they often do.
+            # The executable and its node often have the same name, so the program gets another one.
             self.program.name = f"{name} (program)"
         return ProgramNode(self.program, name)
 
@@ -96,7 +96,7 @@ class NodeSeat:
         full = names.expand(name, self.name, self.namespace)
         return self.options.remapped(full, self.name, self.namespace) if remap else full
 
-    # What it has
+    # Entities of the node
 
     def require_of(self, entity: Any) -> None:
         """Check that a publisher, timer or other entity still belongs to the node.

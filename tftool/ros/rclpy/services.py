@@ -92,7 +92,7 @@ class Client(ServiceEnd, Requester):
         future.cancel()
 
     async def _call(self, request: Any) -> Any:
-        # As in ROS 2, a request that no server takes yet is not kept: it stays unanswered.
+        # As in ROS 2, a request without a server is dropped, and gets no response.
         if not self.is_served():
             return None
         answer = await self.seat.world.call(self.full, duplicate(request))

@@ -200,7 +200,8 @@ class Subscription(TopicEnd):
         self._queue: deque[Any] = deque(maxlen=_room(profile))
         self._takes_info = not accepts(callback, None) and accepts(callback, None, None)
         self._quality = quality_of(profile, offered=False)
-        # What other processes send, and sent before, comes to a latched one by itself.
+        # A latched subscription gets messages of other processes, also earlier ones, from the
+        # connection itself.
         self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
         deliver = self._accept if self._is_fed else None
         self._describe(SUBSCRIPTION, self._quality, deliver=deliver)
@@ -221,7 +222,7 @@ class Subscription(TopicEnd):
             self._accept(value, sender)
 
     def _accept(self, value: Any, sender: Endpoint | None) -> None:
-        # Who offers less than is asked for is not heard at all.
+        # Messages of a publisher with an incompatible quality of service are ignored.
         if sender is None or not conflict(sender.quality, self._quality):
             self._queue.append((self.seat.world.clock.now(), value))
             self.seat.wake()

@@ -160,7 +160,7 @@ def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None
     )
     if "qos_profile" in asked:
         profile = _wanted_quality(asked, profile)
-    # What a topic carries behind an action or a service is no message of its own file.
+    # The types of topics that belong to an action or a service have no message file of their own.
     is_derived = "/action/" in name or "/srv/" in name
     kind = INTERFACES.part(name) if is_derived else rosidl_runtime.interface(name, "msg")
 
@@ -342,5 +342,5 @@ def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
     while core.ok() and not (times and sent >= times):
         rate.sleep()
         publish()
-    # Messages on their way to another process are given time to arrive.
+    # Give messages to other processes time to arrive.
     listen()

@@ -299,7 +299,7 @@ def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int
     accepted = False
 
     def on_feedback(message: Any) -> None:
-        # Feedback can be there before the answer that accepts the goal: it is shown after it.
+        # Feedback may arrive before the response that accepts the goal; it is shown afterwards.
         if not accepted:
             early.append(message)
             return

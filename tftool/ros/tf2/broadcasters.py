@@ -63,7 +63,7 @@ class TransformListener:
 
         arrivals = _Arrivals(self._member, self._stop)
         program = self._member.program
-        # A recording that is played again, or a simulation that starts over.
+        # A recording is played again, or a simulation starts again.
         watch = Watch(
             lambda: self.buffer.frames.clear(),
             lambda _, text: program.say("WARN", program.name, text),
@@ -72,7 +72,7 @@ class TransformListener:
         def insert(message: TransformMessage, *, static: bool) -> None:
             watch.read(world.clock.now())
             arrivals.note()
-            # Looked up each time: a program may give the listener another buffer.
+            # Read the attribute each time, because a program may give the listener another buffer.
             frames = self.buffer.frames
             insert_one = frames.set_transform_static if static else frames.set_transform
             for sample in message.transforms:
@@ -225,11 +225,11 @@ class TransformBroadcaster:
             )
         turn = sample.transform.rotation
         square = sum(number * number for number in turn)
-        # NaN is refused in tf2's words; None is what no rotation at all is written as.
+        # The buffer refuses NaN with tf2's text, so no warning is needed here.
         if square != square:
             return
         if abs(square - 1.0) <= _TOLERANCE:
-            # Computed from an angle, w is not exactly 0.
+            # If the rotation is computed from an angle, w is not exactly 0.
             if tuple(turn) == (1.0, 0.0, 0.0, 0.0):
                 self._report_once(
                     "rotation",

@@ -360,7 +360,7 @@ class BufferCore:
     def _ask(self, request: Callable[[], Any]) -> Any:
         return self._program.ask(request)
 
-    # Setting
+    # Inserts
 
     def set_transform(self, transform: Any, authority: str) -> None:
         """Insert a sample of a moving transform; a rejection is logged."""
@@ -376,7 +376,7 @@ class BufferCore:
         """Drop all moving transforms; static ones stay."""
         self._ask(self.frames.clear)
 
-    # Asking
+    # Lookups
 
     def answer(self, asked: LookupRequest) -> Any:
         """Look a transform up; return it as a geometry_msgs TransformStamped message."""
@@ -434,7 +434,7 @@ class BufferCore:
         stamp = self._ask(lambda: self.frames.get_latest_common_time(target_frame, source_frame))
         return Time(nanoseconds=stamp)
 
-    # Looking round
+    # Lists of frames
 
     def all_frames_as_yaml(self) -> str:
         """Return a description of all frames in tf2's YAML format."""
@@ -468,7 +468,7 @@ class Buffer(BufferCore, BufferInterface):
         response.frame_yaml = self.all_frames_as_yaml()
         return response
 
-    # Blocking
+    # Lookups that block
 
     def _look_up(self, asked: LookupRequest, timeout: Any) -> Any:
         self._wait(asked, timeout)
@@ -494,7 +494,7 @@ class Buffer(BufferCore, BufferInterface):
             attempt.cancel()
             await asyncio.gather(attempt, return_exceptions=True)
 
-    # Awaited
+    # Lookups that return futures
 
     def wait_for_transform_async(self, *asked: Any, **named: Any) -> Future:
         """Return a future that completes with the transform as soon as it is available."""

@@ -44,7 +44,7 @@ def _transform_of(stamped: Any) -> Transform:
 
 
 def _placed(place: Any, turn: Any) -> Transform:
-    # Unchecked: here a rotation of all zeros stands for none.
+    # The rotation is not checked here: a rotation of zeros means no rotation.
     return transform((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
 
 
@@ -164,7 +164,7 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     if hasattr(transform, "header"):
         result.header.frame_id = transform.header.frame_id
     data = bytearray(cloud.data.tobytes())
-    # Where the coordinates lie in the data, row by row: written there, they are in the cloud.
+    # A view of the coordinates in the data: writing to it changes the cloud.
     rows = rows_of(cloud, [fields[axis] for axis in "xyz"], data)
     points = np.stack([rows[axis].ravel() for axis in "xyz"], axis=1)
     moved = carry.points(_transform_of(transform), points)

@@ -20,7 +20,7 @@ from tftool.ros.host.locks import running_program
 TRANSLATION_IDENTITY = [0.0, 0.0, 0.0]
 ROTATION_IDENTITY = [0.0, 0.0, 0.0, 1.0]
 
-# Below this, the square of a quaternion's length stands for no turn.
+# A quaternion whose squared length is below this limit means no rotation.
 _EPSILON = 4 * float(np.finfo(float).eps)
 
 

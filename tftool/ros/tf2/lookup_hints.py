@@ -52,7 +52,8 @@ class LookupHints:
         """Record a lookup that succeeded."""
         self._asked += 1
         self._refused_since.pop((target, source), None)
-        # Simulated time hands a transform over in the instant of its stamp; a network does not.
+        # On simulated time a transform arrives in the instant of its stamp; over a network it does
+        # not.
         if time and not self._waits and self._program.strict and time == self._program.clock.now():
             self._just_in_time += self._frames.newest_common(target, source) != 0
 
@@ -69,7 +70,7 @@ class LookupHints:
         elif isinstance(error, ExtrapolationException):
             once = next(self._sent_once(target, source, now), None) if lasts else None
             if once is not None:
-                # These failures have another cause than the moment.
+                # The time is not the cause of these failures.
                 self._early = 0
                 self._say(
                     f"once {once.frame}",
@@ -121,7 +122,7 @@ class LookupHints:
             seen: set[str] = set()
             info = infos.get(frame)
             while info is not None and info.parent is not None and info.frame not in seen:
-                # Without a stamp they replace each other; the broadcaster says so.
+                # Samples without a stamp replace each other, and the broadcaster warns about them.
                 is_single = info.samples == 1 and not info.is_static and info.newest > 0
                 if is_single and info.age >= ONCE:
                     yield info

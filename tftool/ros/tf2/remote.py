@@ -87,7 +87,7 @@ class BufferClient(BufferInterface):
         )
         padding = self.timeout_padding
         extra = length(padding) / 1e9 if isinstance(padding, Duration) else float(padding)
-        # The answer needs a moment to come back, even where nothing is added for that.
+        # The response needs some time to arrive, even if no padding is added.
         limit = length(timeout) / 1e9 + max(extra, 0.1)
         seat = seat_of(self.node)
         sent = self.action_client.send_goal_async(goal)
