@@ -40,7 +40,7 @@ USUAL_WAIT = 0.1
 
 
 class Cause(Enum):
-    """Cause of a failed lookup; WORKS for a lookup that succeeds."""
+    """Cause of a lookup's failure; WORKS if the lookup succeeds."""
 
     LATE = "late"
     CLOCK_OFFSET = "clock-offset"
@@ -215,7 +215,7 @@ def works(known: TraceResult) -> Reason:
 
 
 def refusing_link(known: TraceResult) -> Reason:
-    """Return the reason why a link of the chain has no data at the time."""
+    """Return the reason why an edge of the path has no data at the time of the lookup."""
     trace = known.trace
     if known.refusing is None or known.way is None:
         return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
@@ -495,8 +495,8 @@ class Explanation:
         available: Whether the lookup succeeds.
         exception: Name of tf2's exception; empty if the lookup succeeds.
         text: Text of tf2's error.
-        epoch: The first stamp of moving links.
-        links: Links of the path from source to target, in this order.
+        epoch: The first stamp of moving edges.
+        links: Edges of the path from source to target, in this order.
         refusing: Edge without data at the time of the lookup; None without such an edge, or without
             a path.
         answerable_from: Log time from which the lookup succeeds; None for never.
@@ -682,7 +682,7 @@ def explain(
     cache_time: Duration = CACHE_TIME,
     timeout: Duration = 0,
 ) -> Explanation:
-    """Explain link by link why a lookup succeeds or fails.
+    """Explain why a lookup succeeds or fails, with the state of each edge on its path.
 
     Args:
         recording: A recording, a buffer, or opened frames.

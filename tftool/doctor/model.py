@@ -96,7 +96,7 @@ class Lap:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """Frames that are connected by the newest links.
+    """Frames that are connected by the newest edges.
 
     Attributes:
         root: The frame without a parent; if there is none, some frame of the loop.
@@ -206,7 +206,7 @@ class Model:
 
     @cached_property
     def epoch(self) -> Stamp:
-        """First stamp of a moving link; without one, the first log time."""
+        """First stamp of a moving edge; without moving edges, the first log time."""
         firsts = [int(t.sorted_stamps[0]) for t in self.dynamic if len(t.sorted_stamps)]
         return min(firsts, default=self.start)
 

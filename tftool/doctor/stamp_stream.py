@@ -1,4 +1,4 @@
-"""Streams of stamps with arrival times: samples of a link, or headers of a topic."""
+"""Streams of stamps with arrival times: samples of an edge, or headers of a topic."""
 
 import math
 import re

@@ -241,10 +241,10 @@ class Fiber:
     # The loop's side.
 
     async def drive(self) -> None:
-        """Run the fiber's code to its end, executing its requests in the event loop.
+        """Run the fiber's code to its end, and execute the code's requests in the event loop.
 
-        Cancelling this coroutine interrupts the fiber: its wait raises KeyboardInterrupt, as Ctrl-C
-        does in a ROS node; requests are still executed until the code has ended.
+        If this coroutine is cancelled, the code's present or next wait raises KeyboardInterrupt, as
+        after Ctrl-C in a ROS node. Requests are still executed until the code has ended.
 
         Raises:
             StuckError: In strict mode, if the code neither paused nor ended and was stopped.

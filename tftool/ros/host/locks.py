@@ -22,7 +22,7 @@ def running_program() -> Any:
 
 
 class StateMonitor:
-    """State that several threads change, and on which threads wait.
+    """State shared by several threads, which may wait until another thread changes it.
 
     The inner mutex is held only briefly, never while a thread waits.
     """

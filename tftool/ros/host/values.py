@@ -29,7 +29,7 @@ def pack(message: Any, kind: type[Any]) -> Any:
 
 
 def unpack(value: Any, kind: type[Message]) -> Any:
-    """Convert a value of a topic, service or action to a new message of a class."""
+    """Convert a value on a topic, service or action of tftool to a new message of class `kind`."""
     if isinstance(value, TransformMessage):
         return unpack_transforms(value)
     return kind() if value is None else recast(value, kind)

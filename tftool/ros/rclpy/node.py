@@ -160,11 +160,11 @@ class Node(NodeGraph, NodeParameters):
         self.destroy_node()
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Return a topic's full name; unless `only_expand`, after remapping."""
+        """Return a topic's full name after remapping; with `only_expand`, without remapping."""
         return f"/{self._tftool.full(topic, remap=not only_expand)}"
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """Return a service's full name; unless `only_expand`, after remapping."""
+        """Return a service's full name after remapping; with `only_expand`, without remapping."""
         return f"/{self._tftool.full(service, remap=not only_expand, is_service=True)}"
 
     # Publishers, timers and other entities

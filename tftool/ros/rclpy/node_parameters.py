@@ -176,7 +176,7 @@ class NodeParameters:
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """Return a parameter, or an alternative for a parameter not declared or without a value."""
+        """Return a declared parameter that has a value; for any other, return the alternative."""
         found = self._parameters.get(name)
         if found is not None and found.type_ is not Type.NOT_SET:
             return found
@@ -424,7 +424,7 @@ def _is_on_step(value: float, limits: Any) -> bool:
 
 
 def unused_parameters(node: NodeParameters) -> list[str]:
-    """Return a sentence for each parameter that was given to a node but never declared."""
+    """Return a warning for each parameter with a given value that the node never declared."""
     return [undeclared(name, node._parameters) for name in node._unused_parameters]
 
 
