@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tftool.base.stamps import as_seconds, display, seconds
+from tftool.base.stamps import as_seconds, display, seconds, time_of_day
 
 
 @pytest.mark.parametrize(
@@ -58,3 +58,9 @@ def test_a_stamp_is_shown_with_six_decimals(stamp, text):
 @given(st.integers(0, 2**31 * 10**9))
 def test_whole_nanoseconds_survive_seconds_to_a_microsecond(stamp):
     assert abs(seconds(as_seconds(stamp)) - stamp) <= 1000
+
+
+def test_a_stamp_since_1970_is_a_time_of_day_and_a_simulated_one_is_seconds():
+    # 1 January 2024, 13:05:09.25 UTC.
+    assert time_of_day(seconds(1_704_114_309.25)) == "13:05:09.250"
+    assert time_of_day(seconds(1012.5)) == "1012.500"

@@ -25,11 +25,11 @@ def chain(length, lead="f"):
 
 def test_every_frame_has_one_line_with_short_numbers():
     assert lines(WORLD) == [
-        "at 1012.500       broadcaster     rate    kept       oldest       newest     age",
+        "at 1012.500       broadcaster     rate    kept    oldest    newest     age",
         "world",
-        "├── turtle1       b1           62.6 Hz  10.0 s  1002.484000  1012.484000  0.02 s",
+        "├── turtle1       b1           62.6 Hz  10.0 s  1002.484  1012.484  0.02 s",
         "│   └── carrot1   publisher     static",
-        "└── turtle2       b2                 -  0.00 s  1012.484000  1012.484000  0.02 s",
+        "└── turtle2       b2                 -  0.00 s  1012.484  1012.484  0.02 s",
     ]
 
 

@@ -63,12 +63,20 @@ def test_the_moment_shown_is_marked_and_its_values_are_told(path):
     assert sum("┃" in line for line in lines) == 10
 
 
-def test_with_four_lines_a_curve_has_its_name_and_value_at_its_left(path):
-    lines = plotted(path, height=4)
+def test_with_two_lines_a_curve_has_its_name_at_its_left(path):
+    lines = plotted(path, height=2)
 
     assert lines[0].startswith("   dist│")
-    assert lines[1].startswith("10.000m│")
-    assert lines[2].startswith("    yaw│")
+    assert lines[1].startswith("    yaw│")
+
+
+@pytest.mark.parametrize("height", [3, 4])
+def test_a_very_low_plot_has_the_distance_with_its_scale_and_both_values(path, height):
+    lines = plotted(path, height=height)
+
+    assert re.fullmatch(r"distance 10\.000 m  yaw -?180\.0°", lines[0])
+    assert [lines[1][:8].strip(), lines[-1][:8].strip()] == ["10.00│", "0│"]
+    assert len(lines) == height
 
 
 def test_seven_lines_have_both_curves_with_their_scales_and_the_time(path):

@@ -84,6 +84,15 @@ def as_seconds(stamp: int) -> float:
     return -value if stamp < 0 else value
 
 
+def time_of_day(stamp: int) -> str:
+    """Format a stamp as hours, minutes and seconds of UTC; a simulated one as seconds."""
+    if stamp < SIMULATED_BELOW:
+        return f"{as_seconds(stamp):.3f}"
+    minutes, milliseconds = divmod(stamp // 1_000_000, 60_000)
+    hours, minutes = divmod(minutes % 1440, 60)
+    return f"{hours:02}:{minutes:02}:{milliseconds / 1000:06.3f}"
+
+
 def display(stamp: int) -> str:
     """Format a stamp as tf2's messages do: seconds with six decimals."""
     return f"{as_seconds(stamp):.6f}"

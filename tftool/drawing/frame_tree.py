@@ -17,7 +17,13 @@ from rich.cells import cell_len
 from rich.text import Text
 
 from tftool.base.plain_text import distinct, finite, short_duration, short_rate, visible
-from tftool.base.stamps import FRAME_TIMEOUT, Stamp, as_seconds, display
+from tftool.base.stamps import (
+    FRAME_TIMEOUT,
+    SIMULATED_BELOW,
+    as_seconds,
+    display,
+    time_of_day,
+)
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import ASCII, UNICODE, Branch, Forest, Guides, branches, grow
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
@@ -321,8 +327,8 @@ def _rate(info: FrameInfo) -> str:
 
 
 _KEPT = _measured(lambda info: short_duration(info.buffer_length))
-_OLDEST = _measured(lambda info: display(info.oldest))
-_NEWEST = _measured(lambda info: display(info.newest))
+_OLDEST = _measured(lambda info: time_of_day(info.oldest))
+_NEWEST = _measured(lambda info: time_of_day(info.newest))
 _AGE = _measured(lambda info: short_duration(info.age))
 
 
@@ -393,18 +399,13 @@ def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 
 
-def moment(stamp: Stamp) -> str:
-    """Format a stamp in nanoseconds as seconds with three decimals."""
-    return f"{as_seconds(stamp):.3f}"
-
-
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
     """Return a few words above the tree: the time, or the number of joints that move."""
     if moving is not None:
         return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
-    if snapshot.at:
-        return f"at {moment(snapshot.at)}, seen at {moment(snapshot.now)}"
-    return f"at {moment(snapshot.now)}"
+    zone = " UTC" if snapshot.now >= SIMULATED_BELOW else ""
+    seen = f"at {time_of_day(snapshot.now)}{zone}"
+    return f"at {time_of_day(snapshot.at)}, seen {seen}" if snapshot.at else seen
 
 
 def _ordered(forest: Forest, order: TreeOrder, wanted: str) -> list[Branch]:

@@ -303,6 +303,9 @@ def _style(color: Color) -> str:
 PAIR_LABELS: Final = 7
 """Cells at the left of a curve of `pair_plot` for the labels of its axis."""
 
+LOWEST_SCALED: Final = 3
+"""Smallest number of lines of a curve with a scale."""
+
 SCALED_FROM: Final = 5
 """Smallest number of lines of two curves with scales."""
 
@@ -349,10 +352,11 @@ def pair_plot(
         note: Words after the last values, which are then dim, such as "9 s old".
     """
     columns = width - PAIR_LABELS - 1
-    # In a low plot, one title line has both values.
-    is_low = SCALED_FROM <= height < 2 * TITLED_FROM + 1
+    # In a low plot, one title line has both values; in a lower one, only the distance has a curve.
+    is_low = LOWEST_SCALED <= height < 2 * TITLED_FROM + 1
+    is_single = LOWEST_SCALED <= height < SCALED_FROM
     with_axis = height > SCALED_FROM
-    rows = (height - with_axis - is_low) // 2
+    rows = height - 1 if is_single else (height - with_axis - is_low) // 2
     if columns < 8 or rows < 1:
         return []
     found = {one.title: one for one in panels([trajectory_of(path)], span.start, _QUANTITIES)}
@@ -365,7 +369,8 @@ def pair_plot(
             found[title], title, unit, color, span, columns, rows + is_low, palette, ascii_only
         )
         if is_low and lines:
-            lines[0].append("  ").append_text(curve.pop(0))
+            lines[0].append("  ").append_text(curve.pop(0)).truncate(width)
+            curve = [] if is_single else curve
         lines += curve
     if note:
         titles = [line for line in lines if line.plain.startswith(("distance ", "yaw "))]

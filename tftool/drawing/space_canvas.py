@@ -395,7 +395,7 @@ class SpaceCanvas:
         self._places = [(x / 2.0, y / 4.0, one.name) for one, _, _, x, y in drawing.names]
         sheet = self._shaded(drawing)
         # A cell with a line shows one colour of the solid: of its upper half, else the lower.
-        halves = sheet.inks if self._has_halves else sheet.grounds
+        halves = sheet.inks.copy() if self._has_halves else sheet.grounds
         # Lines of the ground never cover a cell of a solid.
         solid = _solid(drawing, columns, rows)
         ground = self._dotted(drawing, drawing.layers[:1])
