@@ -2,6 +2,7 @@
 
 import pytest
 
+from tftool.world.endpoints import PUBLISHER, Endpoint, Quality
 from tftool.world.nodes.turtle_drivers import KeyPress
 from tftool.world.nodes.turtlesim import Turtlesim
 
@@ -149,3 +150,16 @@ def test_the_graph_can_be_asked(node):
     assert len(list(node.services)) == 6
     assert node.wait_for_node("/probe", 1.0)
     assert not node.wait_for_node("/nobody", 0.5)
+
+
+def test_an_endpoint_of_another_process_is_listed_with_its_gid(node, ros_runtime):
+    gid = bytes(range(16))
+    far = Endpoint(
+        PUBLISHER, "far", "words", "std_msgs/msg/String", Quality(), is_remote=True, gid=gid
+    )
+    ros_runtime.ask(lambda: ros_runtime.world.endpoints.add(far) and None)
+
+    (told,) = node.get_publishers_info_by_topic("/words")
+
+    assert told.endpoint_gid == list(gid)
+    assert "GID: 00.01.02.03.04.05.06.07.08.09.0a.0b.0c.0d.0e.0f\n" in str(told)

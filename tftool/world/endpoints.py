@@ -97,6 +97,7 @@ class Endpoint:
         interface: Type of the messages, such as "std_msgs/msg/String".
         quality: Offered or requested quality of service.
         is_remote: Whether the endpoint belongs to another process.
+        gid: Id of another process's endpoint; empty for an endpoint of this process.
         deliver: Function that gives a latched subscription earlier messages, with their senders.
         kept: Messages that a latched publisher stores for late subscribers.
     """
@@ -107,6 +108,7 @@ class Endpoint:
     interface: str
     quality: Quality
     is_remote: bool = False
+    gid: bytes = b""
     deliver: "Callable[[Any, Endpoint | None], object] | None" = None
     kept: "deque[Any] | None" = None
 

@@ -96,6 +96,7 @@ def endpoint_info(end: Endpoint) -> TopicEndpointInfo:
         end.interface,
         TopicEndpointTypeEnum.PUBLISHER if publishes else TopicEndpointTypeEnum.SUBSCRIPTION,
         profile_from(end.quality),
+        endpoint_gid=list(end.gid),
     )
 
 

@@ -113,6 +113,7 @@ class LinkContext:
                 entity.ros_type,
                 entity.quality,
                 is_remote=True,
+                gid=entity.gid,
             )
         return self.endpoints[entity]
 
