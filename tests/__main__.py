@@ -1,4 +1,4 @@
-"""Everything that must hold, as one command: `python -m tests`.
+"""All checks of the project as one command: `python -m tests`.
 
 Formatter, linter, layers, types, plain English, then the tests. Words after the command go to
 pytest: `python -m tests -k history` runs less. `python -m tests --coverage` judges
@@ -24,9 +24,9 @@ CHECKS = [
 
 
 def main(words: list[str]) -> int:
-    """Run every check, tests last; stop at the first that fails."""
+    """Run every check, the tests last; stop at the first check that fails."""
     root = Path(__file__).resolve().parent.parent
-    # A part of the tests covers a part of the code, so only the whole is judged.
+    # A selection of tests covers only a part of the code, so coverage is judged for all tests.
     tests = [*PYTHON, "pytest", *(COVERAGE if words == ["--coverage"] else words or WHOLE)]
     for command in [*CHECKS, tests]:
         print("$", *command, flush=True)  # noqa: T201

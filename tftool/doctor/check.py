@@ -1,4 +1,4 @@
-"""Declaration of the doctor's checks: id, severity, thresholds, texts and links of each.
+"""Declaration of the doctor's checks: id, severity, thresholds, texts and web addresses.
 
 An id never changes its meaning, and is never used again for another check. Texts contain names of
 facts, which `wording` replaces by formatted numbers and names.
@@ -46,7 +46,7 @@ class Check:
             `{concerned:one|many}` a word that depends on a number or on the length of a list.
         detail: A line of evidence for each hit.
         consequence: What the fault leads to.
-        fixes: Remedies, in addition to those of a hit.
+        fixes: Remedies, in addition to the remedies of a single hit.
         causes: Causes that people found, the most frequent first.
         links: Discussions of the fault, and standards.
         limits: Thresholds by name; seconds, metres, radians, fractions, counts.

@@ -1,8 +1,8 @@
-"""Explanation of one lookup: which link fails, by how much, and what would help.
+"""Explanation of one lookup: the failing edge, the missing time, and the remedies.
 
 The lookup is made by an assumed listener, whose buffer contains the samples that had arrived,
 pruned as in tf2. The result is that of a real buffer with these samples. Reasons and remedies come
-from the links, not from tf2's error text, which may name a link that the lookup does not need.
+from the edges, not from tf2's error text, which may name an edge that the lookup does not need.
 """
 
 import math
@@ -594,7 +594,10 @@ def traced(model: Model, question: Question) -> Explanation:
 
 
 def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
-    """Return the index of the failing link; of several links, one for which waiting is useless."""
+    """Return the index of the failing edge; None if no edge fails.
+
+    If several edges fail, prefer an edge for which waiting is useless.
+    """
     refusing = [
         number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS
     ]

@@ -156,7 +156,8 @@ class Skipped:
 class Hit:
     """One observation of a check; `judge` merges similar ones and adds the texts.
 
-    Attributes are those of `Finding`. `facts` also fill the texts of the catalogue.
+    The attributes mean the same as in `Finding`. `facts` also fills the placeholders in the texts
+    of the check.
     """
 
     edges: tuple[Edge, ...] = ()

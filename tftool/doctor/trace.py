@@ -40,8 +40,8 @@ class TracedLink:
     Attributes:
         parent: Parent frame.
         child: Child frame.
-        is_static: Whether the link is static.
-        publisher: Sender of the link; None if unknown.
+        is_static: Whether the edge is static.
+        publisher: Publisher of the edge; None if unknown.
         count: Number of samples in the buffer.
         oldest: Stamp of the oldest sample in the buffer, or arrival time if static; None without a
             sample.
@@ -49,7 +49,7 @@ class TracedLink:
             sample.
         period: Median period, nanoseconds; 0 if unknown.
         latency: Median time from stamp to arrival, nanoseconds.
-        verdict: Outcome of the lookup at this link.
+        verdict: Outcome of the lookup at this edge.
         short_by: Time between the lookup and the nearest data, nanoseconds.
     """
 
@@ -72,7 +72,7 @@ class TracedLink:
 
     @property
     def name(self) -> str:
-        """Name of the link for messages: "child in parent"."""
+        """Name of the edge for messages: "child in parent"."""
         return f"{self.child} in {self.parent}"
 
 

@@ -133,7 +133,7 @@ def _launch_of(item: Any) -> tuple[Any, ...] | None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[Any]) -> None:
-    """Move tests that run after the end of a launch behind those that run during it."""
+    """Move tests that need the end of a launch behind the tests that run during the launch."""
     late = [one for one in items if _launch_of(one) is not None and one.obj.launch_key[1]]
     for one in late:
         launch = _launch_of(one)

@@ -27,7 +27,7 @@ class RosRuntime:
     Attributes:
         clock: Simulated clock of the world, which starts at 1000 s.
         world: World of the nodes.
-        program: Program that stands for the test.
+        program: Program as which the test itself runs in the world.
     """
 
     def __init__(self) -> None:

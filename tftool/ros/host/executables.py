@@ -50,7 +50,7 @@ class Asked:
         world: World that the node joins.
         name: Full name of the node.
         namespace: Namespace of the node.
-        arguments: The program's arguments, without those of ROS.
+        arguments: The program's arguments, without the part after `--ros-args`.
         parameters: Values given for the node's parameters, by name. The methods below remove
             each value that they return.
         options: All options after `--ros-args`.
@@ -138,8 +138,7 @@ def _static_publisher(asked: Asked) -> Node:
     said = static_arguments.parse(asked.arguments)
     if said is None:
         raise UsageError(
-            "the arguments of static_transform_publisher are missing: 'tftool static --help' "
-            "describes them"
+            "'tftool static --help' describes the arguments of static_transform_publisher"
         )
     sample = TransformStamped(0, said.parent, said.child, said.transform)
     return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
@@ -337,7 +336,7 @@ def start(
         executable: Name of the program in the package, or path of the file.
         label: Name of the program in log lines, such as "listener-4".
         argv: The program's whole `sys.argv`.
-        arguments: The program's arguments without those of ROS.
+        arguments: The program's arguments, without the part after `--ros-args`.
         options: Options of `--ros-args`.
         on_exit: Function called when a user's program has ended.
 

@@ -230,7 +230,7 @@ def message_to_yaml(msg: Any, *, flow_style: bool = False, **options: Any) -> st
 
 
 def message_to_csv(msg: Any, **options: Any) -> str:
-    """Return the values in a message, separated by commas; `options` are those of `plain`."""
+    """Return the values in a message, separated by commas; `options` are passed to `plain`."""
     return as_csv(plain(msg, **options))
 
 

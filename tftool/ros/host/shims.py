@@ -264,7 +264,7 @@ class _WorldSelector(selectors.DefaultSelector):
 
 
 class UserEventLoop(asyncio.SelectorEventLoop):
-    """Event loop of a user's program whose seconds are those of tftool's clock."""
+    """Event loop of a user's program; its time is the time of tftool's clock."""
 
     def __init__(self) -> None:
         """Create a loop for the calling program, which closes the loop at its end."""

@@ -82,7 +82,7 @@ WITH_MODULES: set[str] = set()
 
 
 class Workspace:
-    """Packages below a folder, and those of the workspace that contains the folder.
+    """Packages below a folder, and all packages of the workspace that contains the folder.
 
     Attributes:
         start: The folder, as an absolute path.

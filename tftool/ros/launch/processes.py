@@ -37,7 +37,7 @@ class Executable:
     Attributes:
         package: Name of the package; None for a file.
         name: Name of the program in the package, or path of the file.
-        arguments: The program's arguments, without those of ROS.
+        arguments: The program's arguments, without the part after `--ros-args`.
         options: Options after `--ros-args`.
         label: Name of the program in log lines, to which a number is added.
         argv: Command line; None for the command line that launch_ros would use for a node.

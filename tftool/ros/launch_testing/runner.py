@@ -73,7 +73,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return the function with those of its arguments bound whose names are keys of `values`."""
+    """Bind the values whose keys are argument names of the function; return the new function."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 

@@ -29,7 +29,7 @@ class SimpleFilter:
 class Subscriber(SimpleFilter):
     """Filter of one subscription, made as `Subscriber(node, type, topic, …)`.
 
-    Further arguments are those of `Node.create_subscription`.
+    Further arguments are passed to `Node.create_subscription`.
     """
 
     def __init__(self, node: Any, msg_type: Any, topic: str, *args: Any, **kwargs: Any) -> None:

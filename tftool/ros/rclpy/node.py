@@ -354,7 +354,7 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """Publishers of the node, except that of its log on /rosout, as in ROS 2."""
+        """Publishers of the node; as in ROS 2, without the publisher of its log on /rosout."""
         yield from (one for one in self.__all(Publisher) if one is not self._tftool.rosout)
 
     @property

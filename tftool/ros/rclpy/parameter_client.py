@@ -88,7 +88,7 @@ class AsyncParameterClient:
         return self._ask("DescribeParameters", callback, names=names)
 
     def set_parameters(self, parameters: Sequence[Any], callback: Callback | None = None) -> Future:
-        """Set parameters, given as Parameters or messages; each is accepted or rejected alone."""
+        """Set parameters, given as Parameters or messages; each may be accepted or rejected."""
         return self._ask("SetParameters", callback, parameters=_messages(parameters))
 
     def set_parameters_atomically(
@@ -104,7 +104,7 @@ class AsyncParameterClient:
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Set the parameters of a file; each is accepted or rejected alone."""
+        """Set the parameters of a file; some may be accepted and others rejected."""
         return self.set_parameters(_of_file(parameter_file, use_wildcard), callback)
 
     def load_parameter_file_atomically(

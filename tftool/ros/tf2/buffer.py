@@ -430,7 +430,7 @@ class BufferCore:
         return self._whether_now(full_question(*asked, **named))
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """Return the newest time at which the transform between two frames is known."""
+        """Return the newest time for which all edges between two frames have data."""
         stamp = self._ask(lambda: self.frames.get_latest_common_time(target_frame, source_frame))
         return Time(nanoseconds=stamp)
 
