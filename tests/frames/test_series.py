@@ -115,5 +115,5 @@ def test_limits_are_never_one_and_the_same():
 def test_words_choose_what_is_drawn():
     assert chosen([]) == QUANTITIES
     assert chosen(["position", "yaw", "turn-rate", "x"]) == ("x", "y", "z", "yaw", "turn rate")
-    with pytest.raises(UsageError, match="'wobble' cannot be plotted; use position"):
+    with pytest.raises(UsageError, match="'wobble' cannot be plotted: use position"):
         chosen(["wobble"])

@@ -641,12 +641,12 @@ class History(Fields):
 
         Args:
             other: An empty history.
-            origin: Origin of the samples in the other history.
+            origin: Number of parent and authority of the samples in the other history.
             until: The last stamp to share, nanoseconds.
 
         Returns:
-            Whether the samples could be shared. False if samples were pruned, or have several
-            origins.
+            Whether the samples could be shared. False if samples were pruned, or if their parents
+            or authorities differ.
         """
         if self.origins is not None or self.start or not self.count:
             return False

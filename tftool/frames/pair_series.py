@@ -132,7 +132,7 @@ def chosen(words: Sequence[str]) -> tuple[str, ...]:
             found.append(name)
         else:
             listed = ", ".join(dict.fromkeys((*_GROUPS, *QUANTITIES)))
-            raise UsageError(f"'{word}' cannot be plotted; use {listed}.")
+            raise UsageError(f"'{word}' cannot be plotted: use {listed}.")
     return tuple(dict.fromkeys(found)) or QUANTITIES
 
 

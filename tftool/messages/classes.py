@@ -183,7 +183,7 @@ def interface_name(kind: Any) -> str:
 
 
 def recast(message: Any, kind: type[Message]) -> Any:
-    """Return a copy of a message in another class with the same fields, as of another release."""
+    """Return a copy of a message as an object of `kind`, a class with the same fields."""
     copy = duplicate(message)
     if type(copy) is kind:
         return copy

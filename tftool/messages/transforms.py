@@ -234,7 +234,9 @@ def _count_of_transforms(payload: bytes) -> int:
     (count,) = _LENGTH.unpack_from(payload, 4)
     room = (len(payload) - 8) // _SMALLEST_TRANSFORM
     if count > room:
-        raise MalformedMessage(KIND, f"it announces {count} transforms, but has bytes for {room}")
+        raise MalformedMessage(
+            KIND, f"the message announces {count} transforms, but has bytes for {room}"
+        )
     return int(count)
 
 

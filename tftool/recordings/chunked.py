@@ -441,7 +441,7 @@ class ChunkedReader(File):
     def _chunk_batches(
         self, chosen: dict[int, int], batch_of: "Callable[[Chunk, Ahead], Batch | None]"
     ) -> Iterator[tuple[Chunk, Batch | None]]:
-        """Yield every chunk, with a batch of its messages in chosen channels, or None."""
+        """Yield every chunk with a batch of its messages in `chosen`; None if it has none."""
         # Chunks without a chosen channel are skipped: their bytes are not even read.
         read = [
             chunk.walked is not None or any(owner in chosen for owner in chunk.owners)

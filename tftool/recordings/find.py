@@ -380,7 +380,9 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
     if not is_scenario and _are_poses(path, head):
         return Kind.POSES
     if not is_scenario and path.suffix in SUFFIXES:
-        raise InputError(f"'{path}' is text, not a recording as its suffix says.")
+        raise InputError(
+            f"'{path}' is text, but its suffix is that of a recording: rename or replace it."
+        )
     return Kind.SCENARIO
 
 

@@ -222,7 +222,8 @@ def check_room(path: Path, size: int) -> None:
         raise failed(path, error) from error
     if free < size:
         raise InputError(
-            f"'{path}' needs up to {_megabytes(size)}, but {_megabytes(free)} are free on its disk."
+            f"'{path}' needs up to {_megabytes(size)}, but only {_megabytes(free)} are free on its "
+            "disk: free space, or name a file on another disk."
         )
 
 

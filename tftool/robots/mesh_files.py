@@ -61,7 +61,7 @@ def read_mesh(name: str, content: bytes) -> list[Mesh]:
         if outside or not np.isfinite(one.points).all():
             raise MeshRefused(f"'{name}' is damaged: a triangle has a corner that does not exist")
     if sum(len(one.triangles) for one in meshes) > MOST_TRIANGLES:
-        raise MeshRefused(f"'{name}' has more than {MOST_TRIANGLES:,} triangles")
+        raise MeshRefused(f"'{name}' has more than {MOST_TRIANGLES:,} triangles: simplify the mesh")
     return meshes
 
 
@@ -97,7 +97,7 @@ def _obj(content: bytes) -> list[Mesh]:
 
 def _dae(content: bytes) -> list[Mesh]:
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
-        raise ValueError("its document type (<!DOCTYPE>) is not supported")
+        raise ValueError("a document type (<!DOCTYPE>) is not supported: remove it")
     root = ElementTree.fromstring(content)
     for one in root.iter():
         one.tag = one.tag.rpartition("}")[2]

@@ -139,7 +139,7 @@ def test_bytes_that_are_no_message_are_counted_and_said_once():
             told = [text for text in texts(two.there) if "refused" in text]
             assert len(told) == 1
             assert told[0].startswith(
-                "On 'tf': tf2_msgs/TFMessage refused: it announces 4294967295"
+                "On 'tf': tf2_msgs/TFMessage refused: the message announces 4294967295"
             )
 
     play(send())

@@ -189,7 +189,7 @@ class _Residuals:
         self.jacobian[:, 3:] -= lever @ self.jacobian[:, :3]
 
     def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
-        """Return the fit, with new poses Y if the number of segments changed."""
+        """Return the fit; if the number of time segments changed, estimate the poses Y anew."""
         if len(fit.joins) == self.count:
             return fit
         back = batch.conjugate(problem.rotations)
@@ -236,7 +236,7 @@ class _Residuals:
         return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
 
     def by_segment(self, basis: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Return the normal equations without the poses Y, and the data to compute Y later."""
+        """Return the normal equations after elimination of the poses Y, and data to compute Y."""
         starts = np.flatnonzero(np.diff(self.segments, prepend=-1))
         square, right = self.sums(starts)
         inner = square[:, JOIN, JOIN] + 1e-9 * np.eye(6)

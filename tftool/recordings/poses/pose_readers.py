@@ -151,7 +151,9 @@ def _offset(projection: Sequence[float]) -> list[float]:
     """Return the translation of a camera from its projection matrix K [I | t]."""
     fx, _, cx, px, _, fy, cy, py, _, _, _, z = projection
     if not fx or not fy:
-        raise InputError("A projection of KITTI's calib.txt has the focal length 0.")
+        raise InputError(
+            "A projection matrix in KITTI's calib.txt has the focal length 0: correct it."
+        )
     return [(px - cx * z) / fx, (py - cy * z) / fy, z]
 
 
@@ -183,7 +185,7 @@ def _text(file: PoseFile) -> str:
     with file.open() as opened:
         data = opened.read(_LARGEST_DOCUMENT + 1)
     if len(data) > _LARGEST_DOCUMENT:
-        raise InputError(f"'{file.path}' has more than {_LARGEST_DOCUMENT >> 20} MiB.")
+        raise InputError(f"'{file.path}' has more than {_LARGEST_DOCUMENT >> 20} MiB: split it.")
     return data.decode("utf-8-sig", "backslashreplace")
 
 

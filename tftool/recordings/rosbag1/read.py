@@ -121,7 +121,7 @@ class Rosbag1(ChunkedReader):
         # An index that is cut off may lack its last chunks.
         (count,) = U32.unpack(bag[b"chunk_count"])
         if len(infos) != count:
-            raise InputError(f"it names {len(infos)} chunks instead of {count}")
+            raise InputError(f"the index names {len(infos)} chunks instead of {count}")
         if any(info.position >= place for info in infos):
             raise InputError("a chunk is beyond the end of the file")
         # The header of a chunk is read by `_locate`, when its messages are needed.
