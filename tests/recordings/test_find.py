@@ -104,7 +104,7 @@ def test_a_path_that_holds_one_folder_further_down_is_told(tmp_path, monkeypatch
 def test_a_link_to_nothing_says_where_it_leads(tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "gone")
 
-    with pytest.raises(InputError, match=r"a broken link to .*gone"):
+    with pytest.raises(InputError, match=r"is a broken symbolic link to .*gone"):
         find(str(tmp_path / "link"))
 
 

@@ -171,7 +171,7 @@ def test_what_tells_of_a_topic_in_too_many_bytes_is_not_taken(
     except InputError as error:
         told = str(error)
 
-    assert "at most 10 can be read" in told or "0 messages were read" in told
+    assert "the limit is 10" in told or "0 messages were read" in told
 
 
 def first_index(data, code):

@@ -499,7 +499,7 @@ def test_a_chunk_that_announces_too_much_is_unpacked_once(tmp_path, monkeypatch,
     report = edit([str(path)], out, Edits())
 
     assert unpacked == [0xF0000000]
-    assert "more than is plausible" in " ".join(report.notes)
+    assert "cannot expand to 4026531840 as stated" in " ".join(report.notes)
     assert report.messages == len(SENT)
 
 
