@@ -560,6 +560,14 @@ class ChunkedWriter:
         """Bytes written so far, including the bytes buffered for the current chunk."""
         return self.position + self._length
 
+    def copy_extras(self, extras: Extras, schemas: Mapping[int, tuple[str, str, bytes]]) -> None:
+        """Copy contents other than messages; do nothing, as only MCAP has such contents.
+
+        Args:
+            extras: Attachments and metadata of another file.
+            schemas: Message types of another file whose numbers are used here, by number.
+        """
+
     def abandon(self) -> None:
         """Close the file without its index; readers can still read it sequentially."""
         self._file.close()

@@ -22,7 +22,6 @@ from tftool.recordings.contract import Stamps
 from tftool.recordings.decompression import compressor
 from tftool.recordings.edit.changes import carries_transforms
 from tftool.recordings.edit.tables import Kinds, Result, TableChange
-from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.message_conversion import (
     Conversion,
     as_ros1,
@@ -305,16 +304,12 @@ class EditedFile:
 
     def finish(self, tapes: Sequence[ContainerReader]) -> None:
         """Write attachments and metadata, and close the file."""
-        if isinstance(self.writer, McapWriter):
+        if self._chunks is not None:
             for number, tape in enumerate(tapes):
-                for attachment in tape.extras.attachments:
-                    self.writer.copy_attachment(attachment)
-                for body in tape.extras.metadata:
-                    self.writer.copy_metadata(body)
                 if isinstance(tape, ChunkedReader) and self._fits(number, tape):
-                    # Schemas and channels without messages belong to the recording too.
-                    for schema, described in tape.schemas.items():
-                        self.writer.schema(*described, number=schema)
+                    self._chunks.copy_extras(tape.extras, tape.schemas)
+                else:
+                    self._chunks.copy_extras(tape.extras, {})
         self.writer.finish()
 
 

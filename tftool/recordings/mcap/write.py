@@ -17,7 +17,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import NOTHING_YET, Chunk, ChunkedWriter
-from tftool.recordings.container import CopiedAttachment, MessageTable
+from tftool.recordings.container import CopiedAttachment, Extras, MessageTable
 from tftool.recordings.containers import MCAP_MAGIC, library_name
 from tftool.recordings.decompression import best_compression, compressor
 from tftool.recordings.mcap.format import (
@@ -377,6 +377,15 @@ class McapWriter(ChunkedWriter):
             chunk.size,
         )
         self._chunks.append(entry.record())
+
+    def copy_extras(self, extras: Extras, schemas: Mapping[int, tuple[str, str, bytes]]) -> None:
+        """Copy attachments, metadata, and message types, of which some may have no messages."""
+        for attachment in extras.attachments:
+            self.copy_attachment(attachment)
+        for body in extras.metadata:
+            self.copy_metadata(body)
+        for number, schema in schemas.items():
+            self.schema(*schema, number=number)
 
     def copy_attachment(self, copied: CopiedAttachment) -> None:
         """Copy an attachment from another file."""
