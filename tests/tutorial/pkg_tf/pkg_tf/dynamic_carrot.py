@@ -14,7 +14,7 @@ class DynamicCarrot(Node):
         self.timer = self.create_timer(0.1, self.send)
 
     def send(self):
-        # Whole seconds: the carrot jumps from side to side
+        # Whole seconds, so that the carrot jumps from side to side
         seconds, _ = self.get_clock().now().seconds_nanoseconds()
         x = seconds * math.pi
 

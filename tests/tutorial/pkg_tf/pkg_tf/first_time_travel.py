@@ -12,7 +12,7 @@ from tf2_ros.transform_listener import TransformListener
 
 
 class FirstTimeTravel(Node):
-    """Ask where turtle1 was five seconds ago, as turtle2 saw it then: not what is wanted."""
+    """Look up where turtle1 was five seconds ago, as turtle2 saw it then: a common mistake."""
 
     def __init__(self):
         super().__init__('first_time_travel')

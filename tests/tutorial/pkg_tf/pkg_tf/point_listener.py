@@ -10,7 +10,7 @@ from tf2_ros import Buffer, TransformException, TransformListener
 
 
 class PointListener(Node):
-    """Hand a point on as soon as its frame is known at its stamp: a tf2 message filter."""
+    """Pass a point on as soon as its transform is available, like tf2's message filter."""
 
     def __init__(self):
         super().__init__('point_listener')

@@ -5,7 +5,7 @@ from turtlesim.msg import Pose
 
 
 class PointSender(Node):
-    """Say where turtle1 is, as a point in world."""
+    """Publish turtle1's position as a point in world."""
 
     def __init__(self):
         super().__init__('point_sender')

@@ -7,7 +7,7 @@ from turtlesim.action import RotateAbsolute
 
 
 class Rotate(Node):
-    """Turn turtle1 to a heading, and say when it is there; or lose patience on the way."""
+    """Turn turtle1 to a heading; log the success, or cancel the turn if it takes too long."""
 
     def __init__(self, patience=None):
         super().__init__('rotate')

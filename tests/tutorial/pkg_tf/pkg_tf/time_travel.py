@@ -13,7 +13,7 @@ from tf2_ros.transform_listener import TransformListener
 
 
 class TimeTravel(Node):
-    """Send turtle2 where turtle1 was five seconds ago."""
+    """Send turtle2 to the place where turtle1 was five seconds ago."""
 
     def __init__(self):
         super().__init__('time_travel')

@@ -5,7 +5,7 @@ from rclpy.node import Node
 
 
 class Tunable(Node):
-    """Drive turtle1 at a speed that can be set, within bounds, while it drives."""
+    """Drive turtle1 at a speed given by a parameter with limits, which may change meanwhile."""
 
     def __init__(self):
         super().__init__('tunable')

@@ -18,11 +18,11 @@ class TurtleFollowing(Node):
         self.source_frame = self.get_parameter(
             'source_frame').get_parameter_value().string_value
 
-        # What is heard on /tf is remembered for ten seconds
+        # The buffer stores the transforms on /tf for ten seconds
         self.tf_buffer = Buffer()
         self.tf_listener = TransformListener(self.tf_buffer, self)
 
-        # A second turtle is asked for, once
+        # Request a second turtle, once
         self.client = self.create_client(Spawn, 'spawn')
         self.turtle_spawning_service_ready = False
         self.turtle_spawned = False
@@ -39,7 +39,7 @@ class TurtleFollowing(Node):
         if self.turtle_spawning_service_ready:
             if self.turtle_spawned:
                 try:
-                    # Time zero: the latest that both turtles have
+                    # Time zero: the latest time that both turtles have
                     trans = self.tf_buffer.lookup_transform(
                         to_frame_rel,
                         from_frame_rel,

@@ -11,7 +11,7 @@ class TurtleTFBroadcaster(Node):
     def __init__(self):
         super().__init__('turtle_tf_broadcaster')
 
-        # The turtle whose frame is sent
+        # Name of the turtle whose frame is sent
         self.declare_parameter('turtlename', 'turtle')
         self.turtlename = self.get_parameter(
             'turtlename').get_parameter_value().string_value
@@ -27,17 +27,17 @@ class TurtleTFBroadcaster(Node):
     def handle_turtle_pose(self, msg):
         t = TransformStamped()
 
-        # A pose has no stamp: it is now
+        # A pose has no stamp, so use the present time
         t.header.stamp = self.get_clock().now().to_msg()
         t.header.frame_id = 'world'
         t.child_frame_id = self.turtlename
 
-        # A turtle lives in the plane
+        # The turtle moves in the plane
         t.transform.translation.x = msg.x
         t.transform.translation.y = msg.y
         t.transform.translation.z = 0.0
 
-        # ... and turns about z alone
+        # ... and turns about z only
         q = tf_transformations.quaternion_from_euler(0, 0, msg.theta)
         t.transform.rotation.x = q[0]
         t.transform.rotation.y = q[1]
