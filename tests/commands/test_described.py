@@ -174,8 +174,8 @@ def test_a_recording_takes_the_description_it_lacks(tftool, recording, robot):
 
     assert result.status == 0
     assert "- Rotation: in RPY (radian) [0.000, -0.000, 0.500]" in result.out
-    assert "2 frames that tf lacks: from the robot's description" in result.err
-    assert "1 of them moved by joint states" in result.err
+    assert "The robot's description added 2 frames that tf lacks" in result.err
+    assert "joint states move 1 of them" in result.err
     assert "Robot: 'post' is described" in tftool("info", recording, "--urdf", robot).out
 
 

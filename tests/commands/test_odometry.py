@@ -90,7 +90,7 @@ def test_the_command_names_them_as_such(tftool, bag):
 
     assert "No transform was recorded; --with-odometry uses these messages instead:" in without.err
     assert "'/odom' (nav_msgs/Odometry), '/vicon/marker' (geometry_msgs/PoseStamped)" in without.err
-    assert "'/odom' (nav_msgs/Odometry, 4 messages) is taken for transforms." in within.err
+    assert "'/odom' (nav_msgs/Odometry, 4 messages) is used as transforms." in within.err
     assert "base_link" in within.out
 
 

@@ -1,4 +1,4 @@
-"""Frames of a recording, with the notes that its reading gave."""
+"""Frames of a recording, and sentences about faults found while reading it."""
 
 from collections.abc import Iterator
 
@@ -29,7 +29,7 @@ def odometry_notes(recording: Recording) -> Iterator[str]:
     """Yield sentences about odometry and poses that are used, or could be used, as transforms."""
     for topic in recording.odometry:
         messages = count(topic.count, "message")
-        yield f"'{topic.name}' ({topic.type}, {messages}) is taken for transforms."
+        yield f"'{topic.name}' ({topic.type}, {messages}) is used as transforms."
     if not recording.edges:
         found = [f"'{topic.name}' ({topic.type})" for topic in implying(recording.topics)]
         if found:
@@ -46,21 +46,21 @@ def _described_notes(described: DescribedFrames | None) -> Iterator[str]:
     added = len(described.still) + len(described.moving)
     if added:
         yield (
-            f"{count(added, 'frame')} that tf lacks: from the robot's description, "
-            f"{len(described.moving)} of them moved by joint states."
+            f"The robot's description added {count(added, 'frame')} that tf lacks; joint states "
+            f"move {len(described.moving)} of them."
         )
     if described.gaps:
         shown = ", ".join(described.gaps[:5]) + (" …" if len(described.gaps) > 5 else "")
         yield (
-            f"{count(len(described.gaps), 'link')} without a frame, as neither tf nor joint states "
-            f"have their poses: {shown}."
+            f"Neither tf nor joint states have the poses of {count(len(described.gaps), 'link')}: "
+            f"{shown}."
         )
 
 
 def read_recording(
     found: Found, options: DescriptionOptions, reading: RecordingOptions, progress: Progress | None
 ) -> Frames:
-    """Return the frames of a recording, with those of a robot description named beside it."""
+    """Return the frames of a recording and of the robot description in `--urdf`, if any."""
     robot = _robot_beside(options)
     folder = None if reading.no_cache else default_folder()
     recording = open_recording(

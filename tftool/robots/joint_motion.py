@@ -73,13 +73,13 @@ def position_columns(names: Sequence[str], positions: npt.ArrayLike) -> Floats:
     columns = np.asarray(positions, dtype=np.float64)
     if columns.ndim != 2 or columns.shape[1] != len(names):
         raise ValueError(
-            f"positions has shape {columns.shape}; {len(names)} joints need (n, {len(names)})"
+            f"{len(names)} joints need positions of shape (n, {len(names)}), not {columns.shape}"
         )
     return columns
 
 
 def joint_columns(moved: Iterable[tuple[RobotJoint, Floats]]) -> tuple[JointColumns, ...]:
-    """Return the poses of the joints' children, for joints with their positions."""
+    """Return the poses of each joint's child in its parent; `moved` has joints and positions."""
     return tuple(
         JointColumns(joint, poses[:, :3], poses[:, 3:])
         for joint, values in moved
@@ -107,7 +107,7 @@ def joint_records(
 
 
 def _write_poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
-    """Write the poses of a joint's child at many positions into `poses`, shape (n, 7)."""
+    """Write a joint child's poses at many positions into `poses`, shape (n, 7), and return it."""
     poses[:, :3] = joint.origin.translation
     turn = np.array(joint.origin.rotation)
     if joint.type == "prismatic":
