@@ -40,7 +40,7 @@ def test_distance_and_yaw_stand_one_under_the_other_with_their_last_values(path)
     assert lines[0] == "distance 10.000 m"
     assert lines[6].startswith("yaw ")
     assert abs(float(lines[6].removeprefix("yaw ").removesuffix("°"))) == pytest.approx(180.0)
-    assert lines[1].startswith("  10.00│")
+    assert lines[1].startswith("     10│")
     assert lines[5].startswith("      0│")
     assert lines[-1].split() == ["0.0", "10.0", "s"]
 
@@ -75,15 +75,15 @@ def test_a_very_low_plot_has_the_distance_with_its_scale_and_both_values(path, h
     lines = plotted(path, height=height)
 
     assert re.fullmatch(r"distance 10\.000 m  yaw -?180\.0°", lines[0])
-    assert [lines[1][:8].strip(), lines[-1][:8].strip()] == ["10.00│", "0│"]
+    assert [lines[1][:8].strip(), lines[-1][:8].strip()] == ["10│", "0│"]
     assert len(lines) == height
 
 
 def test_seven_lines_have_both_curves_with_their_scales_and_the_time(path):
     lines = plotted(path, height=7)
 
-    assert [line[:8].strip() for line in lines[1:3]] == ["10.00│", "0│"]
-    assert [line[:8].strip() for line in lines[4:6]] == ["180.0│", "-180.0│"]
+    assert [line[:8].strip() for line in lines[1:3]] == ["10│", "0│"]
+    assert [line[:8].strip() for line in lines[4:6]] == ["180│", "-180│"]
     assert lines[6].split() == ["0.0", "10.0", "s"]
 
 
@@ -92,7 +92,7 @@ def test_few_lines_have_both_scales_below_one_line_with_both_values(path, height
     lines = plotted(path, height=height)
 
     assert re.fullmatch(r"distance 10\.000 m  yaw -?180\.0°", lines[0])
-    assert [line[:8].strip() for line in lines[1:5]] == ["10.00│", "0│", "180.0│", "-180.0│"]
+    assert [line[:8].strip() for line in lines[1:5]] == ["10│", "0│", "180│", "-180│"]
     assert [line.split() for line in lines[5:]] == [["0.0", "10.0", "s"]] * (height - 5)
 
 

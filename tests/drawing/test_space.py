@@ -340,7 +340,7 @@ def test_names_do_not_cover_the_robot_where_there_is_room_beside_it(picture):
     assert not any(re.search(r"[▀▄].*[a-z]{4}.*[▀▄]", line) for line in named)
 
 
-@pytest.mark.parametrize("options", [{"ascii_only": True}, {"tones": "none"}])
+@pytest.mark.parametrize("options", [{"ascii_only": True}, {"tones": "none"}, {"tones": "few"}])
 def test_a_ground_without_colours_has_dots_only_at_crossings(options):
     picture = SpacePicture("root", tuple(spread(3)))
     plain = text(cells(picture, columns=80, rows=40, **options))

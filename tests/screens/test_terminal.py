@@ -1,6 +1,7 @@
 """Tests of the turtles' screen: its contents and its keys."""
 
 import asyncio
+import re
 
 import pytest
 from rich.cells import cell_len
@@ -531,3 +532,13 @@ def test_frames_that_come_later_get_a_line_of_the_tree(frames):
 )
 def test_the_terminal_is_asked_what_it_can_show(environment, encoding, expected):
     assert setting_from(environment, encoding, Setting()) == expected
+
+
+def test_the_help_for_the_keys_is_whole_on_a_screen_of_24_rows(danced):
+    keys = {"press": lambda key: None, "scenarios": lambda: OFFERED}
+    lines = "\n".join(shown(danced, size=(80, 24), keys=("?",), **keys))
+
+    assert "drive turtle1" in lines
+    assert "another scenario" in lines
+    assert "close these keys" in lines
+    assert re.search(r"q  +quit", lines)

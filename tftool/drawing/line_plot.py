@@ -416,7 +416,7 @@ def _curve(
         rows -= 1
     low, high = _scale(title, curve.values)
     if lines:
-        labels = [axis_number(high), *[""] * (rows - 2), axis_number(low)]
+        labels = [f"{high:g}", *[""] * (rows - 2), f"{low:g}"]
     else:
         labels = [title[:4], *[""] * (rows - 2), said.replace(" ", "")][:rows]
     dots = Dots(columns, rows)

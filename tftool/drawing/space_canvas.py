@@ -176,7 +176,7 @@ def drawn(
         rows: Height in cells of four dots.
         palette: Colours of the screen.
         tinted: Whether the solid under the cursor takes the colour of the cursor.
-        plain: Whether to draw for a terminal without colours: the ground is a dot at each crossing
+        plain: Whether to draw for a terminal of few colours: the ground is a dot at each crossing
             of its grid, and on a robot only the frame under the cursor has axes and a line.
     """
     width, height = 2 * columns, 4 * rows
@@ -390,7 +390,8 @@ class SpaceCanvas:
         columns, rows = self.columns, self.rows
         if not columns or not rows:
             return [[] for _ in range(rows)]
-        tinted, plain = self._tones == "full", self._ascii or self._tones == "none"
+        tinted = self._tones == "full"
+        plain = self._ascii or not tinted
         drawing = drawn(picture, view, columns, rows, self._palette, tinted=tinted, plain=plain)
         self._places = [(x / 2.0, y / 4.0, one.name) for one, _, _, x, y in drawing.names]
         sheet = self._shaded(drawing)

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -498,13 +499,12 @@ class PairPlot:
         if key == self._key:
             return self._lines
         self._key = key
-        try:
+        path = None
+        with suppress(TransformException):
             path = scene.world.buffer.lookup_transforms(
                 pair.target, pair.source, stamps[stamps > 0], missing="nan", threads=1
             )
-        except TransformException:
-            path = None
-        if path is None or not path.valid.any():
+        if path is None or not pair.target or not path.valid.any():
             words = "No pose to plot in this span."
             if newest is not None and newest < span.first:
                 words += f" The newest is {as_seconds(now - newest):.0f} s old."

@@ -278,6 +278,8 @@ class PanelApp(WorldApp):
             return
         lines = self.keys_told().splitlines()
         width, height = size
+        if len(lines) > height - 2:
+            lines = [line for line in lines if line]
         panel.styles.width = min(self.KEYS_WIDTH, width)
         panel.styles.height = min(len(lines) + 2, height)
         panel.styles.offset = (
