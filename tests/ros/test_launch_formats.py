@@ -191,10 +191,10 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
         "</launch>"
     )
     (below / "b.launch.xml").write_text(
-        "<launch><include file='$(dirname)/c.launch.xml'>"
+        "<launch><include file='$(dirname)/c.launch'>"
         "<arg name='from' value='$(filename)'/></include></launch>"
     )
-    (below / "c.launch.xml").write_text(
+    (below / "c.launch").write_text(
         "<launch><arg name='deep' default='1'/><log message='$(var deep) $(var from)'/></launch>"
     )
     file = tmp_path / "a.launch.xml"

@@ -98,17 +98,28 @@ class Element:
 # Reading
 
 
-def read(path: Path) -> list[Element]:
-    """Read the elements of an XML or YAML launch file; the suffix decides which.
+def read(path: Path, data: bytes | None = None) -> list[Element]:
+    """Read the elements of a launch file: in XML if it begins with a tag or is named so, else YAML.
+
+    Args:
+        path: Path of the file.
+        data: Content of the file, if it is read already.
 
     Raises:
         InputError: If the file cannot be read or is not a launch file; the text gives the line.
     """
-    try:
-        data = read_named(path)
-    except OSError as error:
-        raise InputError(f"cannot read '{path}': {error.strerror}") from None
-    return read_xml(data, path) if path.suffix == ".xml" else read_yaml(data, path)
+    if data is None:
+        try:
+            data = read_named(path)
+        except OSError as error:
+            raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    is_xml = path.suffix == ".xml" or begins_as_xml(data)
+    return read_xml(data, path) if is_xml else read_yaml(data, path)
+
+
+def begins_as_xml(data: bytes) -> bool:
+    """Return whether a file's bytes begin with a tag."""
+    return data.lstrip().startswith(b"<")
 
 
 def read_xml(data: bytes, path: Path) -> list[Element]:

@@ -4,12 +4,14 @@ import inspect
 import os
 import shlex
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from types import FunctionType, MappingProxyType, ModuleType
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
+from tftool.base.named_files import read_named
 from tftool.base.plain_text import near_names
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
@@ -26,7 +28,7 @@ from tftool.ros.launch import (
 )
 from tftool.ros.launch.conditions import IfCondition, UnlessCondition
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionSource
-from tftool.ros.launch.elements import Element, read, read_xml, read_yaml
+from tftool.ros.launch.elements import Element, begins_as_xml, read
 from tftool.ros.launch.parsing import parsed
 from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
@@ -42,13 +44,11 @@ class Parser:
             InputError: If the file cannot be read or is not a launch file; the text gives the line.
         """
         if isinstance(file, str | os.PathLike):
-            path, children = Path(file), read(Path(file))
+            path, data = Path(file), None
         else:
             path, data = Path(getattr(file, "name", "launch file")), file.read()
             data = data.encode() if isinstance(data, str) else data
-            is_xml = data.lstrip().startswith(b"<")
-            children = (read_xml if is_xml else read_yaml)(data, path)
-        return Element("launch", str(path), children=children), cls()
+        return Element("launch", str(path), children=read(path, data)), cls()
 
     def parse_description(self, entity: Element) -> LaunchDescription:
         """Return the launch description of a launch file's root element."""
@@ -375,9 +375,12 @@ def load_file(path: Path) -> LaunchDescription:
         InputError: If the file cannot be read, is no launch file, or its code raises; the text
             shows the line.
     """
-    if path.suffix in (".xml", ".yaml", ".yml"):
-        return LaunchDescription(actions_of(read(path)))
-    return _from_python(path)
+    is_python = path.suffix not in (".xml", ".yaml", ".yml")
+    if is_python and path.suffix != ".py":
+        # As in ROS 2, a file with another suffix, such as x.launch, is recognized by its content.
+        with suppress(OSError):
+            is_python = not begins_as_xml(read_named(path))
+    return _from_python(path) if is_python else LaunchDescription(actions_of(read(path)))
 
 
 def _from_python(path: Path) -> LaunchDescription:
