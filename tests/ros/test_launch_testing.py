@@ -467,10 +467,14 @@ def test_a_conftest_may_import_rclpy_at_its_top(run):
     ).assert_outcomes(passed=1)
 
 
-def test_a_file_of_launch_tests_is_run_by_name(tmp_path, tftool, simulated):
+def test_a_file_of_launch_tests_is_run_by_name(tmp_path, tftool, simulated, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "talker.py").write_text(TALKER)
+    (tmp_path / "robot" / "robot").mkdir(parents=True)
+    (tmp_path / "robot" / "robot" / "__init__.py").touch()
+    (tmp_path / "robot" / "package.xml").write_text("<package><name>robot</name></package>")
     file = tmp_path / "nodes.test.py"
-    file.write_text(HEAD + NODES)
+    file.write_text("import robot\n" + HEAD + NODES)
 
     passed = tftool("ros2", "test", file)
     assert (passed.status, passed.err.count("... ok")) == (0, 4)

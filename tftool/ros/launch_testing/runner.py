@@ -12,7 +12,8 @@ from typing import Any, cast
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import seconds
-from tftool.ros.host import program, user_code
+from tftool.ros.host import importing, program, user_code
+from tftool.ros.host.workspace import current
 from tftool.ros.launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.events import OnProcessExit, OnProcessIO, OnProcessStart
@@ -358,8 +359,8 @@ def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> lis
     ]
 
 
-def load_tests(path: Path, arguments: Sequence[str]) -> LaunchTestRunner:
-    """Load a file of launch tests in the running program; return a runner for it.
+def run_tests(path: Path, arguments: Sequence[str]) -> None:
+    """Run a file of launch tests as the running program.
 
     Args:
         path: Path of the file.
@@ -368,21 +369,13 @@ def load_tests(path: Path, arguments: Sequence[str]) -> LaunchTestRunner:
     Raises:
         InputError: If the file cannot be read or describes no launch.
         UsageError: If `parametrize` names no argument of `generate_test_description`.
+        SystemExit: With status 1, if a test fails.
     """
+    # Tests import modules of the workspace's packages, too.
+    importing.look_behind(current().module_folders)
     module = user_code.load_module(path)
     runner = LaunchTestRunner(LoadTestsFromPythonModule(module, name=path.stem), arguments)
     runner.validate()
-    return runner
-
-
-def run_tests(path: Path, arguments: Sequence[str]) -> None:
-    """Run a file of launch tests as the running program.
-
-    Raises:
-        InputError: If the file cannot be read or describes no launch.
-        UsageError: If `parametrize` names no argument of `generate_test_description`.
-        SystemExit: With status 1, if a test fails.
-    """
-    results = load_tests(path, arguments).run().values()
+    results = runner.run().values()
     if not all(result.wasSuccessful() for result in results):
         raise SystemExit(1)
