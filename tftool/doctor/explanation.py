@@ -444,7 +444,7 @@ def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
 
     Args:
         known: The traced lookup.
-        heard: Messages of the looked-up topic, whose needed timeouts are added; None for none.
+        heard: Messages of the looked-up topic, whose needed timeouts are added; None for no topic.
     """
     trace = known.trace
     if known.begin is None:

@@ -94,7 +94,7 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
 
 
 def _base_below(model: Model, told: Track) -> Track | None:
-    """Return the base's edge below the parent of odometry that names no child; None without one."""
+    """Return the edge from odometry's parent to the base, if the odometry names no child frame."""
     bases = [
         track
         for track in model.dynamic

@@ -1,4 +1,4 @@
-"""Programs of packages: a user's console script or file, or one of tftool's own nodes."""
+"""Start of packages' programs: a user's console script or file, or a node of tftool itself."""
 
 import shlex
 from collections.abc import Callable, Mapping, Sequence
@@ -64,11 +64,11 @@ class Asked:
     options: RosOptions
 
     def text(self, name: str, default: str) -> str:
-        """Remove the value of a text parameter and return it; return the default without one."""
+        """Remove the value of a text parameter and return it; without a value, `default`."""
         return str(self.parameters.pop(name, default))
 
     def take(self, name: str, default: T, fits: Callable[[Any], bool], what: str) -> T:
-        """Remove the value of a parameter and return it; return the default without one.
+        """Remove the value of a parameter and return it; without a value, return `default`.
 
         Raises:
             UsageError: If `fits` rejects the value; `what` describes valid values.

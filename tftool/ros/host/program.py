@@ -1,7 +1,7 @@
 """User's program, run inside tftool's process in place of a process that `ros2 run` would start.
 
 A program has its own arguments, its own rclpy context and a thread (fiber) on which its `main`
-runs. In tftool's world it is a node; the rclpy nodes that it creates are further nodes.
+runs. In tftool's world the program is a node; the rclpy nodes that it creates are further nodes.
 """
 
 import asyncio

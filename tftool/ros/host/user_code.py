@@ -127,7 +127,7 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
 
 
 def _end_with(status: object) -> None:
-    """Raise SystemExit with a value that a console script's function returned; not for None."""
+    """Raise SystemExit with the value that a console script's function returned, unless None."""
     if status is not None:
         raise SystemExit(status)
 

@@ -198,7 +198,7 @@ class Workspace:
         return None
 
     def package(self, name: str) -> Package:
-        """Return the package with a name.
+        """Return the package of a given name.
 
         Raises:
             UsageError: If there is no such package; the text names the nearest one, or all.

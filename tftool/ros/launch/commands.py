@@ -28,7 +28,7 @@ class SystemCommand:
     Attributes:
         words: The command and its arguments.
         environment: All environment variables of the process.
-        cwd: Working directory; None for the current one.
+        cwd: Working directory; None for tftool's own.
         emulate_tty: Whether the command's output is a terminal instead of a pipe.
     """
 

@@ -34,7 +34,7 @@ def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bo
     """Return True for an expression with the text "true" or "1", False for "false" or "0".
 
     Raises:
-        InvalidConditionExpressionError: If the text is another one.
+        InvalidConditionExpressionError: If the text is none of these four.
     """
     text = perform(context, expression)
     try:

@@ -109,7 +109,7 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """Return a number for a name; every name gets a different one and retains it."""
+        """Return the number of a name; each new name gets the next number, from 1."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:

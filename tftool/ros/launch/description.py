@@ -89,7 +89,7 @@ class LaunchDescriptionSource:
         self.location = location
 
     def load(self, context: LaunchContext) -> tuple[LaunchDescription, Path | None]:
-        """Return the launch description, and the path of its file; None instead without a file."""
+        """Return the launch description, and its file's path; None if there is no file."""
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))

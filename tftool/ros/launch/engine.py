@@ -205,7 +205,7 @@ class Launch(Node):
             self._end()
 
     def _signal(self, label: str, number: int) -> None:
-        """Send a signal to a process; a program inside tftool's process can only be ended by it."""
+        """Send a signal to a process; a program inside tftool's process ends or ignores it."""
         pid = (self._actions[label].process_details or {}).get("pid")
         if pid is not None and number != signal.SIGINT:
             os.kill(pid, number)

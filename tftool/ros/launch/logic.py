@@ -14,7 +14,7 @@ def _holds(context: LaunchContext, value: Any) -> bool:
     """Return True for the text "true" or "1", and False for "false" or "0".
 
     Raises:
-        SubstitutionFailure: If the text is another one.
+        SubstitutionFailure: If the text is none of these four.
     """
     try:
         return is_true(perform(context, value))

@@ -73,7 +73,7 @@ def is_true(text: str) -> bool:
     """Return True for the text "true" or "1", and False for "false" or "0".
 
     Raises:
-        UsageError: If the text is another one.
+        UsageError: If the text is none of these four.
     """
     word = text.strip().lower()
     if word in ("true", "1"):

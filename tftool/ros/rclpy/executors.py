@@ -188,7 +188,7 @@ class Executor:
         return deadline is not None and deadline + by <= self._program.clock.now()
 
     def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
-        """Wait for one callback and execute it; return False if the wait ended without one.
+        """Wait for one callback and execute it; return False if no callback was executed.
 
         The wait ends at the deadline, when the future is done, and at a shutdown.
         """

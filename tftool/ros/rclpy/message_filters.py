@@ -56,7 +56,7 @@ class Subscriber(SimpleFilter):
 
 
 def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
-    """Return a message's stamp, or the current time if messages without one are allowed."""
+    """Return a message's stamp, or the current time if messages without stamp are allowed."""
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
         stamp = msg.header.stamp
         return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)

@@ -36,7 +36,7 @@ class TypeHash:
     """Hash of a message type: the version of the hash algorithm, and 32 bytes.
 
     Attributes:
-        version: Version of the algorithm, 1; -1 without a hash.
+        version: Version of the algorithm, 1; -1 if there is no hash.
         value: The 32 bytes of the hash.
     """
 

@@ -214,7 +214,7 @@ class NodeParameters:
         return [self.describe_parameter(name) for name in names]
 
     def list_parameters(self, prefixes: Sequence[str], depth: int = 0) -> Any:
-        """Return the names of parameters below some prefixes, or of all without prefixes.
+        """Return the names of the parameters below some prefixes; of all if the list is empty.
 
         `depth` is the number of levels to list below a prefix; 0 lists all levels.
 

@@ -72,7 +72,7 @@ class AsyncParameterClient:
         depth: int | None = None,
         callback: Callback | None = None,
     ) -> Future:
-        """Request the names of the parameters below some prefixes, or of all without prefixes."""
+        """Request the names of the parameters below some prefixes, by default of all."""
         return self._ask("ListParameters", callback, prefixes=prefixes or [], depth=depth or 0)
 
     def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
