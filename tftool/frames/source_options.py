@@ -118,6 +118,6 @@ class RecordingOptions:
             UsageError: If such an option was given.
         """
         if self.with_odometry:
-            raise UsageError(f"{what}: leave out --with-odometry.")
+            raise UsageError(f"{what}: leave out --with-odometry, which is for recordings.")
         if self.tf_topics:
-            raise UsageError(f"{what}: leave out --tf-topic.")
+            raise UsageError(f"{what}: leave out --tf-topic, which is for recordings.")

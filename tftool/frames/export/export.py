@@ -228,7 +228,10 @@ def write_links(
             f"foxglove.FrameTransforms can only be written to an MCAP file, not into {form}."
         )
     if style.with_moving and form is not Format.urdf:
-        raise UsageError(f"{form} publishes static transforms: moving links cannot be written.")
+        raise UsageError(
+            f"The format {form} contains static transforms only: leave out --with-moving, "
+            "or write an MCAP file."
+        )
     links = static_files.fixed_links(
         buffer, with_moving=style.with_moving, time=style.time, root=style.root
     )

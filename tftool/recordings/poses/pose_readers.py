@@ -420,7 +420,9 @@ def _link_of(
 ) -> PoseLink:
     names = (str(pair[0] or file.frames[0]), str(pair[1] or file.frames[1]))
     if len(stamps) and (int(stamps.min()) < 0 or int(stamps.max()) >= 2**31 * 10**9):
-        raise InputError(f"'{file.path}' has stamps outside of the seconds 0 to {2**31}.")
+        raise InputError(
+            f"'{file.path}' has stamps outside 0 to {2**31} seconds: check the unit of its stamps."
+        )
     numbers, moments = array("d"), array("q")
     numbers.frombytes(poses.tobytes())
     moments.frombytes(stamps.astype("int64").tobytes())

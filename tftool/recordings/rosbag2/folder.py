@@ -84,7 +84,7 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
     if not parts:
         raise InputError(
             f"'{folder}' has the {METADATA} of a rosbag2 recording, but none of its files"
-            + (f": {_few(missing)} is missing." if missing else ".")
+            + (f": add {_few(missing)} to the folder." if missing else ".")
         )
     return parts
 
@@ -218,7 +218,8 @@ def unpack_file(path: Path, target: Path) -> str:
             done += len(piece)
             if done > plausible:
                 raise InputError(
-                    f"'{path}' unpacks to more than {plausible} bytes, which is implausible."
+                    f"'{path}' unpacks to more than {plausible} bytes, which is implausible: "
+                    "fetch the file again."
                 )
             if done > limit:
                 raise InputError(
