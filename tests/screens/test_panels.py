@@ -394,6 +394,17 @@ def test_the_scenarios_are_listed_round_the_cursor():
     assert lines == ["  s5  about 5", "▸ s6  about 6", "  s7  about 7"]
 
 
+def test_below_the_scenarios_is_the_whole_description_of_the_chosen_one():
+    offered = [("near", "short"), ("far", "a robot drives far away and comes back at night")]
+    height = len(offered) + panels.description_lines(offered, 30)
+
+    lines = words(panels.scenarios(offered, 1, 30, height + 2, PLAIN))
+
+    assert " ".join(" ".join(lines[3:]).split()) == offered[1][1]
+    assert panels.description_lines(offered, 80) == 0
+    assert len(panels.scenarios(offered, 1, 80, 9, PLAIN)) == 2
+
+
 def test_two_turtles_that_spawn_are_two_lines():
     journal = Journal(
         [record(0, "Spawning turtle [turtle1]"), record(1, "Spawning turtle [turtle2]")]

@@ -138,3 +138,10 @@ def test_ascii_and_small_terminals(size):
 def test_keys_are_told_and_q_ends_it():
     assert any("light or dark" in line for line in shown("question_mark"))
     assert shown("q") == []
+
+
+def test_numbered_frames_are_sorted_by_their_numbers():
+    lines = shown(frames=("link_10", "link_2", "link_1"))
+
+    places = [line_of(lines, f"│{name} ") for name in ("link_1", "link_2", "link_10")]
+    assert places == sorted(places)

@@ -1,6 +1,7 @@
 """Text for people: similar names, escaped control characters, short numbers."""
 
 import math
+import re
 import unicodedata
 from collections.abc import Iterable
 
@@ -30,6 +31,12 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     """Return the "did you mean" ending of a sentence; empty if no name is similar."""
     near = near_names(word, known)
     return f"; did you mean '{near[0]}'?" if near else ""
+
+
+def natural_key(name: str) -> list[tuple[int, str]]:
+    """Return a key that sorts names by the numbers in them: `run_2` before `run_10`."""
+    words = re.split(r"([0-9]+)", name)
+    return [(int(word), "") if place % 2 else (0, word) for place, word in enumerate(words)]
 
 
 _JOINERS = frozenset("\u200c\u200d")

@@ -3,7 +3,6 @@
 The metadata of rosbag2 may be wrong: files in the folder are read even if they differ from it.
 """
 
-import re
 import shutil
 import tempfile
 from collections.abc import Collection, Iterator, Sequence
@@ -13,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from tftool.base.errors import InputError
+from tftool.base.plain_text import natural_key
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
 from tftool.recordings.container import MOST_STREAMS, Container
@@ -64,7 +64,7 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
     """
     there = sorted(
         (path for path in folder.iterdir() if path.is_file() and _is_part(path)),
-        key=_natural,
+        key=lambda path: natural_key(path.name),
     )
     listed = _listed(folder, damage)
     # Opening a file that is not a recording (an empty file, for example) reports it.
@@ -146,12 +146,6 @@ def _is_part(path: Path) -> bool:
         return True  # it may be a part, and opening it will report the error
     except InputError:
         return False
-
-
-def _natural(path: Path) -> list[tuple[int, str]]:
-    """Return a key that sorts file names by their numbers: `run_2` before `run_10`."""
-    words = re.split(r"(\d+)", path.name)
-    return [(int(word), "") if word.isdigit() else (0, word) for word in words]
 
 
 def _few(names: Sequence[str]) -> str:

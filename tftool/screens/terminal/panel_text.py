@@ -268,9 +268,15 @@ def _degree(look: Look) -> str:
 def scenarios(
     offered: Sequence[tuple[str, str]], cursor: int, width: int, height: int, look: Look
 ) -> list[Text]:
-    """Return the lines of the list of scenarios, with descriptions and a cursor."""
+    """Return the lines of the list of scenarios, with descriptions and a cursor.
+
+    Below the list is the whole description of the scenario under the cursor, if some are cut.
+    """
+    below = description_lines(offered, width)
+    below = below if height > below + 3 else 0
+    height -= below
     first = max(0, min(cursor - height // 2, len(offered) - height))
-    wide = max((cell_len(name) for name, _ in offered), default=0) + 2
+    wide = _widest(offered)
     dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
     lines = []
     for place in range(first, min(len(offered), first + height)):
@@ -284,7 +290,26 @@ def scenarios(
                 (fitted(about, max(0, width - wide - 2), more=look.more), dim),
             )
         )
+    if below:
+        words = wrapped(offered[cursor][1], width - 2, look.ink(look.palette.text))
+        lines += [Text(), *(Text.assemble("  ", line) for line in words)]
     return lines
+
+
+def description_lines(offered: Sequence[tuple[str, str]], width: int) -> int:
+    """Return the lines below a list of scenarios that a whole description needs; 0 if none is cut.
+
+    Args:
+        offered: Names and descriptions.
+        width: Width in cells.
+    """
+    room = width - _widest(offered) - 2
+    cut = [about for _, about in offered if cell_len(about) > room]
+    return 1 + max(len(wrapped(about, width - 2)) for about in cut) if cut else 0
+
+
+def _widest(offered: Sequence[tuple[str, str]]) -> int:
+    return max((cell_len(name) for name, _ in offered), default=0) + 2
 
 
 def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:

@@ -52,18 +52,19 @@ BELOW = 26
 """Smallest number of rows with the picture below the joints."""
 
 KEYS = f"""\
- Up, Down        choose a joint (also k, j)
- Left, Right     slide it between its limits
- , .             the same in small steps
- digits, Enter   put it where the number says
- z c r           all joints: zero, centre, random
- Z C R           the chosen joint alone
+ Up, Down     choose a joint (also k, j)
+ Left, Right  slide it between its limits
+ , .          the same in small steps
+ 0-9, Enter   type a position and move there
+ z c r        all joints: zero, centre, random
+ Z C R        the chosen joint alone
 
- Tab             pose of another link (Shift+Tab too)
+ Tab          pose of another link (Shift+Tab too)
 
 {SPACE_KEYS}
- m               light or dark
- q               quit
+ m            light or dark
+ ? or Esc     close these keys
+ q            quit
 """
 
 

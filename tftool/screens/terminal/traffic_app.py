@@ -6,7 +6,7 @@ from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 
-from tftool.base.plain_text import count, visible
+from tftool.base.plain_text import count, natural_key, visible
 from tftool.base.stamps import as_seconds
 from tftool.buffer.traffic import FrameTraffic, Traffic
 from tftool.drawing.echo_view import in_words
@@ -143,7 +143,7 @@ class TrafficWatch(PanelApp):
         if self._order == "delay":
             return sorted(links, key=lambda link: -(link.series.average_delay or 0.0))
         # Static frames have no curve; they are listed last, so that the curves stay together.
-        return sorted(links, key=lambda link: link.is_static)
+        return sorted(links, key=lambda link: (link.is_static, natural_key(link.frame)))
 
     # Keys
 

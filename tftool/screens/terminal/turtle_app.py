@@ -561,4 +561,6 @@ class TurtleApp(PanelApp):
 
     def _offered_size(self) -> tuple[int, int]:
         width, height = self.size
-        return min(width - 2, 96), min(height - 2, len(self._offered) + 2)
+        wide = min(width - 2, 96)
+        lines = len(self._offered) + panels.description_lines(self._offered, wide - 2)
+        return wide, min(height - 2, lines + 2)
