@@ -23,7 +23,7 @@ from tftool.doctor.findings import Edge
 from tftool.doctor.gap_checks import edge_stopped
 from tftool.doctor.missing_joins import proposed_frame, proposed_join
 from tftool.doctor.model import Model, Settings
-from tftool.doctor.name_checks import alike_frames
+from tftool.doctor.name_checks import alike_frames, is_navsat_output
 from tftool.doctor.ros_words import in_words
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import NEVER, Heard, Track
@@ -157,7 +157,7 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
         why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
         mistyped = "" if says else f"ask for {alike[0]}, or "
         remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
-    join = proposed_frame(model, name, [heard.type for heard in says])
+    join = proposed_frame(model, name, [h.type for h in says if not is_navsat_output(h)])
     if join is not None:
         remedies.append(Remedy("join", join.fix.text, join.fix.command))
         why += [join.why] if join.why else []

@@ -201,8 +201,8 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
         )
     # The robot probably sends it: a second publisher would contradict the first one.
     return Fix(
-        f"the statics are missing from the recording, {child} in {parent} probably among them: "
-        "record /tf_static too, or take it from another recording or the robot description:",
+        f"no statics were recorded: if {child} in {parent} is one, record /tf_static too, or take "
+        "it from another recording or the robot description:",
         "tftool edit RECORDING -o WHOLE --statics-from OTHER",
     )
 

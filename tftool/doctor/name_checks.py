@@ -55,9 +55,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     for heard in model.heard:
         known = heard.frame in model.frames or heard.frame[1:] in _slashed(heard, model)
         known = known or heard.frame in model.described
-        # navsat_transform_node names a frame in its output that it does not publish.
-        is_output = last_part(heard.type) == "NavSatFix" and last_part(heard.topic) == "filtered"
-        if heard.frame and heard.is_spatial and not known and not is_output:
+        if heard.frame and heard.is_spatial and not known and not is_navsat_output(heard):
             by_name[heard.frame].append(heard)
     for name, heards in by_name.items():
         count = sum(len(heard.stamps) for heard in heards)
@@ -90,6 +88,11 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             fixes=fixes,
             alone=fixes[0].text if len(fixes) == 1 and not fixes[0].command else True,
         )
+
+
+def is_navsat_output(heard: Heard) -> bool:
+    """Whether navsat_transform_node sends messages, in a frame that nobody publishes."""
+    return last_part(heard.type) == "NavSatFix" and last_part(heard.topic) == "filtered"
 
 
 def _severity(name: str, heards: Iterable[Heard], fixes: Sequence[Fix]) -> Severity | None:
