@@ -368,6 +368,6 @@ def find_publishers(tracks: Sequence[Track]) -> Fix:
     """Return the next step if a transform has one publisher too many."""
     nodes = sorted({node for track in tracks for node in track.nodes})
     if len(nodes) > 1:
-        return Fix(f"stop all but one of its publishers: {', '.join(nodes)}")
+        return Fix(f"let only one of its publishers send it: {', '.join(nodes)}")
     topics = sorted({topic for track in tracks for topic in track.topics}) or ["/tf"]
     return Fix("find its publishers: " + ", ".join(f"`{{publishers}} {topic}`" for topic in topics))

@@ -205,7 +205,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
         if fix is None:
             fix = find_publishers(tracks)
         if is_one_edge and any(track.moves for track in moving[child]):
-            fix = Fix(f"{child} moves: stop the publisher of the static one. {fix.text}")
+            fix = Fix(f"{child} moves: the static one is wrong; {fix.text}")
         yield Hit(
             edges=tuple(dict.fromkeys(track.edge for track in tracks)),
             frames=(child,),
