@@ -427,3 +427,29 @@ def test_what_is_only_drawn_may_come_before_its_transform(kind, told):
     made.moving("odom", "base_link", 5.0)
     made.hears("/drawn", "base_link", 20.0, kind, latency=0.001)
     assert ids(made) == told
+
+
+@pytest.mark.parametrize(("end", "severity"), [(3.7, Severity.NOTE), (4.2, Severity.WARNING)])
+def test_a_gap_names_the_topics_that_were_silent_with_it(end, severity):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", without=(3.0, end))
+    made.hears("/wheels", "odom", 50.0, "nav_msgs/Odometry", end=3.0)
+    made.hears("/wheels", "odom", 50.0, "nav_msgs/Odometry", begin=end)
+    made.hears("/imu", "base_link", 50.0, "sensor_msgs/Imu")
+    gap = found(made, "gap")
+    assert gap.severity is severity
+    assert gap.evidence[0].endswith("at the same time: /wheels")
+
+
+def test_a_single_transform_on_a_topic_of_its_own_is_not_read_by_tf2():
+    made = robot()
+    made.sent("world", "", 1.0, topic="/pose")
+    evidence = made.evidence()
+    topics = tuple(
+        replace(one, type="geometry_msgs/TransformStamped") if one.name == "/pose" else one
+        for one in evidence.topics
+    )
+    (empty,) = [
+        one for one in judge(replace(evidence, topics=topics)).findings if one.id == "empty-frame"
+    ]
+    assert empty.severity is Severity.NOTE

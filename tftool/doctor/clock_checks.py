@@ -158,7 +158,9 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
         # What was recorded before is stamped before its reception.
         fixes=(_OLDER if model.shift.by > 0 else _SET_CLOCK,),
         alone=True,
-        loud=not model.was_played and not any(_is_unshifted(model, h) for h in model.heard),
+        loud=model.shift.streams > 1
+        and not model.was_played
+        and not any(_is_unshifted(model, heard) for heard in model.heard),
     )
 
 

@@ -119,7 +119,8 @@ def _is_detection(model: Model, track: Track) -> bool:
     Severity.WARNING,
     rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
     "samples or more; a note for transforms that are published on change (variation "
-    "above {variation:g}), and for a part of a robot that no sensor message is in",
+    "above {variation:g}), for a gap below {note:g} s, and for a part of a robot that no sensor "
+    "message is in",
     headline="{where} {concerned:has a gap|have gaps}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -129,7 +130,7 @@ def _is_detection(model: Model, track: Track) -> bool:
         "a network that drops",
         "a publisher that hung",
     ),
-    limits={"periods": 5, "seconds": 0.5, "samples": 10, "variation": 1.0},
+    limits={"periods": 5, "seconds": 0.5, "note": 1.0, "samples": 10, "variation": 1.0},
     why="four messages lost in a row are no accident on a reliable topic; the usual "
     "timeouts of consumers cover shorter gaps",
     because_of=(
@@ -174,7 +175,9 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             since=begin,
             until=end,
             count=len(found),
-            severity=Severity.NOTE if on_change or model.is_minor(track) else Severity.WARNING,
+            severity=Severity.NOTE
+            if on_change or end - begin < limits["note"] * NANOSECONDS or model.is_minor(track)
+            else Severity.WARNING,
             fixes=(
                 Fix(
                     "look for what these have in common: one source, one node, the network"

@@ -229,10 +229,10 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     "empty-frame",
     Severity.ERROR,
     rule="a name is empty: an error in a transform, a warning in the header of a message "
-    "with a position",
+    "with a position, a note in a transform on a topic of its own, which tf2 does not read",
     headline="{what} has no frame name",
     detail="{what}: {detail}, {count:times}",
-    consequence="tf2 drops such a transform, and such a message cannot be placed",
+    consequence="{so}",
     fixes=(Fix("set frame_id in the node that publishes it"),),
     causes=(
         "a message that was never filled",
@@ -254,9 +254,10 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                     "what": f"a transform on {', '.join(track.topics)}",
                     "detail": f"its {which} is empty; the other is {track.parent or track.child!r}",
                     "count": len(track.stamps),
+                    "so": "tf2 drops such a transform",
                 },
                 topics=track.topics,
-                severity=Severity.ERROR if is_tf else Severity.WARNING,
+                severity=Severity.ERROR if is_tf else Severity.NOTE,
             )
     for heard in model.heard:
         if heard.frame or not (
@@ -275,6 +276,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 "what": f"a message on {heard.topic}",
                 "detail": f"{heard.type} with an empty frame_id",
                 "count": len(heard.stamps),
+                "so": "such a message cannot be placed",
             },
         )
 
