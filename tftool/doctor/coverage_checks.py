@@ -199,6 +199,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
                     "told": "the last lacks" if len(lasts) == 1 else f"the last {len(lasts)} lack",
                 },
                 alone=True,
+                loud=True,
             )
 
 
@@ -593,6 +594,7 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
                     "topic": heard.topic,
                     "fixed": fixed,
                 },
+                loud=True,
             )
 
 

@@ -243,6 +243,7 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
             topics=track.topics,
             count=track.slashed,
             severity=Severity.ERROR if twice else Severity.NOTE,
+            loud=True,
         )
 
 
