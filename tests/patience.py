@@ -3,7 +3,7 @@
 import threading
 
 PATIENCE = 180
-"""Seconds until it is given up: many times what anything here takes on a slow, busy machine."""
+"""Seconds after which a test stops waiting; much more than any wait on a slow, busy machine."""
 
 
 def answered(ask):

@@ -22,7 +22,7 @@ rotations = (
     .filter(lambda four: sum(part * part for part in four) > 1e-3)
     .map(_turn)
 )
-"""Unit quaternions of either sign."""
+"""Random unit quaternions, of either sign."""
 
 transforms = st.builds(Transform, vectors, rotations)
 fractions = st.floats(0.0, 1.0)

@@ -14,10 +14,9 @@ from tests.patience import PATIENCE
 
 ROOT = Path(__file__).parents[1]
 LOOKS = 3_000
-"""Looks at a screen until it is given up; after each one the terminal has to be written to."""
+"""Number of times a test reads the screen before it fails; new output precedes each reading."""
 UNHEARD = 0.5
-"""Seconds until another key is pressed where the one before had no effect, or another look is
-taken at what shows nothing."""
+"""Seconds after which a key without effect is pressed again, or an empty screen is read again."""
 
 
 class Terminal:

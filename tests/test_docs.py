@@ -24,10 +24,10 @@ def named(page):
 
 
 FILE = re.compile(r"(?:# |<!-- )([\w./-]+\.(?:py|yaml|urdf))(?: -->)?\n")
-"""The first line of a block that is a file: its name."""
+"""First line of a code block that contains a file: the file's name in a comment."""
 
 EXCERPT = re.compile(r"^<!-- From (\S+)\. -->\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-"""A part of a file, shown where pages are read as they are."""
+"""Excerpt of a file in a page that is shown without Sphinx, such as the README."""
 
 
 def excerpts(page):

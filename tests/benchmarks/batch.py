@@ -25,7 +25,7 @@ from tftool.geometry.rigid import Transform
 ROUNDS = 5
 MANY = 1_000_000
 FEW = 100_000
-"""Times for the peers that take their time."""
+"""Number of lookups or samples in comparisons with slow programs."""
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from tftool.geometry.conversions import quaternion_from_matrix
 WORLDS = 40
 EACH = 10
 POSES = 200
-"""Poses of each world for the other solvers: OpenCV's methods compare all pairs of them."""
+"""Number of poses given to the other solvers; OpenCV's methods compare all pairs of poses."""
 CASES = {
     "3-D, 3 mm 0.3°": {},
     "3-D, 1 mm 0.1°": {"noise": (0.001, 0.1)},
@@ -54,10 +54,10 @@ CASES = {
     "two bodies": {},
     "two bodies about one axis": {"kind": "axis"},
 }
-"""Made worlds by name: options of `world`."""
+"""Arguments of `world` for each generated case, by the case's name."""
 
 REFUSED = ("no rotation", "at rest", "4 s", "two bodies")
-"""Beginnings of the names of the cases that must be refused."""
+"""Beginnings of the names of the cases that a solver must refuse."""
 
 OPENCV = """
 import sys, cv2, numpy as np
@@ -83,8 +83,10 @@ for a, b, stamps in zip(poses["a"], poses["b"], poses["stamps"]):
           found.lever_z.value, sep=",")
 """
 PEERS = {"opencv-python-headless<5": OPENCV, "trajectopy": TRAJECTOPY}
-"""Programs by what uv installs for them; a line of output is name, method, translation, rotation
-matrix."""
+"""Programs of other solvers, by the requirement that uv installs for each.
+
+A line of output has the case's name, the method, the translation and the rotation matrix.
+"""
 
 
 def solved(made):

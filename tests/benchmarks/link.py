@@ -31,10 +31,10 @@ from tftool.world.link.session import Link
 from tftool.world.world import World
 
 STEADY = 5.0
-"""Seconds of the steady stream."""
+"""Length of the stream at a steady rate, seconds."""
 
 FLAT_OUT = 10_000
-"""Messages sent without a pause."""
+"""Number of messages that are sent without a pause."""
 
 
 # The poses are made in advance, because the benchmark measures their transport only.
@@ -47,7 +47,7 @@ def sample_of(stamp, number):
 
 
 DDS_DOMAIN = 87
-"""Of the measurements over DDS, which stay on the loopback."""
+"""DDS domain of the measurements, which use the loopback interface only."""
 
 
 def options(name, middleware):

@@ -24,14 +24,12 @@ SIDE = Path(__file__).with_name("scalar_side.py")
 ROOT = Path(__file__).parents[2]
 TURNS = 11
 MOST = 2000
-"""Questions a turn; fewer where each takes long."""
+"""Maximum number of questions per turn; workloads with long chains have fewer."""
 SHOWN = 20
-"""So many answers are compared."""
+"""Number of answers that are compared."""
 
 SECOND = 10**9
 PERIOD = 10**7
-JITTER = 10**6
-"""No sample comes later than this after its due time."""
 
 WANTED = {
     (1000, 5): (8.0, 1.5),
@@ -39,10 +37,10 @@ WANTED = {
     (1000, 20): (None, 2.0),
     (1000, 100): (None, 2.5),
 }
-"""The same of any time in so many samples through so many links."""
+"""Wanted ratios (see `Workload`) of lookups at any time, by numbers of samples and links."""
 
 POSES = 997
-"""So many different poses; neighbours are near, and the last one is the first one's neighbour."""
+"""Number of different poses, which form a ring; neighbouring poses are near each other."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from tftool.robots.urdf import parse_description
 SIZES = ((80, 24), (120, 40), (200, 60))
 LINKS, AROUND = 7, 100
 TRIANGLES = 121_800
-"""So many have the meshes of a UR5e, in seven links."""
+"""Number of triangles in the meshes of a UR5e, which has seven links."""
 WANTED = 25.0
 PICTURES = 40
 

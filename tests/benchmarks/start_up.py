@@ -18,7 +18,7 @@ LIBRARIES = {
     "import typer, numpy": [sys.executable, "-c", "import typer, numpy"],
     "import typer, rich.table": [sys.executable, "-c", "import typer, rich.table"],
 }
-"""Imports that each command needs: no command can start faster."""
+"""Imports that each command needs; their time is the lower limit for a command's start."""
 
 # Command lines, and the milliseconds that each may take longer than an empty Python program.
 COMMANDS = {

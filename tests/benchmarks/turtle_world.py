@@ -17,13 +17,13 @@ from tftool.world.supervisor import live
 from tftool.world.world import World
 
 SIMULATED = 60.0
-"""Seconds that each round lives through."""
+"""Simulated seconds in each round."""
 
 WANTED = 100.0
-"""Simulated seconds a second of work that must be reached with the leader at rest."""
+"""Required simulated seconds per second of computation, with the leader at rest."""
 
 WANTED_OF_SCENARIO = 200.0
-"""The same for the tutorial's demo as a scenario, judged while it plays."""
+"""Required simulated seconds per second of computation for the demo as a judged scenario."""
 
 
 def rounds(*, square: bool, color: bool = False, count: int = 7) -> list[float]:

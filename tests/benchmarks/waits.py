@@ -8,10 +8,10 @@ from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 
 WAITING = 10_000
-"""How many requests are pending."""
+"""Number of pending requests."""
 
 WANTED = 50.0
-"""Microseconds that all of them together may add to a set."""
+"""Maximum microseconds that all pending requests together may add to one insert."""
 
 ROUNDS = 500
 

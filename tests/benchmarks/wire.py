@@ -10,7 +10,7 @@ from tftool.messages.classes import INTERFACES
 from tftool.messages.codec import codec
 
 PIXELS = 640 * 480 * 3
-"""Bytes of the image."""
+"""Number of bytes in the image."""
 
 
 def pairs():

@@ -25,7 +25,7 @@ samples = st.builds(
     transforms,
     st.sampled_from([False, False, False, True]),
 )
-"""A child's number is above its parent's, so that no loop comes about."""
+"""Random transforms; a child's number is above its parent's, so that frames form no loop."""
 
 worlds = st.lists(samples, min_size=1, max_size=40)
 moments = st.integers(0, 21)

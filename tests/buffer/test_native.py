@@ -78,7 +78,7 @@ others = st.sampled_from([("clear",), ("snapshot", 10**10), ("snapshot", 10**10,
 
 
 REACH = 300.0
-"""Metres, more than three links of these poses are long."""
+"""Distance in metres that no chain of three of these poses reaches."""
 
 
 def same(ours, plain, tolerance=0.0):

@@ -13,7 +13,7 @@ from tests.terminals import Terminal
 from tests.world.link.processes import Process, run
 
 LOOKS = 2000
-"""How many answers are looked at before what is waited for is given up."""
+"""Number of answers to read before a test stops waiting and fails."""
 
 TUTORIAL = Path(__file__).parent.parent / "tutorial"
 

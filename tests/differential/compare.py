@@ -14,7 +14,7 @@ from tests.differential.worlds import World, world
 
 THEIRS = Path(__file__).with_name("debian.py")
 PYTHON = "/usr/bin/python3"
-"""Debian's module belongs to Debian's Python, whichever one runs the tests."""
+"""Debian's Python, which alone can import Debian's tf2, whichever Python runs the tests."""
 
 
 @dataclass

@@ -15,7 +15,7 @@ from tftool.robots.robot_model import Robot as DescribedRobot
 from tftool.robots.urdf import parse_description
 
 START = 1_750_000_000.0
-"""Seconds: when everything here begins."""
+"""Time at which each recording begins, seconds."""
 
 LASTS = 8.0
 NO_TURN = (0.0, 0.0, 0.0, 1.0)
@@ -49,11 +49,11 @@ class Robot:
     urdf: str = ""
     joints: frozenset[str] | None = None
     odometry: "Robot | None" = None
-    """Its transforms are what odometry messages say."""
+    """Robot whose transforms are the poses in the odometry messages."""
     log_from: float | None = None
-    """Log time of the start; that of the stamps when None."""
+    """Log time of the start, seconds; None for the stamps' own start."""
     noise: np.random.Generator | None = None
-    """Gives latencies and periods a jitter; none when None."""
+    """Random generator for jitter of latencies and periods; None for no jitter."""
 
     def unsteady(self, value: float, share: float) -> float:
         """Return a value with random jitter of at most the given share."""

@@ -14,7 +14,7 @@ from tftool.geometry.notation.rotations import read
 
 HALF = math.sqrt(0.5)
 QUARTER = (0.0, 0.0, HALF, HALF)
-"""A quarter turn to the left."""
+"""Quaternion of a quarter turn to the left."""
 
 PASTED = {
     "brackets": ("[0, 0, 0.7, 0.7]", "xyzw"),

@@ -270,4 +270,4 @@ CONTAINERS: dict[str, Callable[[Path, Sequence[Sent]], Path]] = {
     "ros 1 lz4": lambda p, s: write_rosbag1(p / "a.bag", s, Rosbag1Writer.CompressionFormat.LZ4),
     "ros 1 bz2": lambda p, s: write_rosbag1(p / "a.bag", s, Rosbag1Writer.CompressionFormat.BZ2),
 }
-"""Every container, by its name: writes content into a folder, returns what to open."""
+"""Function for each container format: it writes content into a folder, and returns the path."""

@@ -30,7 +30,7 @@ def test_parameters_are_declared_with_types_and_read_back(node):
 
 
 OWN = ("use_sim_time", "start_type_description_service")
-"""What each node declares by itself."""
+"""Names of the parameters that every node declares."""
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import TransformMessage
 
 HEAD_START = 8.0
-"""Seconds before t = 0: 500 whole ticks, more than three of the slowest follower's periods."""
+"""Seconds that pass before t = 0: 500 ticks, more than three periods of the slowest follower."""
 
 ELSEWHERE = {
     "constants": "numbers of the simulator and of our own nodes",
@@ -41,7 +41,7 @@ ELSEWHERE = {
     "tree_statistics": "the viewers'",
     "stale_fade": "the viewers'",
 }
-"""Sections that no file of the tutorial's answers, and their owners; see tests/world/nodes."""
+"""Sections that test no file of the tutorial, and what each tests; see tests/world/nodes."""
 
 HERE = {
     "launch_timeline",

@@ -134,7 +134,7 @@ HEADERS: dict[str, Callable[[Step, Any], Any]] = {
 }
 
 ORDER = ("xyz", "q", "cov", "force", "torque", "points")
-"""The fields of a datum, in the order in which its numbers are compared."""
+"""Fields of a datum, in the order in which their numbers are compared."""
 
 
 def flat(wanted: Step) -> list[float]:

@@ -22,10 +22,10 @@ RUNNERS = {
     "view_frames_dot": program_kinds.run_view_frames_dot,
     "static_broadcaster": program_kinds.run_static_broadcaster,
 }
-"""Who runs the cases of each kind."""
+"""Function that runs the cases of each kind."""
 
 NOT_YET_COVERED: dict[str, str] = {}
-"""Kinds that nobody runs, and why. It is empty, and stays so."""
+"""Reason for each kind that no function runs; this must stay empty."""
 
 KNOWN = {
     *("id", "group", "kind", "from", "note", "note_versions", "ros1", "ros1_differs_at_steps"),
@@ -33,7 +33,7 @@ KNOWN = {
     # tftool returns the exact sign everywhere.
     "quat_sign_exact_from",
 }
-"""What a case may say of itself."""
+"""Allowed keys of a case."""
 
 
 @pytest.mark.parametrize("case", CASES, ids=[case["id"] for case in CASES])

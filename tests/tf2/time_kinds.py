@@ -17,7 +17,7 @@ from tftool.world.world import World
 Step = Mapping[str, Any]
 
 RULES = {"cpp": 1, "python": LEAST_FALL}
-"""How far a clock must fall in either of upstream's buffers; ours follows Python's."""
+"""Backward jump that clears tf2's buffer in C++ and in Python; tftool has the one of Python."""
 
 
 def run_time_jump(case: Step) -> None:

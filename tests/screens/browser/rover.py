@@ -13,7 +13,7 @@ from tftool.world.nodes.joints import MovingRobot
 from tftool.world.world import World
 
 PERIOD = 0.05
-"""Seconds between two steps of the drive."""
+"""Time between two steps of the drive, seconds."""
 
 
 def _visual(shape: str, colour: str, xyz: str = "0 0 0", rpy: str = "0 0 0") -> str:

@@ -8,7 +8,7 @@ from tftool.base.stamps import seconds
 from tftool.messages.turtle_messages import Twist
 
 HEAD_START = 2.0
-"""Seconds before t = 0 in which the simulator idles: 125 whole ticks."""
+"""Seconds before t = 0 in which the simulator does nothing: 125 ticks."""
 
 BEARING_COUNTS_ABOVE = 0.01
 

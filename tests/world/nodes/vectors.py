@@ -39,7 +39,7 @@ TESTED_IN = {
     "tree_statistics": "test_vectors_transforms",
     "stale_fade": "../../screens/browser/test_page",
 }
-"""Every section and the module that runs all of it, from this folder."""
+"""Module of this folder that runs all cases of a section, by the section's name."""
 
 _HEAD = {"format", "tolerances"}
 

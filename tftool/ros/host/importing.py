@@ -168,7 +168,7 @@ class _Finder(MetaPathFinder):
         self.behind: list[Callable[[], Iterable[str]]] = []
         """Functions that return further folders, which are searched last; called when needed."""
         self.tested: Path | None = None
-        """Folder of the tests and their subject, whose modules get tftool's builtins."""
+        """Folder of the tests and the tested code, whose modules get tftool's builtins."""
         self.on_import: dict[str, Callable[[], object]] = {}
         """Functions to call when a program first imports a package, by its name."""
 

@@ -35,7 +35,7 @@ REQUESTS = 10_000
 """Requests of any kind in one simulated instant before time advances."""
 
 TICK = seconds(0.001)
-"""Nanoseconds by which time then advances, so that a loop that polls comes to its end."""
+"""Nanoseconds by which time advances at such a limit, so that a loop that polls can end."""
 
 
 _living: "set[Program]" = set()

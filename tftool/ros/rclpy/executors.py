@@ -56,7 +56,7 @@ class Executor:
         self._seats: list[NodeSeat] = []
         self._batch: deque[NodeEntity] = deque()
         self._tasks: deque[tuple[Task, Any]] = deque()
-        """Tasks to continue, each with the callback group that is busy until it ends, or None."""
+        """Tasks to continue, each with the callback group that the task occupies, or None."""
         self._has_released = False
         """Whether a callback group became free since this executor last looked for work."""
         self._wakers: list[asyncio.Future[None]] = []

@@ -61,7 +61,7 @@ RECIPE = (
 )
 
 ON_LOOPBACK = network(()).xml()
-"""Cyclone's configuration for our foreign peer: the one tftool has itself."""
+"""Configuration of Cyclone DDS for the peer process, the same as tftool's own."""
 
 
 @pytest.fixture(scope="session")

@@ -345,7 +345,7 @@ def frame(payload, opcode):
 
 
 EXCHANGE = frame(INFO.encode(), 1) + frame(advertised(channel()).encode(), 1)
-"""What a server sends before it is asked."""
+"""Messages that a server sends without a request."""
 
 
 def handshake(request):
