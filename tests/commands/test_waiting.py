@@ -330,7 +330,7 @@ def test_a_wait_for_a_join_says_the_cause_and_what_to_look_at(world, capsys):
     assert "not part of the same tree" in line
     assert " Cause: camera_link has no parent" in line
     # No data shows where the camera is mounted, so no transform is proposed.
-    assert "check the node that should publish that" in line
+    assert "find the node that should publish that" in line
     assert "static_transform_publisher" not in line
 
 

@@ -320,7 +320,7 @@ def _version() -> str:
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
     """Convert output of a command to JSON of at most `most` characters; count omitted items.
 
-    Deeply nested lists are cut first, as all findings are more useful than all evidence of one.
+    Deeply nested lists are cut first: all findings are more useful than all evidence of one.
     """
     sizes = [(outer, inner) for outer in (200, 20) for inner in (20, 8, 3, 1)]
     sizes += [(outer, inner) for outer in (12, 8, 5, 3, 2, 1) for inner in (3, 1, 0)]

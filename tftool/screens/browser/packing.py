@@ -1,17 +1,17 @@
 """Frames over their whole time span as one block of bytes, for a page without a server.
 
-A block, before it is deflated: `MAGIC`, the length of a header in 32 bits, the header as JSON,
-padded so that what follows begins at a multiple of eight; then the sections the header points at,
-as [offset, length] from there on. Numbers are little-endian. `page/packed.js` reads it.
+Before compression with deflate, a block is: `MAGIC`; the length of the header in 32 bits; the
+header as JSON, padded to a multiple of eight bytes; and the sections, to which the header refers as
+[offset, length], counted from the end of the header. Numbers are little-endian. `page/packed.js`
+reads the block.
 
-A column of numbers is stored the way that deflates best, and its description in the header says
-which it is:
+The encoding of each column of numbers is the one that deflates best; the header describes it:
 
   {"value": x}            every number is x
-  {"bits": section}       doubles, the bits of each XORed with those of the one before; then the
-                          first byte of all, the second byte of all, up to the eighth
-  {"whole": section,      whole numbers times `step`: their differences, taken `order` times and
-   "order": 1 or 2,       written zigzag (0, -1, 1, -2 …), the bytes ordered likewise
+  {"bits": section}       doubles, each XORed with the double before it; the section has the first
+                          bytes of all numbers, then the second bytes, up to the eighth
+  {"whole": section,      whole numbers times `step`: their differences, taken `order` times, in
+   "order": 1 or 2,       zigzag coding (0, -1, 1, -2 …), with bytes in the order of `bits`
    "step": s}
 """
 

@@ -110,7 +110,7 @@ def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answeri
 
 
 class ServiceClient:
-    """Service of another process that nodes of this world can call."""
+    """Entry in this world for a service of another process, so that nodes can call it."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._kind = INTERFACES.find(*server.ros_type.split("/"))
