@@ -369,3 +369,11 @@ def test_the_outline_of_a_solid_in_ascii_is_drawn_with_strokes():
 
     assert len(sides) >= 8
     assert len({(line.index("|"), line.rindex("|")) for line in sides}) <= 2
+
+
+def test_axes_of_many_frames_are_shorter_so_that_they_overlap_less():
+    def blue(count):
+        lines = cells(SpacePicture("root", tuple(spread(count))), columns=160, rows=60)
+        return inks(lines, theme.hexadecimal(theme.paper(theme.DARK).z_axis)) / count
+
+    assert blue(80) < 0.7 * blue(8)

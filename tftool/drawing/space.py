@@ -199,6 +199,7 @@ class OrbitCamera:
         return np.stack([low - room * (low < kept[0]), high + room * (high > kept[1])])
 
 
-def axis_length(view: Viewpoint, rows: int) -> float:
-    """Return the length in metres with which the axes of frames are drawn."""
-    return view.scale * 4.0 * max(1.2, rows / 10.0)
+def axis_length(view: Viewpoint, rows: int, frames: int) -> float:
+    """Return the length in metres of the axes of each frame; shorter for more than 20 frames."""
+    crowded = math.sqrt(20.0 / max(20, frames))
+    return view.scale * 4.0 * max(1.2, crowded * rows / 10.0)

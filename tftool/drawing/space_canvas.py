@@ -329,7 +329,7 @@ def _layers(
     if picture.pair[0] in poses and picture.pair[1] in poses:
         pair = [[poses[name].translation for name in picture.pair]]
         layers.append(Layer(paper.accent, view.project(np.array(pair, float))))
-    length = axis_length(view, rows)
+    length = axis_length(view, rows, len(lined))
     for number, color in enumerate((paper.x_axis, paper.y_axis, paper.z_axis)):
         axis = tuple(length * (place == number) for place in range(3))
         ends = [(one.pose.translation, one.pose.apply(axis)) for one in lined]
