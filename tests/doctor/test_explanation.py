@@ -372,6 +372,21 @@ def test_on_a_narrow_terminal_what_a_link_says_stands_below_it_in_whole_words(wi
     assert lines[link + 1] == "    REFUSES: newest is 250 ms too old"
 
 
+def test_headings_stand_above_their_columns_where_messages_are_below_their_rows():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+    console = Console(width=80, file=io.StringIO(), color_system=None)
+
+    console.print(render(asked(made, "odom", "laser", 4.25)))
+
+    lines = console.file.getvalue().splitlines()
+    (heading,) = [line for line in lines if line.startswith("  link  ")]
+    (row,) = [line for line in lines if line.startswith("  base_link in odom")]
+    assert row.index("5 Hz") == heading.index("kind")
+    assert row[heading.index("samples") - 2 :].strip().isdigit()
+
+
 def test_where_there_is_room_a_link_is_one_row():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=5, latency=0.25)
