@@ -168,6 +168,11 @@ class Model:
         )
 
     @cached_property
+    def has_named_publishers(self) -> bool:
+        """Whether transforms have two or more publishers with known names."""
+        return len({one.node for one in self.evidence.transforms.publishers if one.node}) > 1
+
+    @cached_property
     def was_played(self) -> bool:
         """Whether `rosbag play` published some of the data, by the name of its node."""
         nodes = (last_part(one.node) for one in self.evidence.publishers)

@@ -137,12 +137,10 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
 )
 def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
-    # With fewer than two named publishers, no edge can have two.
-    named = len({one.node for one in model.evidence.transforms.publishers if one.node}) > 1
     told_of: dict[tuple[str, str], Hit] = {}
     apart: list[Track] = []
     for track in model.dynamic:
-        hit = named_conflict(model, track, limits) if named else None
+        hit = named_conflict(model, track, limits) if model.has_named_publishers else None
         hit = hit or values_at_one_stamp(track, limits) or unnamed_conflict(track, limits)
         if hit is None:
             continue

@@ -215,7 +215,8 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
         stamps = heard.stamps[heard.stamps != 0]
         if not is_sensor or len(stamps) < limits["samples"] or stands_still(heard):
             continue
-        different = len(np.unique(stamps))
+        # Stamps are nearly in order, which makes sorting faster than a search for unique ones.
+        different = 1 + int(np.count_nonzero(np.diff(np.sort(stamps, kind="stable"))))
         if len(stamps) >= limits["share"] * different:
             yield hit_of(heard, {"count": len(stamps), "different": different}, loud=True)
 

@@ -153,10 +153,11 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
 )
 def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame jumps faster than it can move."""
+    is_named = model.has_named_publishers
     for track in model.dynamic:
         if track.is_localisation:
             continue
-        senders = track.senders[track.by_stamp] if len(track.nodes) > 1 else None
+        senders = track.senders[track.by_stamp] if is_named and len(track.nodes) > 1 else None
         for number in (0,) if senders is None else np.unique(senders).tolist():
             places = track.by_stamp if senders is None else track.by_stamp[senders == number]
             hit = _jump(model, track, places, limits) if len(places) >= limits["samples"] else None
@@ -179,7 +180,8 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
     spins = track.has_turns(some, others, limits["radians"])
     if not spins and not (apart > limits["metres"]).any():
         return None
-    gaps = np.diff(track.stamps[places]) / NANOSECONDS
+    stamps = track.sorted_stamps if is_whole else track.stamps[places]
+    gaps = np.diff(stamps) / NANOSECONDS
     later = gaps > 0.0
     gaps = np.where(later, gaps, 1.0)
     turned = track.turned(some, others)
