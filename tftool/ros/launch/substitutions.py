@@ -149,8 +149,9 @@ class EnvironmentVariable(Substitution):
             return context.environment[name]
         if self.default_value is not None:
             return perform(context, self.default_value)
+        # The words before the colon are those of ROS 2, which programs compare.
         raise SubstitutionFailure(
-            f"environment variable '{name}' is not set: set it, or give a default_value"
+            f"environment variable '{name}' does not exist: set it, or give a default_value"
         )
 
     def describe(self) -> str:
