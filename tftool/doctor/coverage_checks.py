@@ -596,21 +596,3 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
                 },
                 loud=True,
             )
-
-
-@check(
-    "truncated-recording",
-    Severity.NOTE,
-    rule="part of the recording could not be read",
-    headline="part of the recording could not be read",
-    detail="{damage}",
-    consequence="data after the damage is not in this report",
-    causes=(
-        "the recorder was killed",
-        "a full disk",
-    ),
-)
-def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The recorder was killed, or the file is damaged: only the first part was read."""
-    if model.evidence.damage:
-        yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True, loud=True)

@@ -309,3 +309,21 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recording has no transforms."""
     if not model.tracks and not model.nameless:
         yield Hit(topics=tuple(t.name for t in model.evidence.topics if t.transforms))
+
+
+@check(
+    "truncated-recording",
+    Severity.NOTE,
+    rule="part of the recording could not be read",
+    headline="part of the recording could not be read",
+    detail="{damage}",
+    consequence="data after the damage is not in this report",
+    causes=(
+        "the recorder was killed",
+        "a full disk",
+    ),
+)
+def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
+    """The recorder was killed, or the file is damaged: only the first part was read."""
+    if model.evidence.damage:
+        yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True, loud=True)
