@@ -119,3 +119,12 @@ def test_negative_variances_are_read_from_the_messages(tmp_path):
     odometry = replace(transforms, negative=evidence.negative, odometry=transforms.transforms)
     (wrong,) = [one for one in judge(odometry).findings if one.id == "negative-variance"]
     assert wrong.evidence == ("/odometry/gps: 2 of 5 messages, -1.25 at least",)
+
+
+@pytest.mark.parametrize(("wrong", "severity"), [(1, Severity.WARNING), (40, Severity.ERROR)])
+def test_a_single_number_that_is_none_is_no_error(wrong, severity):
+    made = robot()
+    rows = made.records["odom", "base_link", False]
+    nan = (float("nan"), *rows[0][1][1:])
+    rows[100 : 100 + wrong] = [(s, nan, m) for s, _, m in rows[100 : 100 + wrong]]
+    assert found(made, "nan-transform").severity is severity

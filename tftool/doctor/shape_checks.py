@@ -201,11 +201,11 @@ def _is_complete(tree: Tree) -> bool:
 
 @check(
     "self-transform",
-    Severity.ERROR,
+    Severity.WARNING,
     rule="parent and child of a transform are the same name",
     headline="{where}: a frame is its own parent",
     detail="{frame}: {count:times}",
-    consequence="tf2 drops it, so that the intended transform is missing",
+    consequence="tf2 drops it, and prints an error for each",
     fixes=(Fix("look at the frame names in the settings of its publisher: `{publishers} /tf`"),),
     causes=(
         "published_frame and odom_frame of cartographer are equal",

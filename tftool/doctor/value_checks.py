@@ -25,10 +25,12 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
 @check(
     "nan-transform",
     Severity.ERROR,
-    rule="a number of a transform is NaN or infinite",
+    rule="a number of a transform is NaN or infinite; a warning in a share below {share:g} of a "
+    "moving one",
+    limits={"share": 0.01},
     headline="{where} {concerned:has|have} numbers that are none",
     detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
-    consequence="the frame stops or disappears; things placed through it have no position",
+    consequence="a lookup at these stamps gets other samples, or no position",
     fixes=(Fix("look at what its publisher did at that time: `{publishers} /tf`"),),
     causes=(
         "an estimator or simulation that diverged",
@@ -43,6 +45,7 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
         bad = np.flatnonzero(~track.finite)
         if len(bad):
             numbers = (*track.translations[bad[0]].tolist(), *track.rotations[bad[0]].tolist())
+            few = len(bad) < limits["share"] * len(track.stamps)
             has_nan = any(number != number for number in numbers)
             yield hit_of(
                 track,
@@ -56,6 +59,7 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
                 since=int(track.logs[bad[0]]),
                 until=int(track.logs[bad[-1]]),
                 count=len(bad),
+                severity=Severity.WARNING if few and not track.static else None,
             )
 
 
