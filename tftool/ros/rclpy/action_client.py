@@ -65,9 +65,7 @@ class ClientGoalHandle:
 
     def get_result(self) -> Any:
         """Block until the goal's result arrives; return an object with `.status` and `.result`."""
-        future = self.get_result_async()
-        wait_for(self._client.seat, future, None)
-        return future.result()
+        return wait_for(self._client.seat, self.get_result_async())
 
     def cancel_goal_async(self) -> Future:
         """Request the goal's cancellation; return a future of the server's response."""
@@ -75,9 +73,7 @@ class ClientGoalHandle:
 
     def cancel_goal(self) -> Any:
         """Request the goal's cancellation; block until the server responds."""
-        future = self.cancel_goal_async()
-        wait_for(self._client.seat, future, None)
-        return future.result()
+        return wait_for(self._client.seat, self.cancel_goal_async())
 
 
 class ActionClient(Requester):
@@ -139,9 +135,7 @@ class ActionClient(Requester):
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
         """Send a goal, block until its result arrives, and return it; None for a rejected goal."""
-        future = self.send_goal_async(goal, **kwargs)
-        wait_for(self.seat, future, None)
-        handle = future.result()
+        handle = wait_for(self.seat, self.send_goal_async(goal, **kwargs))
         return None if handle is None or not handle.accepted else handle.get_result()
 
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:

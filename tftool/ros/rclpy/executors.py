@@ -440,13 +440,18 @@ def serving(executor: Any, node: Any) -> Iterator[None]:
             executor.remove_node(node)
 
 
-def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
-    """Block until a future of a node is done, and meanwhile execute the node's callbacks."""
+def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None = None) -> Any:
+    """Block until a future of a node is done, and meanwhile execute the node's callbacks.
+
+    Returns:
+        Result of the future; None if it is not done in time.
+    """
     executor = seat.executor or executor_of(seat.program)
     if seat.executor is None and executor.context is not seat.context:
         with SingleThreadedExecutor(context=seat.context) as executor:
             executor.add_node(seat.ros_node)
             executor.spin_until_future_complete(future, timeout_sec)
-        return
-    with serving(executor, seat.ros_node):
-        executor.spin_until_future_complete(future, timeout_sec)
+    else:
+        with serving(executor, seat.ros_node):
+            executor.spin_until_future_complete(future, timeout_sec)
+    return future.result()

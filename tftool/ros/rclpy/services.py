@@ -79,13 +79,13 @@ class Client(ServiceEnd, Requester):
             TimeoutError: If the call takes longer than allowed.
         """
         future = self.call_async(request)
-        wait_for(self.seat, future, timeout_sec)
+        response = wait_for(self.seat, future, timeout_sec)
         if timeout_sec is not None and not future.done() and not self.seat.program.interrupted:
             self.remove_pending_request(future)
             raise TimeoutError(
                 f"service '{self.service_name}' has not responded in {timeout_sec:g} s"
             )
-        return future.result()
+        return response
 
     def remove_pending_request(self, future: Future) -> None:
         """Stop waiting for the response of a request, given by its future."""
