@@ -246,8 +246,8 @@ def test_only_what_is_below_the_root_is_read_and_only_what_runs_no_code(tmp_path
     refused, fine, option, listed, part = served(root, work)
 
     assert not any("secret" in text for text in refused.values())
-    assert "outside of the root" in refused["link.urdf"]
-    assert "outside of the root" in refused["bag"]
+    assert "is outside the root" in refused["link.urdf"]
+    assert "is outside the root" in refused["bag"]
     assert "may run code" in refused["r.xacro"]
     assert "is a scenario" in refused["s.yaml"]
     assert json.loads(fine.content[0].text)["roots"] == ["base"]
