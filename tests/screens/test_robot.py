@@ -370,7 +370,7 @@ def test_a_long_list_of_joints_counts_those_above_and_below():
     first = screen_of(app)
     rows = [line for line in first if re.search(r"j\d+ .*rad", line)]
     assert rows
-    assert any(f"{17 - len(rows)} more below" in line for line in first)
+    assert any(f"↓ {17 - len(rows)} more" in line for line in first)
     sliders.choose(-1)
     last = screen_of(RobotApp(new_world(), sliders, setting=Setting()))
-    assert any(f"{17 - len(rows)} more above" in line for line in last)
+    assert any(f"↑ {17 - len(rows)} above" in line for line in last)

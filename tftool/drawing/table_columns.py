@@ -184,6 +184,13 @@ def wrap_words(sentence: str, width: int) -> list[str]:
     return lines
 
 
+def rest_of_list(below: int, above: int, *, ascii_only: bool) -> str:
+    """Return the numbers of rows below and above the shown part of a list; "" if there are none."""
+    up, down = ("^", "v") if ascii_only else ("↑", "↓")
+    words = [f"{down} {below} more"] if below else []
+    return "   ".join(words + ([f"{up} {above} above"] if above else []))
+
+
 def padded(text: str, width: int, *, more: str = "…") -> str:
     """Return a text as one line of exactly `width` cells: cut, or padded with spaces."""
     shown = fitted(text, width, more=more)

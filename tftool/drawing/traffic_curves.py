@@ -17,7 +17,7 @@ from tftool.buffer.traffic import FrameTraffic, Series, Traffic
 from tftool.drawing import theme
 from tftool.drawing.cells import Dots, blended, packed
 from tftool.drawing.sparklines import TrafficHistory, TrafficLook, sparkline
-from tftool.drawing.table_columns import fitted, padded
+from tftool.drawing.table_columns import fitted, padded, rest_of_list
 from tftool.drawing.traffic_view import (
     bar,
     is_silent,
@@ -119,10 +119,8 @@ def curves(
         lines += _block(now, link, history.looks(link.frame), window, 1 + extra, layout)
     if len(shown) < len(links):
         left = len(links) - len(shown) - layout.first
-        up, down = ("^", "v") if layout.ascii_only else ("↑", "↓")
-        words = [f"{down} {left} more"] if left else []
-        words += [f"{up} {layout.first} above"] if layout.first else []
-        lines.append(Text("   ".join(words), layout.ink(layout.palette.accent, bold=True)))
+        words = rest_of_list(left, layout.first, ascii_only=layout.ascii_only)
+        lines.append(Text(words, layout.ink(layout.palette.accent, bold=True)))
     return lines
 
 

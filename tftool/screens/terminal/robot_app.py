@@ -14,7 +14,7 @@ from tftool.base.errors import TransformException
 from tftool.base.plain_text import count
 from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpaceFrame, SpacePicture
-from tftool.drawing.table_columns import fitted, padded
+from tftool.drawing.table_columns import fitted, padded, rest_of_list
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
 from tftool.screens.terminal.panel_text import Hint, footer
@@ -226,9 +226,8 @@ class RobotApp(PanelApp):
         self._first = min(most, max(min(self._first, place), place - rows + 1, 0))
         lines = self._rows(shown[self._first : self._first + rows], columns)
         above, below = self._first, len(shown) - self._first - len(lines)
-        if above or below:
-            hidden = [f"{n} more {where}" for n, where in ((above, "above"), (below, "below")) if n]
-            lines.append(Text(f"  {', '.join(hidden)}", self.look.ink(self.look.palette.accent)))
+        if rest := rest_of_list(below, above, ascii_only=self.look.ascii_only):
+            lines.append(Text(rest, self.look.ink(self.look.palette.accent, bold=True)))
         return lines
 
     def _rows(self, shown: Sequence[Slider], width: int) -> list[Text]:

@@ -13,11 +13,11 @@ from tftool.base.plain_text import count
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.buffer.traffic import Traffic
-from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
+from tftool.drawing.frame_tree import NOTHING, TreeOrder, compact
 from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpacePicture
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
-from tftool.drawing.table_columns import fitted, plain
+from tftool.drawing.table_columns import fitted, plain, rest_of_list
 from tftool.drawing.traffic_view import has_stopped
 from tftool.screens.terminal.frames_picture import natural_fixed
 from tftool.screens.terminal.panel_text import Hint, footer, title_bar
@@ -82,16 +82,9 @@ class TreeWindow:
         shown = found.rows[self.first : self.first + room]
         lines = [*heading, *shown]
         if len(shown) < len(found.rows) and len(lines) < height:
-            lines.append(self._rest(found, len(shown), ascii_only=ascii_only))
+            below = len(found.rows) - self.first - len(shown)
+            lines.append(Text(rest_of_list(below, self.first, ascii_only=ascii_only), "bold"))
         return lines
-
-    def _rest(self, found: CompactTree, shown: int, *, ascii_only: bool) -> Text:
-        up, down = ("^", "v") if ascii_only else ("↑", "↓")
-        below = len(found.rows) - self.first - shown
-        parts = [f"{down} {below} more"] if below else []
-        if self.first:
-            parts.append(f"{up} {self.first} above")
-        return Text("   ".join(parts), style="bold")
 
     def sort(self) -> None:
         """Sort the rows by the next criterion."""
