@@ -132,7 +132,7 @@ def trajectory_errors(
         fit: Alignment of B with A before the comparison: none, by the first pose, rigid, or rigid
             with scale.
         match: Whether to use the nearest pose of A, or to interpolate A at the stamps of B.
-        step: Length of the parts for the relative error; None for one frame.
+        step: Length of the parts for the relative error; None for parts of one pose.
 
     Raises:
         InputError: If A or B has several chains, or too few poses match.

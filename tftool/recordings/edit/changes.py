@@ -335,7 +335,7 @@ class Changer:
         return np.stack(found, axis=1)
 
     def _learned(self, payload: bytes, channel: Channel) -> "tuple[Result, Counter[str]]":
-        """Change one message as an example for messages of its kind, without a cut in time."""
+        """Change one message of a kind, ignoring the cut in time; return the result and counts."""
         layout, static = LAYOUTS[channel.encoding], carries_statics(channel)
         before, self.counts = self.counts, Counter()
         try:
