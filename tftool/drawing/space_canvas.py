@@ -82,7 +82,8 @@ class DrawnSpace:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
         depth: Nearest triangle at every dot, and its depth.
         layers: Lines in the order in which they are drawn.
-        edges: Mask of the dots where a part of a solid ends in front of another part or of nothing.
+        edges: Mask of the dots where a part of a solid ends in front of another part; if drawn
+            plain, also of the dots where it ends in front of nothing.
         names: For each label, the most important first: the labelled frame, the text, the number of
             frames at this position, and the column and row in dots from the upper left corner.
         grid: Metres between two lines of the grid.
@@ -204,7 +205,8 @@ def drawn(
         whose[found] = parts
         edges = _edges(whose, depth.depths)
         image[edges] *= 0.6
-        edges |= _outline(found)
+        if plain:
+            edges |= _outline(found)
     places = view.project(np.array([one.pose.translation for one in picture.frames]).reshape(-1, 3))
     names = [
         (one, name, count, 0.5 * width + x, 0.5 * height - y)
@@ -500,13 +502,10 @@ class SpaceCanvas:
         # The longest hint that the picture may need keeps its place free.
         costs[-1, : len(hint) + 24] = TAKEN
         palette = self._palette
-        told = 0
-        leaders = Dots(self.columns, self.rows)
         found = self._placer.placed(labels, costs)
-        for placed in found:
-            told += named[placed.label.name][1]
-            if placed.is_far:
-                leaders.draw(_leader(placed), packed(palette.dim))
+        leaders = Dots(self.columns, self.rows)
+        ends = [_leader(placed) for placed in found if placed.is_far]
+        leaders.draw(np.array(ends, float).reshape(-1, 2, 2), packed(palette.dim))
         leaders.masks[marked | solid] = 0
         sheet.lay(leaders, ascii_only=self._ascii)
         for placed in found:
@@ -515,6 +514,7 @@ class SpaceCanvas:
             ink = packed(theme.of_age(color, one.age, palette))
             text, is_chosen = placed.label.text, one.name == chosen
             sheet.write(placed.column, placed.row, text, ink, bold=is_chosen, clears=True)
+        told = sum(named[placed.label.name][1] for placed in found)
         if told < total:
             words = f", {total - told} of {total} frames unnamed"
             fits = len(hint + words) <= self.columns
@@ -529,14 +529,12 @@ def _solid(drawing: DrawnSpace, columns: int, rows: int) -> npt.NDArray[np.bool_
     return cells
 
 
-def _leader(placed: PlacedLabel) -> npt.NDArray[np.float64]:
-    """Return the line from a label's nearer end to its frame, in dots, shape (1, 2, 2)."""
+def _leader(placed: PlacedLabel) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Return both ends of the line from a label's nearer end to its frame, in dots."""
     label = placed.label
     last = placed.column + cell_len(label.text) - 1
     column = min(max(label.column, placed.column), last)
-    return np.array(
-        [[(2 * column + 1, 4 * placed.row + 2), (2 * label.column + 1, 4 * label.row + 2)]], float
-    )
+    return (2 * column + 1, 4 * placed.row + 2), (2 * label.column + 1, 4 * label.row + 2)
 
 
 def _few_shades(colors: npt.NDArray[np.floating]) -> Indices:
