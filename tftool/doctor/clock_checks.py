@@ -77,7 +77,7 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     setting = "false" if sim_is_odd else "true"
     names = ["the simulation's clock", "the wall clock"]
     fix = Fix(model.words["sim_time"].format(setting=setting))
-    if not len(read):
+    if model.evidence.lacks_clock:
         names[0] = "a clock that counts from 1970"
         fix = Fix(
             "no /clock was recorded: a simulation, or a computer whose clock was never set; "

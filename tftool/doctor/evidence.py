@@ -84,6 +84,11 @@ class Evidence:
     negative: Mapping[str, tuple[int, int, float]] = field(default_factory=dict)
     mounts: "tuple[MeasuredMount, ...] | None" = None
 
+    @property
+    def lacks_clock(self) -> bool:
+        """Whether a recording has no `/clock`: stamps near 1970 need not be a simulation's."""
+        return self.recorded and not len(self.clock[0])
+
 
 # Evidence of a recording
 

@@ -260,7 +260,7 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
     names = ["the simulation's clock", "the wall clock"]
     setting = "false" if _is_simulated(stamp) else "true"
     text = trace.model.words["sim_time_of"].format(setting=setting, edge=link.name)
-    if not len(trace.model.evidence.clock[0]):
+    if trace.model.evidence.lacks_clock:
         names[0] = "a clock that counts from 1970"
         text = (
             "no /clock was recorded: a simulation, or a computer whose clock was never set; "
