@@ -17,7 +17,7 @@ from tftool.ros.rclpy.qos import (
 )
 from tftool.ros.rclpy.qos_events import EndpointWatch, Silence
 from tftool.ros.rclpy.seat import NodeSeat
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality, Role, conflict
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Role, conflict
 from tftool.world.world import TransformMessage
 
 
@@ -44,17 +44,19 @@ def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
 class TopicEnd(NodeEntity):
     """Base of publishers and subscriptions; `endpoint` is the entry in the graph."""
 
-    endpoint: Endpoint
     event_watch: EndpointWatch | None = None
+    _leave: Callable[[], None]
 
     def __init__(
         self,
         seat: NodeSeat,
         group: Any,
+        role: Role,
         kind: type[Message],
         topic: str,
         full: str,
         profile: QoSProfile,
+        deliver: Callable[[Any, Endpoint | None], object] | None = None,
     ) -> None:
         super().__init__(seat, group)
         self.msg_type = kind
@@ -63,15 +65,20 @@ class TopicEnd(NodeEntity):
         self.full = full
         self._carried = values.carried(kind, full)
         self._topic: Any = seat.world.topic(full, self._carried)
-
-    def _describe(self, role: Role, quality: Quality, **queue: Any) -> None:
-        """Create the entry in the graph, without adding it yet."""
-        name, interface = self.seat.authority, self.msg_type.interface__
-        self.endpoint = Endpoint(role, name, self.full, interface, quality, **queue)
-
-    def _enter(self) -> None:
-        """Add the entry to the graph."""
-        self._leave = self.seat.world.endpoints.add(self.endpoint)
+        self._quality = quality_of(profile, offered=role == PUBLISHER)
+        self._is_latched = self._quality.is_latched and full not in values.TF_TOPICS
+        keeps = self._is_latched and role == PUBLISHER
+        self.endpoint = Endpoint(
+            role,
+            seat.authority,
+            full,
+            kind.interface__,
+            self._quality,
+            # A latched subscription gets messages of other processes, also earlier ones, from the
+            # connection itself.
+            deliver=deliver if self._is_latched else None,
+            kept=deque(maxlen=_room(profile)) if keeps else None,
+        )
 
     @property
     def topic_name(self) -> str:
@@ -92,16 +99,14 @@ class Publisher(TopicEnd):
     def __init__(
         self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
     ) -> None:
-        super().__init__(seat, None, kind, topic, full, profile)
-        quality = quality_of(profile, offered=True)
+        super().__init__(seat, None, PUBLISHER, kind, topic, full, profile)
         self._withdrawn = False
-        latched = quality.is_latched and full not in values.TF_TOPICS
-        self._describe(PUBLISHER, quality, kept=deque(maxlen=_room(profile)) if latched else None)
         self._lease: Silence | None = None
-        if quality.timing is not None and quality.timing.is_manual:
+        timing = self._quality.timing
+        if timing is not None and timing.is_manual:
             seat.world.endpoints.set_alive(self.endpoint, False)
-            self._lease = Silence(seat, quality.timing.lease, self._expired)
-        self._enter()
+            self._lease = Silence(seat, timing.lease, self._expired)
+        self._leave = seat.world.endpoints.add(self.endpoint)
 
     def publish(self, msg: Any) -> None:
         """Send a message, given as an object or in serialised form.
@@ -194,18 +199,12 @@ class Subscription(TopicEnd):
         group: Any,
         raw: bool = False,
     ) -> None:
-        super().__init__(seat, group, kind, topic, full, profile)
+        super().__init__(seat, group, SUBSCRIPTION, kind, topic, full, profile, self._accept)
         self.raw = raw
         self.callback: Callable[..., Any] = callback
         self._queue: deque[Any] = deque(maxlen=_room(profile))
         self._takes_info = not accepts(callback, None) and accepts(callback, None, None)
-        self._quality = quality_of(profile, offered=False)
-        # A latched subscription gets messages of other processes, also earlier ones, from the
-        # connection itself.
-        self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
-        deliver = self._accept if self._is_fed else None
-        self._describe(SUBSCRIPTION, self._quality, deliver=deliver)
-        self._enter()
+        self._leave = seat.world.endpoints.add(self.endpoint)
         self._stop = self._topic.subscribe(self._arrived, seat.authority)
         if self._quality.is_latched:
             for value, sender in seat.late(full):
@@ -218,7 +217,7 @@ class Subscription(TopicEnd):
 
     def _arrived(self, value: Any) -> None:
         sender = self._topic.sender
-        if not (self._is_fed and sender is not None and sender.is_remote):
+        if not (self._is_latched and sender is not None and sender.is_remote):
             self._accept(value, sender)
 
     def _accept(self, value: Any, sender: Endpoint | None) -> None:
