@@ -82,7 +82,7 @@ def test_every_order_is_listed_when_asked(tftool):
     [
         (["0", "0", "0.7", "0.7"], "--as xyzw or --as wxyz"),
         (["--as", "nonsense", "1"], "not a notation of a rotation"),
-        (["rpy", "0", "0", "1", "--into", "nonsense"], "--into nonsense: there is xyzw"),
+        (["rpy", "0", "0", "1", "--into", "nonsense"], "not a notation: choose one of xyzw"),
         (["rpy", "0", "0", "1", "--into", "xyzw", "--json"], "leave out --json"),
         (["--nonsense", "1", "2", "3"], "'nonsense'"),
         (["\x1b[31m0 0 0 1"], "␛"),
