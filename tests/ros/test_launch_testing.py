@@ -475,7 +475,11 @@ def test_a_file_of_launch_tests_is_run_by_name(tmp_path, tftool, simulated, monk
     (tmp_path / "robot" / "package.xml").write_text("<package><name>robot</name></package>")
     file = tmp_path / "nodes.test.py"
     # Without the mark, which the pytest around this test does not know.
-    text = "import robot\n" + HEAD + NODES.replace("@pytest.mark.rostest\n", "")
+    text = (
+        "import robot, sys\nassert sys.argv[0] == 'launch_test'\n"
+        + HEAD
+        + NODES.replace("@pytest.mark.rostest\n", "")
+    )
     file.write_text(text)
 
     passed = tftool("ros2", "test", file)

@@ -132,7 +132,9 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
 
         async def work() -> None:
             body = user_code.whole(partial(run_tests, path, arguments))
-            Program(world, world.free_name("launch_test"), body, argv=[*words], on_exit=ending)
+            # Tests read the name of ROS's command from sys.argv.
+            argv = ["launch_test", *words]
+            Program(world, world.free_name("launch_test"), body, argv=argv, on_exit=ending)
             await ending.over.wait()
 
         session.run(work())
