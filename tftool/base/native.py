@@ -40,12 +40,12 @@ _HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
 
 
 def large_pages(size: int, end: int) -> "mmap.mmap | None":
-    """Allocate memory in large pages of 2 MB; return None on a system without large pages.
+    """Allocate memory that begins with large pages of 2 MB; return None if there are none.
 
     Args:
         size: Minimum number of bytes, rounded up to a whole page. Bytes that are never written
             occupy no memory.
-        end: Number of bytes at the beginning for which large pages are requested.
+        end: Offset up to which large pages are requested; the rest has pages of usual size.
     """
     if _HUGE is None:
         return None

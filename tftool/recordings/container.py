@@ -318,7 +318,7 @@ class Container(Protocol):
     """One recording file, or several recording files that are read as one.
 
     Attributes:
-        kind: Name of the file format in sentences.
+        kind: Name of the file format, as messages to the user write it.
         size: Size of the files, bytes.
         start: Log time of the first message; 0 without messages.
         end: Log time of the last message.

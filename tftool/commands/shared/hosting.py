@@ -139,11 +139,11 @@ def open_session(
     because: str = NO_SESSION,
     by_hand: bool = False,
 ) -> Session:
-    """Return the world for a command; a notice on stderr tells if the world was created.
+    """Join the running session, or host a scenario; print a notice about a hosted scenario.
 
     Args:
         connection: Connection of the command.
-        word: FROM as typed, the world to host; None for the running session.
+        word: FROM as typed: the name of the scenario to host; None to join the running session.
         simulated: Whether a hosted world uses simulated time, from its beginning on.
         head_start: Part of a scenario that is simulated at once before the wall clock starts.
         cache_time: Cache time of the world's buffer, in place of the scenario's.
@@ -155,7 +155,8 @@ def open_session(
     Raises:
         InputError: If the word names no world, or its file cannot be read.
         LinkError: If a session was requested and there is none.
-        UsageError: If sharing was requested with simulated time.
+        UsageError: If the options ask to share a world with simulated time, which other processes
+            cannot follow.
     """
     _refuse_files(word)
     refuse_options_of_files(connection.robot, connection.recording, word)
@@ -262,7 +263,8 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
 
     Raises:
         LinkError: If a session was requested and there is none.
-        UsageError: If sharing was requested with simulated time.
+        UsageError: If the options ask to share a world with simulated time, which other processes
+            cannot follow.
     """
     refuse_options_of_files(connection.robot, connection.recording, None)
     link = None

@@ -194,7 +194,11 @@ def _whole_name(one: FixedLink) -> FixedLink:
 
 
 def _plain(one: FixedLink) -> str:
-    """Return a publisher's options as text; raise an error if ROS would change a frame name."""
+    """Return the options of static_transform_publisher as text without quotes.
+
+    Raises:
+        InputError: If ROS would read a frame name as several words or as another value.
+    """
     for name in (one.parent, one.child):
         if not _PLAIN_WORD.fullmatch(name):
             raise InputError(

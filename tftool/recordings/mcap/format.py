@@ -102,7 +102,7 @@ class SingleMessages:
         return len(self) >= _MOST_SINGLY or self._bytes >= _LARGEST_BATCH
 
     def read(self, places: list[int], offset: int, end: int) -> None:
-        """Read the messages at some offsets of the file, and collect them.
+        """Read the messages at some offsets of the file, and add them to this collection.
 
         Args:
             places: Offset of each message's record, relative to `offset`.
@@ -110,7 +110,7 @@ class SingleMessages:
             end: Offset before which all messages must end.
 
         Raises:
-            InputError: If there is no message at an offset. No message is added then.
+            InputError: If there is no message at an offset. The collection is then unchanged.
         """
         before = len(self)
         try:

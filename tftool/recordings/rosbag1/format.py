@@ -46,7 +46,9 @@ def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int
     block = file.up_to(position, _HEAD)
     (length,) = U32.unpack_from(block)
     if length > _LARGEST_HEADER:
-        raise InputError(f"a record at byte {position} announces a header of {length} bytes")
+        raise InputError(
+            f"the record at byte {position} is damaged: its header would have {length} bytes"
+        )
     if length + 8 > len(block):
         block = file.at(position, length + 8)
     (size,) = U32.unpack_from(block, 4 + length)
@@ -166,7 +168,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
         if not 0 < length <= _LARGEST_HEADER or first > size:
             if partial:
                 return
-            raise InputError(f"a record announces a header of {length} bytes")
+            raise InputError(f"a record is damaged: its header would have {length} bytes")
         (count,) = U32.unpack_from(data, first - 4)
         last = first + count
         if last > size:

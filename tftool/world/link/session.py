@@ -314,7 +314,7 @@ class Link(LinkContext):
             self._match_soon()
 
     def _match_soon(self) -> None:
-        """Schedule one update for a group of changes."""
+        """Schedule one matching of publishers and subscriptions after a group of changes."""
         self._senders.clear()
         self._reconcile_soon()
 

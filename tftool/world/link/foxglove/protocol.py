@@ -244,10 +244,10 @@ def server_time(frame: bytes) -> Stamp | None:
     if not frame or frame[0] != 2:
         return None
     if len(frame) != _TIME.size:
-        raise ProtocolError(f"a time of {len(frame)} bytes")
+        raise ProtocolError(f"a time message has {len(frame)} bytes instead of {_TIME.size}")
     stamp: Stamp = _TIME.unpack(frame)[1]
     if stamp >= NANOSECONDS << 31:
-        raise ProtocolError(f"a time of {stamp} ns")
+        raise ProtocolError(f"a time message has a time of {stamp} ns, which is too large for ROS")
     return stamp
 
 
