@@ -456,7 +456,7 @@ def test_what_handlers_do_knows_their_event(tmp_path):
             "LogInfo(msg=LocalSubstitution('event.reason'))",
             "'event.reason' has no value here, because there is no 'event'",
         ),
-        ("LogInfo(msg=EnvironmentVariable('NO_SUCH'))", "'NO_SUCH' is not set"),
+        ("LogInfo(msg=EnvironmentVariable('NO_SUCH'))", "variable 'NO_SUCH' does not exist"),
         ("LogInfo(msg=FindExecutable(name='no-such'))", "no command 'no-such'"),
         (
             "LogInfo(msg=Command('sh -c \\'echo oh >&2\\''))",

@@ -382,7 +382,7 @@ def test_what_is_not_there_is_named(ros_runtime, tmp_path):
         ),
         (
             ["service", "call", "/spawn", "turtlesim/srv/Spawn", "{x: far}"],
-            "'x' cannot be 'far'",
+            "field 'x' cannot be 'far'",
         ),
         (["service", "call", "/spawn", "turtlesim/srv/Spawn", "7"], "needs fields"),
         (["topic", "pub", "/a", "geometry_msgs/msg/Polygon", "{points: 3}"], "a list is needed"),

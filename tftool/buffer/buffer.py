@@ -97,8 +97,8 @@ class Buffer(Door):
 
     Threads: a buffer belongs to one thread, usually the thread of the event loop. Only this thread
     may call most methods. Other threads may call `lookup_transforms`, `lookup_transforms_full` and
-    `samples` at any time: these copy the samples of each frame in one step and compute on the copy,
-    which is its state at some time during the call.
+    `samples` at any time: these copy the samples frame by frame, and compute on the copies. Each
+    copy is the state of its frame at some time during the call.
     """
 
     def __init__(

@@ -356,7 +356,10 @@ def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
 
 
 def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> Hit | None:
-    """Return the hit about a group of topics that wait alike; None if all waits are short."""
+    """Return the finding about topics whose messages wait equally long for a transform.
+
+    Return None if all waits are short.
+    """
     heard, waits = max(group, key=lambda one: int(one[1].served.max(initial=0)))
     served = waits.served
     never = 1.0 - len(served) / len(waits.waits)

@@ -70,7 +70,7 @@ class Diagnosis:
     def worst(self) -> Severity | None:
         """Return the worst severity of new findings; None if there are none.
 
-        Consequences of other findings and findings of the baseline do not count.
+        Two kinds do not count: findings of the baseline, and consequences of other findings.
         """
         found = [f.severity for f in self.findings if f.because_of is None and not f.known]
         return min(found, key=lambda severity: severity.rank, default=None)

@@ -140,7 +140,7 @@ def _near(model: Model, name: str) -> list[str]:
 
 
 def _fitting(model: Model, kind: str) -> list[str]:
-    """Return frames whose name fits a message type, without children and without messages."""
+    """Return the frames without children and messages whose name fits a message type."""
     used = {heard.frame for heard in model.heard}
     parents = {track.parent for track in model.tracks}
     words = _KINDS.get(last_part(kind), ())

@@ -84,11 +84,11 @@ class Question:
         target: Target frame.
         source: Source frame.
         stamp: Time of the lookup; 0 for the latest.
-        asked: Log time at which the lookup is made. None for the arrival of the message in the
-            source frame whose stamp is `stamp`; without such a message, the time `stamp`.
+        asked: Log time at which the lookup is made. If None, the lookup is made when the message in
+            the source frame with the stamp `stamp` arrives, or at `stamp` without such a message.
         settings: Settings of the listener.
         timeout: Time that the listener waits, nanoseconds.
-        topic: Topic of the message that is looked up; empty if there is none.
+        topic: Topic of the message that needs the transform; empty if there is none.
     """
 
     target: str
@@ -257,7 +257,7 @@ class LookupTrace:
         return LinkVerdict.ANSWERS, 0
 
     def buffer(self) -> Buffer:
-        """Return a buffer with all samples that had arrived."""
+        """Return a buffer with all samples that had arrived when the lookup was made."""
         # Allow as many frames as a recording: no frame may be missing because of a limit.
         buffer = Buffer(self.cache, log=_silent, max_frames=MOST_FRAMES)
         sent = [(track, self.arrived(track)[-MOST_SET:]) for track in self.model.tracks]

@@ -65,7 +65,7 @@ class PlotPanel:
     curves: tuple[PlotCurve, ...]
 
     def limits(self) -> tuple[float, float]:
-        """Return the lowest and the highest value of all curves, set apart if they are equal."""
+        """Return the limits of an axis that shows all curves; equal values are set apart."""
         values = np.concatenate([one.values for one in self.curves] or [np.zeros(1)])
         values = values[np.isfinite(values)]
         low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)

@@ -36,7 +36,7 @@ class Expectations(Node):
     def __init__(
         self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
     ) -> None:
-        """Add the node to a world; log messages and transforms count from now on."""
+        """Add the node to a world; it ignores log messages and transforms of earlier times."""
         super().__init__(world, "expectations")
         self.expected = tuple(expected)
         self.outcomes: list[Outcome | None] = [None] * len(self.expected)

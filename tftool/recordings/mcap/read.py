@@ -179,7 +179,7 @@ class Mcap(ChunkedReader):
         if not begin:
             return False
         if not len(MCAP_MAGIC) <= begin <= size - FOOTER_SIZE:
-            raise InputError(f"no summary can begin at byte {begin}")
+            raise InputError(f"the footer is damaged: no summary can begin at byte {begin}")
         summary = self.at(begin, size - FOOTER_SIZE - begin)
         # The CRC covers the summary, and the footer up to the CRC itself; 0 means none.
         if crc and zlib.crc32(tail[:25], zlib.crc32(summary)) != crc:

@@ -111,7 +111,7 @@ def fill(message: Any, values: Any, where: str = "") -> None:
         try:
             setattr(message, name, _fitting(field, value, path))
         except (AssertionError, TypeError, ValueError, OverflowError) as error:
-            raise UsageError(f"'{path}' cannot be {value!r}: {error}") from None
+            raise UsageError(f"field '{path}' cannot be {value!r}: {error}") from None
 
 
 def _fitting(field: Any, value: Any, path: str) -> Any:

@@ -20,7 +20,9 @@ def parsed(text: Any, where: str) -> list[Any]:
         InputError: If a `$(…)` is not closed or not known, or there are too many.
     """
     if str(text).count("$(") > DEEPEST:
-        raise InputError(f"{where}: a text has more than {DEEPEST} '$(…)', the limit")
+        raise InputError(
+            f"{where}: a text has {str(text).count('$(')} '$(…)'; at most {DEEPEST} are allowed"
+        )
     parts, rest = _parse(str(text), 0, where, closing=False)
     if rest != len(str(text)):
         raise InputError(f"{where}: '{text}' has one ')' too many")

@@ -321,10 +321,10 @@ class SequentialTextChecker:
         self._piece = self._column = 0
 
     def assertInStdout(self, msg: str) -> None:
-        """Check that a text follows the text that was found last.
+        """Check that the output contains a text anywhere after the text of the previous check.
 
         Raises:
-            AssertionError: If the text does not follow.
+            AssertionError: If the rest of the output does not contain the text.
         """
         column = self._column
         for piece in range(self._piece, len(self._output)):

@@ -246,12 +246,12 @@ class FrameWay(NamedTuple):
         return FrameWay(np.concatenate(stamps), np.concatenate(places))
 
     def after(self, stamp: Stamp) -> "FrameWay":
-        """Return the part of the path from a time on."""
+        """Return the points of the path at and after a time."""
         first = int(np.searchsorted(self.stamps, stamp))
         return FrameWay(self.stamps[first:], self.places[first:])
 
     def before(self, stamp: Stamp) -> "FrameWay":
-        """Return the part of the path before a time."""
+        """Return the points of the path before a time."""
         end = int(np.searchsorted(self.stamps, stamp))
         return FrameWay(self.stamps[:end], self.places[:end])
 
