@@ -16,6 +16,7 @@ EXAMPLE = ["0", "0", "3", "0", "0", "3.14", "A", "B"]
 LIBRARIES = {
     "import typer": [sys.executable, "-c", "import typer"],
     "import typer, numpy": [sys.executable, "-c", "import typer, numpy"],
+    "import typer, asyncio, yaml": [sys.executable, "-c", "import typer, asyncio, yaml"],
     "import typer, rich.table": [sys.executable, "-c", "import typer, rich.table"],
 }
 """Imports that each command needs; their time is the lower limit for a command's start."""
