@@ -18,7 +18,7 @@ REP103 = "https://www.ros.org/reps/rep-0103.html"
 REP105 = "https://www.ros.org/reps/rep-0105.html"
 
 NEEDS = {
-    "log times": "a buffer keeps no log times",
+    "log times": "the times of arrival are not known",
     "recording": "nothing was recorded",
     "headers": "there are no messages with headers",
     "durability": "what publishers offer to late subscribers is not recorded",

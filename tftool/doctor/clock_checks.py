@@ -44,10 +44,10 @@ CONSTANTS_AHEAD = seconds(1)
     Severity.ERROR,
     rule="stamps below and above 10⁸ s occur together in transforms, joint states and "
     "messages with a position; the wrong ones are those that differ from /clock, or "
-    "else the smaller group",
+    "else the smaller group. A warning if each clock has a tree of its own",
     headline="{where} {concerned:is|are} stamped with {odd_clock}, all others with {usual_clock}",
     detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
-    consequence="no lookup across the two clocks can succeed",
+    consequence="{so}",
     causes=(
         "one node without use_sim_time",
         "simulated time set on a real robot",
@@ -84,7 +84,18 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
             "{which_clock}"
         )
     odd_clock, usual_clock = names if sim_is_odd else names[::-1]
+    so, severity = "no lookup across the two clocks can succeed", None
+    apart = own_trees(model, odd, others)
+    if apart:
+        so = "none within each tree; no data shows that the two trees belong together"
+        severity = Severity.WARNING
+        fix = Fix(
+            "a real device beside a simulated robot is right as it is; if it is meant to be on the "
+            f"robot: {fix.text}"
+        )
     yield Hit(
+        frames=apart,
+        severity=severity,
         edges=tuple(track.edge for track in tracks),
         topics=tuple(sorted({heard.topic for heard in heards})),
         publishers=tuple(sorted({node for track in tracks for node in track.nodes})),
@@ -97,10 +108,30 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
             "odd_clock": odd_clock,
             "usual_clock": usual_clock,
             "setting": setting,
+            "so": so,
         },
         fixes=(fix,),
         alone=True,
     )
+
+
+def own_trees(
+    model: Model, odd: Sequence[Track | Heard], others: Sequence[Track | Heard]
+) -> tuple[str, ...]:
+    """Return the frames of the trees on another clock; empty if a tree has data of both clocks."""
+    trees: list[set[str]] = []
+    for group in (odd, others):
+        used = {
+            one.child if isinstance(one, Track) else one.frame.lstrip("/")
+            for one in group
+            if isinstance(one, Track) or one.type != JOINT_STATES
+        }
+        if not used <= model.frames:
+            return ()  # nothing shows where such data belongs
+        trees.append({model.tree_of[frame].root for frame in used})
+    if trees[0] & trees[1]:
+        return ()
+    return tuple(sorted(frame for frame in model.frames if model.tree_of[frame].root in trees[0]))
 
 
 def _placed(model: Model) -> list[Heard]:

@@ -9,7 +9,7 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.findings import Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import Places, Track, last_part
+from tftool.doctor.stamp_stream import Mask, Places, Track, last_part
 from tftool.doctor.wording import span
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import (
@@ -117,7 +117,7 @@ def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     """Return a hit if many stamps occur twice, with two different poses; else None."""
-    if len(track.steps) == len(track.by_stamp) - 1:
+    if len(track.steps) == len(track.by_stamp) - 1 or is_corrected(track, limits):
         return None
     # A stamp that occurs more than twice does not change, which is another fault.
     _, firsts, counts = np.unique(track.sorted_stamps, return_index=True, return_counts=True)
@@ -134,6 +134,33 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
     hit = _conflict(track, ("A", "B"), owned, sure)
     return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
+
+
+def is_corrected(track: Track, limits: Limits) -> bool:
+    """Whether one publisher sends several values under one stamp, and never an earlier one again.
+
+    A filter does so if it corrects a pose after it was sent. The samples of a second publisher
+    would return to the earlier value.
+    """
+    if len(track.publishers) != 1 or not track.nodes:
+        return False
+    at = track.sorted_stamps
+    firsts = np.flatnonzero(at[2:] == at[:-2])
+    mine, theirs, after = (track.by_stamp[firsts + step] for step in (0, 1, 2))
+
+    def differ(some: Places, others: Places) -> Mask:
+        turned = track.turned(some, others) > np.radians(limits["degrees"])
+        return np.asarray((track.apart(some, others) > limits["metres"]) | turned)
+
+    left = differ(mine, theirs)
+    returns = np.count_nonzero(left & ~differ(mine, after))
+    return not returns and int(np.count_nonzero(left)) >= limits["samples"]
+
+
+def is_revolute(track: Track) -> bool:
+    """Whether an edge only turns, as a wheel does: its samples may be more than a turn apart."""
+    where = track.translations[track.by_stamp]
+    return bool(np.ptp(where, axis=0).max() < 1e-6) if len(where) else False
 
 
 def _count_returns(track: Track, firsts: Places) -> int:

@@ -11,6 +11,7 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
+from tftool.doctor.missing_joins import is_moving_frame
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_checks import stands_still
@@ -54,7 +55,10 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     unknown = [
         heard
         for heard in model.heard
-        if heard.is_spatial and heard.frame and heard.frame.removeprefix("/") not in model.frames
+        if heard.is_spatial
+        and heard.frame
+        and heard.frame.removeprefix("/") not in model.frames
+        and not is_moving_frame(model, heard.frame)
     ]
     if not unknown:
         return

@@ -85,6 +85,17 @@ class Evidence:
     mounts: "tuple[MeasuredMount, ...] | None" = None
 
     @property
+    def is_generated(self) -> bool:
+        """Whether a program made up the log times: ten topics or more share one exact period."""
+        periods = {
+            step
+            for headers in self.headers.values()
+            for step in np.diff(np.sort(headers.log_times)).tolist()
+        }
+        many = [headers for headers in self.headers.values() if len(headers.log_times) > 1]
+        return len(periods) == 1 and len(many) >= _GENERATED
+
+    @property
     def lacks_clock(self) -> bool:
         """Whether a recording has no `/clock`: stamps near 1970 need not be a simulation's."""
         return self.recorded and not len(self.clock[0])
@@ -248,6 +259,9 @@ def _negative_variances(
             found[topic] = (len(wrong), len(values), min(wrong))
     return found
 
+
+_GENERATED = 10
+"""Number of topics with one exact period from which log times are not times of arrival."""
 
 _ODOMETRY_TAIL = 8 * (7 + 36 + 6 + 36)
 """Bytes of an Odometry message after its names."""

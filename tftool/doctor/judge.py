@@ -96,6 +96,8 @@ def judge(
     """
     settings = settings or Settings()
     refuse_unknown(settings, select, ignore)
+    if evidence.is_generated:
+        evidence = replace(evidence, timed=False)
     limits = {name: _limits(check, settings) for name, check in CHECKS.items()}
     chosen = _named(select) if select else list(CHECKS)
     left_out = set(_named(ignore))

@@ -78,11 +78,22 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
         if found is not None:
             return found
     base = next((one for tree in model.trees if (one := base_of(tree))), "")
+    if model.lacks_statics and is_moving_frame(model, name):
+        return None
     if is_world(name) or not any(last_part(kind) in _MOUNTED for kind in kinds):
         return None
     fixed = f", fixed to {base}" if base else ""
     text = f"if it is a mount of its own{fixed}, publish where it is:"
     return Join((base, name) if base else None, "", _mount(model, text, base or "PARENT", name))
+
+
+def is_moving_frame(model: Model, name: str) -> bool:
+    """Whether an unknown frame is probably the robot itself, which no static transform places.
+
+    This is so for a robot's base, and for any frame if tf knows no part of the robot.
+    """
+    around = all(is_world(frame) or last_part(frame).startswith("odom") for frame in model.frames)
+    return around or last_part(name) in BASES
 
 
 def is_world(name: str) -> bool:

@@ -11,6 +11,8 @@ from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.conflicts import (
     fed_twice,
     find_publishers,
+    is_corrected,
+    is_revolute,
     named_conflict,
     severity_of,
     unnamed_conflict,
@@ -141,7 +143,11 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     apart: list[Track] = []
     for track in model.dynamic:
         hit = named_conflict(model, track, limits) if model.has_named_publishers else None
-        hit = hit or values_at_one_stamp(track, limits) or unnamed_conflict(track, limits)
+        hit = hit or values_at_one_stamp(track, limits)
+        if hit is None and not is_corrected(track, limits):
+            hit = unnamed_conflict(track, limits)
+            if is_revolute(track) and _has_one_source(model):
+                hit = None  # a fast wheel, whose samples are more than a turn apart
         if hit is None:
             continue
         hit = fed_twice(track, hit, limits) or hit
@@ -168,6 +174,13 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
             hit = replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
         told_of[told.edge] = hit
     yield from told_of.values()
+
+
+def _has_one_source(model: Model) -> bool:
+    """Whether all joint states come from one node, whose name is known."""
+    topics = {one.topic for one in model.evidence.headers.values() if one.type == JOINT_STATES}
+    nodes = [one.node for one in model.evidence.publishers if one.topic in topics]
+    return len(nodes) == 1 and bool(nodes[0])
 
 
 @check(

@@ -126,6 +126,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
         ("anything", "namespaced-topic"),
         ("frame", "namespaced-topic"),
         ("frame", "joint-without-state"),
+        ("frame", "clock-mixture"),
     ),
 )
 def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
