@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 from tests.doctor.judged import found, ids, turned
-from tests.doctor.robots import NO_TURN, START, Robot, robot
+from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
 from tftool.recordings.contract import Publisher
@@ -74,3 +74,136 @@ def test_a_wheel_that_turns_more_than_once_per_sample_has_one_source():
     known = (*evidence.publishers, Publisher("/joint_states", "/gazebo"))
     told = judge(replace(evidence, publishers=known)).findings
     assert "publisher-conflict" not in [one.id for one in told]
+
+
+def test_a_recorder_whose_clock_is_behind_all_streams_is_no_offset():
+    made = Robot()
+    made.moving("odom", "base_link", latency=-0.049)
+    made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", latency=-0.049)
+    assert "clock-offset" not in ids(made, notes=True)
+    made.moving("map", "odom", 10.0)
+    assert "clock-offset" in ids(made)
+
+
+def test_a_late_topic_made_from_one_in_time_names_the_node_between():
+    made = robot()
+    made.hears("/stable_scan", "laser", 9.0, latency=2.5)
+    finding = found(made, "stale-stamp")
+    assert "/scan arrives 15 ms after its stamp" in finding.fixes[0].text
+    assert "look at the node that makes /stable_scan" in finding.fixes[0].text
+
+
+def test_resting_odometry_is_never_offered_as_a_mount():
+    for parent, child, offered in (("odom", "base_link", False), ("base_link", "laser", True)):
+        made = robot(odometry=parent != "odom", laser=child != "laser", scans=False)
+        made.moving(parent, child, 5.0, stands, latency=0.1)
+        made.hears("/scan", "laser")
+        texts = [fix.text for fix in found(made, "sensor-outruns-tf").fixes]
+        assert any("mount" in text for text in texts) is offered
+
+
+def test_a_topic_that_tf2_can_read_is_offered():
+    made = robot(odometry=False, laser=False, scans=False)
+    made.moving("odom", "base_link", topic="/a/transform")
+    made.moving("base_link", "arm", topic="/b/tf")
+    evidence = made.evidence()
+    kinds = {"/a/transform": "geometry_msgs/TransformStamped"}
+    topics = tuple(replace(t, type=kinds.get(t.name, t.type)) for t in evidence.topics)
+    told = judge(replace(evidence, topics=topics)).findings
+    finding = next(one for one in told if one.id == "namespaced-topic")
+    assert "/tf:=/b/tf" in finding.fixes[0].command
+    assert "--tf-topic /b/tf" in finding.fixes[1].text
+
+
+def test_a_pause_after_the_first_sample_and_one_before_the_recording_are_no_gaps():
+    started = Robot()
+    started.sent("world", "drone", 0.0, latency=2.0)
+    started.moving("world", "drone", begin=2.0)
+    delivered = robot(odometry=False)
+    delivered.sent("odom", "base_link", 0.0, latency=4.0)
+    delivered.sent("odom", "base_link", 0.02, latency=4.0)
+    delivered.moving("odom", "base_link", begin=3.0, without=(3.0, 3.0))
+    delivered.heard.clear()
+    delivered.messages = [(max(log, delivered.log(3.5)), who) for log, who in delivered.messages]
+    for made in (started, delivered):
+        assert "gap" not in ids(made)
+
+
+def test_tags_out_of_view_are_a_note():
+    made = Robot()
+    made.moving("camera", "tag_2", 30.0, without=(2.0, 5.0))
+    assert found(made, "gap").severity is Severity.NOTE
+
+
+def test_a_frame_computed_from_a_conflict_is_no_conflict_of_its_own():
+    made = robot(odometry=False)
+    for tick in range(160):
+        at = tick * 0.05
+        apart = 3.0 * (tick % 3 == 0)
+        node = "/filter" if apart else "/driver"
+        made.sent("odom", "base_link", at, (apart, 0.0, 0.0, *NO_TURN), node=node)
+        made.sent("odom", "star", at, (2.0 * apart, 0.0, 0.0, *NO_TURN), node="/star")
+    assert ids(made) == ["publisher-conflict"]
+    finding = found(made, "publisher-conflict")
+    assert finding.edges == (("odom", "base_link"),)
+    assert "star in odom, which /star sends, follows" in finding.evidence[0]
+
+
+def test_a_pose_and_its_transform_from_one_node_wait_for_nothing():
+    made = robot(scans=False)
+    made.moving("odom", "star", 5.0, node="/star")
+    made.hears("/pose", "star", 9.0, "geometry_msgs/PoseStamped")
+    assert "sensor-outruns-tf" in [one.id for one in made.judged().findings]
+    evidence = made.evidence()
+    known = (*evidence.publishers, Publisher("/pose", "/star"))
+    told = judge(replace(evidence, publishers=known)).findings
+    assert "sensor-outruns-tf" not in [one.id for one in told]
+
+
+def test_wheels_that_never_turn_are_not_shown_as_mounts():
+    for child, told in (("left_wheel_link", []), ("gps_link", ["static-on-tf"])):
+        made = robot(scans=False, odometry=False)
+        made.moving("odom", "base_link", 10.0, end=70.0)
+        made.moving("base_link", child, 10.0, stands, end=70.0)
+        shown = [one.id for one in made.judged().findings if one.is_shown]
+        assert shown == told
+
+
+def test_repeated_stamps_before_noetic_are_a_note():
+    made = Robot(start=1_537_000_000.0, kind="ROS 1 bag")
+    for tick in range(160):
+        at = 0.05 * (tick - tick % 2)
+        x = 0.1 * (tick - tick % 2) + (0.02 if tick in (21, 41, 61, 81) else 0.0)
+        made.sent("odom", "base_link", at, (x, 0.0, 0.0, *NO_TURN), latency=0.05 * (tick % 2))
+    assert found(made, "repeated-stamp").severity is Severity.NOTE
+    assert found(made, "repeated-stamp").count == 80
+
+
+def test_three_publishers_of_equal_transforms_send_each_three_times():
+    made = robot()
+    for tick in range(80):
+        for copy in range(3):
+            pose = (0.0, 0.2, 0.0, *turned(0.1 * tick, 1))
+            made.sent("base_link", "wheel", 0.1 * tick, pose, latency=0.004 + 0.0001 * copy)
+    assert found(made, "sent-twice").edges == (("base_link", "wheel"),)
+
+
+def test_transforms_that_end_at_the_very_start_are_told():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=10.0, end=0.6)
+    evidence = made.evidence()
+    told = judge(replace(evidence, end=evidence.start + 10_000_000_000)).findings
+    assert [one.id for one in told] == ["edge-stopped"]
+
+
+def test_a_tree_that_two_parents_do_not_split_has_a_finding_of_its_own():
+    made = robot(scans=False)
+    made.moving("combined", "base_link", 20.0, drives)
+    for number in range(4):
+        made.moving("camera", f"tag_{number}", 20.0)
+    assert set(ids(made)) == {"two-parents", "split-tree"}
+    assert "camera is not joined" in next(
+        one.message
+        for one in made.judged().findings
+        if one.id == "split-tree" and not one.because_of
+    )

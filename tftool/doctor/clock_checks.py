@@ -8,9 +8,10 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
+from tftool.doctor.missing_joins import own_trees
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_checks import stands_still
-from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track
+from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, last_part
 from tftool.doctor.wording import several, span
 
 check = checks_of(Area.CLOCKS)
@@ -113,25 +114,6 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
         fixes=(fix,),
         alone=True,
     )
-
-
-def own_trees(
-    model: Model, odd: Sequence[Track | Heard], others: Sequence[Track | Heard]
-) -> tuple[str, ...]:
-    """Return the frames of the trees on another clock; empty if a tree has data of both clocks."""
-    trees: list[set[str]] = []
-    for group in (odd, others):
-        used = {
-            one.child if isinstance(one, Track) else one.frame.lstrip("/")
-            for one in group
-            if isinstance(one, Track) or one.type != JOINT_STATES
-        }
-        if not used <= model.frames:
-            return ()  # nothing shows where such data belongs
-        trees.append({model.tree_of[frame].root for frame in used})
-    if trees[0] & trees[1]:
-        return ()
-    return tuple(sorted(frame for frame in model.frames if model.tree_of[frame].root in trees[0]))
 
 
 def _placed(model: Model) -> list[Heard]:
@@ -375,7 +357,28 @@ def _late(model: Model, stream: "Track | Heard", name: str, severity: Severity) 
                 "record on the robot"
             )
     facts = {"what": name, "late": stream.median_latency, "varies": varies}
+    cure = _relayed_late(model, stream) or cure
     return hit_of(stream, facts, severity=severity, fixes=(Fix(cure),))
+
+
+def _relayed_late(model: Model, stream: "Track | Heard") -> str:
+    """Return a remedy if a node delays data that reaches it in time; else an empty string."""
+    for source in model.heard:
+        if not source.is_spatial or 4 * abs(source.median_latency) > stream.median_latency:
+            continue
+        part = last_part(source.topic)
+        for other in model.heard:
+            made = last_part(other.topic)
+            is_late = 2 * other.median_latency > stream.median_latency
+            is_same = (other.type, other.frame) == (source.type, source.frame)
+            is_made = made != part and made.endswith(part) and stream.name.endswith(made)
+            if is_late and is_same and is_made:
+                told = " and ".join(sorted({stream.name, other.topic}))
+                return (
+                    f"{source.topic} arrives {span(source.median_latency)} after its stamp, and "
+                    f"{told} late: look at the node that makes {other.topic} from it"
+                )
+    return ""
 
 
 @check(
@@ -426,6 +429,8 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         if ahead > allowed or _is_unshifted(model, heard):
             same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
             alike[same].append(heard)
+    if _is_shared(model, list(alike)):
+        return  # the recorder's clock is off, and all stamps agree
     groups = _offsets(model) if alike else []
     other = "the other clocks" if len(groups) > 1 else "the recorder's clock"
     for ahead, streams in alike.items():
@@ -463,6 +468,19 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         )
     if not alike:
         yield from _groups_apart(model, limits)
+
+
+def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
+    """Whether all streams, of two topics or more, are ahead by nearly the same time."""
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    late = [one.median_latency for one in streams if len(one.stamps) > 2]
+    topics = {one.topics if isinstance(one, Track) else one.topic for one in streams}
+    return (
+        len(aheads) == 1
+        and aheads[0] > 0
+        and len(topics) > 1
+        and all(abs(one + aheads[0]) < seconds(0.01) for one in late)
+    )
 
 
 def _is_unshifted(model: Model, heard: Heard) -> bool:

@@ -16,7 +16,7 @@ from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_checks import stands_still
 from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part, rate
-from tftool.doctor.wording import ALIKE, arrival, span
+from tftool.doctor.wording import ALIKE, arrival, least_rate, rounded_up, span
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
@@ -343,8 +343,15 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
         if heard.frame in around or last_part(heard.frame) in _WORLDS:
             continue  # it is placed in the world without the robot's pose
         waits = waits_of(model, heard, fixed)
-        if waits is not None:
+        if waits is not None and not _is_result(model, heard, waits.link):
             yield heard, waits
+
+
+def _is_result(model: Model, heard: Heard, link: Track) -> bool:
+    """Whether one node sends both a pose and its transform: nobody places such a pose."""
+    nodes = {one.node for one in model.evidence.publishers if one.topic == heard.topic}
+    is_own = heard.frame == link.child and not heard.type.startswith("sensor_msgs/")
+    return is_own and bool(nodes & set(link.nodes))
 
 
 def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
@@ -461,37 +468,15 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
         Fix(wait_for),
         *((Fix(f"or {often}") if later < wait * NANOSECONDS else Fix(often),) if often else ()),
         *((ahead,) if waits.link.is_localisation else ()),
-        *((mount,) if not waits.link.moves else ()),
+        *((mount,) if not waits.link.moves and not _is_robot(waits.link) else ()),
         *((Fix(f"let the message filter's queue hold {depth} messages"),) if depth > 1 else ()),
     )
 
 
-def rounded_up(nanoseconds: int) -> int:
-    """Round nanoseconds up to a multiple of 10 ms, the interval at which tf2 tries again."""
-    return math.ceil(nanoseconds / 10_000_000) * 10_000_000
-
-
-def least_rate(link: str, period: int, later: int, wait: float) -> str:
-    """Return a sentence with the rate that an edge needs; empty if its rate is high enough.
-
-    Args:
-        link: Name of the link that delays a lookup.
-        period: Period of the edge, nanoseconds; 0 if unknown.
-        later: Latency of the edge minus the latency of the message, nanoseconds.
-        wait: Time that the listener waits, seconds.
-    """
-    left = wait - later / NANOSECONDS
-    told = f"a {wait * 1e3:g} ms wait"
-    if left <= 0:
-        return (
-            f"no rate is enough for {told}: each transform arrives {later / 1e6:.0f} ms later "
-            "after its stamp than the message"
-        )
-    needed = math.ceil(10 / left) / 10
-    # A rate that is only a few percent higher changes nothing.
-    if 0 < needed * period < 1.2 * NANOSECONDS:
-        return ""
-    return f"publish {link} at {needed:g} Hz or more, enough for {told}"
+def _is_robot(link: Track) -> bool:
+    """Whether an edge places the robot: it may rest in a recording, and is never a mount."""
+    around = last_part(link.parent)
+    return link.is_localisation or around in _WORLDS or around.startswith("odom")
 
 
 @check(

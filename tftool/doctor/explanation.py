@@ -17,7 +17,7 @@ from tftool.base.errors import ExtrapolationException, TransformException
 from tftool.base.stamps import CACHE_TIME, LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.doctor.clock_checks import cure_of_offset
-from tftool.doctor.coverage_checks import Waits, least_rate, rounded_up, waits_of
+from tftool.doctor.coverage_checks import Waits, waits_of
 from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Edge
 from tftool.doctor.gap_checks import edge_stopped
@@ -28,7 +28,7 @@ from tftool.doctor.ros_words import in_words
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import NEVER, Heard, Track
 from tftool.doctor.trace import LinkVerdict, LookupTrace, Question, TracedLink
-from tftool.doctor.wording import dated, moment, several, span
+from tftool.doctor.wording import dated, least_rate, moment, rounded_up, several, span
 from tftool.recordings.contract import Stamps
 
 if TYPE_CHECKING:

@@ -76,7 +76,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if _is_detection(model, track):
             continue
         # If all links end at once, as when a session's host exits, it is not the fault of one link.
-        if latest - last <= least:
+        if latest - last <= least and last - model.start > _AT_ONCE * length:
             continue
         yield hit_of(
             track,
@@ -97,6 +97,9 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+_AT_ONCE = 0.1
+"""Fraction of a recording before whose end all transforms ended too early, even if all did."""
+
 _SEEN = re.compile(
     r"tag|marker|aruco|fiducial|charuco|obj|detect|person|people|target|ball|box|obstacle|goal|yolo"
 )
@@ -111,7 +114,11 @@ def _is_detection(model: Model, track: Track) -> bool:
         return False
     steps = track.steps
     is_irregular = len(steps) > 1 and float(steps.std()) > float(steps.mean())
-    return is_irregular or _SEEN.search(last_part(track.child).lower()) is not None
+    return is_irregular or _is_named_seen(track)
+
+
+def _is_named_seen(track: Track) -> bool:
+    return _SEEN.search(last_part(track.child).lower()) is not None
 
 
 @check(
@@ -140,7 +147,7 @@ def _is_detection(model: Model, track: Track) -> bool:
 )
 def gap(model: Model, limits: Limits) -> Iterator[Hit]:
     """A transform has a gap."""
-    known = {track.edge: holes(track, limits) for track in model.dynamic}
+    known = {track.edge: _in_service(model, track, limits) for track in model.dynamic}
     for track in model.dynamic:
         found = known[track.edge]
         if not found:
@@ -176,7 +183,10 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             until=end,
             count=len(found),
             severity=Severity.NOTE
-            if on_change or end - begin < limits["note"] * NANOSECONDS or model.is_minor(track)
+            if on_change
+            or end - begin < limits["note"] * NANOSECONDS
+            or model.is_minor(track)
+            or (_is_detection(model, track) and _is_named_seen(track))
             else Severity.WARNING,
             fixes=(
                 Fix(
@@ -186,6 +196,15 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
                 ),
             ),
         )
+
+
+def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
+    """Return the gaps of an edge, without one after its first sample or before the recording."""
+    found = holes(track, limits)
+    if not found or not model.evidence.timed:
+        return found
+    first = int(track.sorted_stamps[0])
+    return [one for one in found if one[0] != first and model.log_of(one[1]) >= model.start]
 
 
 def _is_silent(heard: Heard, begin: int, end: int) -> bool:

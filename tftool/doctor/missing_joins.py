@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from tftool.doctor.findings import Edge, Fix
 from tftool.doctor.model import Model, Tree
 from tftool.doctor.ros_words import is_ros1
-from tftool.doctor.stamp_stream import BASES, Track, last_part
+from tftool.doctor.stamp_stream import BASES, JOINT_STATES, Heard, Track, last_part
 from tftool.geometry.rigid import Transform
 
 _PLAIN = frozenset({"base", "link", "frame", "footprint", "body", ""})
@@ -85,6 +85,25 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
     fixed = f", fixed to {base}" if base else ""
     text = f"if it is a mount of its own{fixed}, publish where it is:"
     return Join((base, name) if base else None, "", _mount(model, text, base or "PARENT", name))
+
+
+def own_trees(
+    model: Model, odd: Sequence[Track | Heard], others: Sequence[Track | Heard]
+) -> tuple[str, ...]:
+    """Return the frames of the trees on another clock; empty if a tree has data of both clocks."""
+    trees: list[set[str]] = []
+    for group in (odd, others):
+        used = {
+            one.child if isinstance(one, Track) else one.frame.lstrip("/")
+            for one in group
+            if isinstance(one, Track) or one.type != JOINT_STATES
+        }
+        if not used <= model.frames:
+            return ()  # nothing shows where such data belongs
+        trees.append({model.tree_of[frame].root for frame in used})
+    if trees[0] & trees[1]:
+        return ()
+    return tuple(sorted(frame for frame in model.frames if model.tree_of[frame].root in trees[0]))
 
 
 def is_moving_frame(model: Model, name: str) -> bool:

@@ -456,7 +456,16 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
             tied[everything[frame]].add(group)
         if all(len(groups) == 1 for groups in tied.values()):
             severity = Severity.NOTE
-    prefix = odd[0].rsplit("/", 1)[0]
+    kinds = {topic.name: last_part(topic.type) for topic in model.evidence.topics}
+    whole = [topic for topic in odd if kinds.get(topic) != "TransformStamped"]
+    first = (whole or odd)[0]
+    prefix = first.rsplit("/", 1)[0]
+    remap = Fix(
+        "let listeners and rviz hear them:",
+        model.words["remap"].format(moving=first, static=f"{prefix}/tf_static"),
+    )
+    if not whole:
+        remap = Fix("tf2 reads tf2_msgs/TFMessage only: let the node send them on /tf")
     heard = {name for track in usual for name in track.edge}
     yield Hit(
         frames=tuple(sorted(model.frames - heard)),
@@ -469,11 +478,8 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
             "missing": "nothing moves on /tf" if not moving else "/tf has transforms too",
         },
         fixes=(
-            Fix(
-                "let listeners and rviz hear them:",
-                model.words["remap"].format(moving=odd[0], static=f"{prefix}/tf_static"),
-            ),
-            Fix(f"here, --tf-topic {quoted(odd[0])} examines only these"),
+            remap,
+            Fix(f"here, --tf-topic {quoted(first)} examines only these"),
         ),
         alone=True,
     )

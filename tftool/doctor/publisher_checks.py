@@ -158,6 +158,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         if sent_with is track:
             apart.append(track)
         told_of[track.edge] = replace(hit, alone=f"{sent_with.name} {hit.facts['first']}")
+    told_of = _folded(told_of)
     odometry = model.evidence.odometry
     for told in () if odometry is None else [Track(edge, odometry) for edge in odometry.edges]:
         told.arrivals = told.logs
@@ -174,6 +175,24 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
             hit = replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
         told_of[told.edge] = hit
     yield from told_of.values()
+
+
+def _folded(told_of: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
+    """Return the conflicts without those of one node that follows another conflict.
+
+    A node that computes a frame from a transform with two publishers alternates, too.
+    """
+    sure = {edge[0]: hit for edge, hit in told_of.items() if hit.confidence is Confidence.CERTAIN}
+    kept = {}
+    for edge, hit in told_of.items():
+        cause = sure.get(edge[0])
+        if cause is None or cause is hit or len(hit.publishers) != 1:
+            kept[edge] = hit
+            continue
+        also = f"{cause.facts['told']}; {hit.facts['edge']}, which {hit.publishers[0]} sends, "
+        first = next(iter(cause.edges))
+        kept[first] = replace(cause, facts={**cause.facts, "told": f"{also}follows"})
+    return kept
 
 
 def _has_one_source(model: Model) -> bool:
@@ -381,7 +400,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             since=None,
             confidence=Confidence.POSSIBLE,
             alone="waits" if waits else "",
-            loud=waits,
+            loud=waits and not any(part in track.child.lower() for part in ("wheel", "caster")),
         )
 
 

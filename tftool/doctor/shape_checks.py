@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 
 from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import proposed_join
+from tftool.doctor.missing_joins import base_of, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
 from tftool.doctor.stamp_stream import BASES, PLACED, Track, last_part, overlap
 from tftool.doctor.wording import several
@@ -133,7 +133,8 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
     """The frames form more than one tree, and the join is missing."""
     if len(model.trees) < 2:
         return
-    main, *others = model.trees
+    main = next((tree for tree in model.trees if base_of(tree)), model.trees[0])
+    others = [tree for tree in model.trees if tree is not main]
     for number, tree in enumerate(others, start=2):
         if tree.is_circle:
             continue

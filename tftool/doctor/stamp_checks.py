@@ -175,10 +175,20 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         some, others = places[again], places[again + 1]
         differ = (track.apart(some, others) > 1e-6) | (track.turned(some, others) > 1e-4)
         told = differ | warns  # tf2 is silent about equal ones before noetic and in ROS 2
-        count, different = int(np.count_nonzero(told)), int(np.count_nonzero(differ))
+        different = int(np.count_nonzero(differ))
+        is_silent = (
+            is_old
+            and different > limits["samples"]
+            and np.count_nonzero(told) <= limits["share"] * len(places)
+        )
+        if is_silent:
+            told = np.ones(len(again), dtype=np.bool_)
+        count = int(np.count_nonzero(told))
         if count > limits["samples"] and count > limits["share"] * len(places):
             few = different <= limits["samples"] and count < limits["flood"] * len(places)
             so = "a lookup at such a stamp uses one of its poses"
+            if is_silent:
+                so = "tf2 keeps the first; from noetic on it prints TF_REPEATED_DATA for each"
             if warns:
                 so = "tf2 drops them and prints TF_REPEATED_DATA for each"
             yield hit_of(
@@ -192,7 +202,7 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 },
                 since=int(track.logs[some[told]].min()),
                 count=count,
-                severity=Severity.NOTE if few or model.is_minor(track) else None,
+                severity=Severity.NOTE if few or is_silent or model.is_minor(track) else None,
             )
 
 
@@ -200,13 +210,16 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     "sent-twice",
     Severity.NOTE,
     rule="the messages of a sensor or of odometry have {share:g} times as many stamps as they have "
-    "different stamps, or more, of {samples:g} messages or more in one frame",
+    "different stamps, or more, of {samples:g} messages or more in one frame; or a transform "
+    "has one stamp and value three times or more at once",
     headline="{where} {concerned:sends|send} each message several times",
     detail="{topic}: {count} messages have {different} different stamps",
     consequence="programs that use the topic do the work of each message again",
-    fixes=(Fix("count its publishers: `{publishers} {topic}`"),),
     limits={"share": 1.8, "samples": 20},
-    because_of=(("anything", "time-jump-back"), ("stream", "frozen-stamp zero-stamp")),
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("stream", "frozen-stamp zero-stamp repeated-stamp"),
+    ),
 )
 def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages of a sensor are sent more than once."""
@@ -218,7 +231,31 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
         # Stamps are nearly in order, which makes sorting faster than a search for unique ones.
         different = 1 + int(np.count_nonzero(np.diff(np.sort(stamps, kind="stable"))))
         if len(stamps) >= limits["share"] * different:
-            yield hit_of(heard, {"count": len(stamps), "different": different}, loud=True)
+            yield hit_of(
+                heard,
+                {"count": len(stamps), "different": different},
+                loud=True,
+                fixes=(Fix(f"count its publishers: `{{publishers}} {heard.topic}`"),),
+            )
+    for track in model.dynamic:
+        stamps, different = track.sorted_stamps, 1 + len(track.steps)
+        few = len(stamps) < (limits["share"] + 1.0) * different
+        if few or len(stamps) < limits["samples"] or not track.period:
+            continue
+        again = np.flatnonzero(np.diff(stamps) == 0)
+        some, others = track.by_stamp[again], track.by_stamp[again + 1]
+        same = (track.apart(some, others) < 1e-6) & (track.turned(some, others) < 1e-4)
+        waits = np.abs(track.logs[others] - track.logs[some])
+        # One node that sends a sample again does so a period later.
+        if not len(again) or same.mean() < 0.95 or np.median(waits) > 0.1 * track.period:
+            continue
+        facts: dict[str, Fact] = {
+            "topic": track.name,
+            "count": len(stamps),
+            "different": different,
+        }
+        fix = Fix("count its publishers: `{publishers} /tf`")
+        yield hit_of(track, facts, loud=True, fixes=(fix,))
 
 
 @check(

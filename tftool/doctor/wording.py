@@ -3,6 +3,7 @@
 Similar observations about many frames are merged into one line.
 """
 
+import math
 import string
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -205,3 +206,31 @@ def _subject(name: str, hits: Sequence[Hit]) -> str:
     if hits[0].publishers:
         return f"{len(names)} {what} of {several(hits[0].publishers)}"
     return f"{len(names)} {what} ({several(names, MOST_IN_LINE)})"
+
+
+def rounded_up(nanoseconds: int) -> int:
+    """Round nanoseconds up to a multiple of 10 ms, the interval at which tf2 tries again."""
+    return math.ceil(nanoseconds / 10_000_000) * 10_000_000
+
+
+def least_rate(link: str, period: int, later: int, wait: float) -> str:
+    """Return a sentence with the rate that an edge needs; empty if its rate is high enough.
+
+    Args:
+        link: Name of the link that delays a lookup.
+        period: Period of the edge, nanoseconds; 0 if unknown.
+        later: Latency of the edge minus the latency of the message, nanoseconds.
+        wait: Time that the listener waits, seconds.
+    """
+    left = wait - later / NANOSECONDS
+    told = f"a {wait * 1e3:g} ms wait"
+    if left <= 0:
+        return (
+            f"no rate is enough for {told}: each transform arrives {later / 1e6:.0f} ms later "
+            "after its stamp than the message"
+        )
+    needed = math.ceil(10 / left) / 10
+    # A rate that is only a few percent higher changes nothing.
+    if 0 < needed * period < 1.2 * NANOSECONDS:
+        return ""
+    return f"publish {link} at {needed:g} Hz or more, enough for {told}"
