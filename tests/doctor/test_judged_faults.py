@@ -207,3 +207,15 @@ def test_a_tree_that_two_parents_do_not_split_has_a_finding_of_its_own():
         for one in made.judged().findings
         if one.id == "split-tree" and not one.because_of
     )
+
+
+def test_a_filter_that_jumps_at_ten_metres_per_second_is_told():
+    made = robot(odometry=False)
+    step = 0.35
+    made.moving(
+        "odom",
+        "base_link",
+        28.0,
+        lambda t: (0.05 * t + step * (t < 2.4), 0.0, 0.0, *NO_TURN),
+    )
+    assert ids(made) == ["teleport"]

@@ -140,7 +140,7 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
     limits={
         "metres": 0.25,
-        "speed": 10.0,
+        "speed": 5.0,
         "radians": 0.5,
         "turning": 20.0,
         "times": 8.0,
