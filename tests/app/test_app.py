@@ -306,7 +306,7 @@ def test_the_tree_of_a_robot_is_drawn_without_numpy(tmp_path):
         "</robot>"
     )
 
-    assert imported_by([f"tree {robot}"], {"numpy", "asyncio"}, tmp_path / "heavy") == ""
+    assert imported_by([f"tree {robot}"], {"numpy", "asyncio", "yaml"}, tmp_path / "heavy") == ""
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

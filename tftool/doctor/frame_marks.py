@@ -7,7 +7,6 @@ takes as long as all other work for showing a tree.
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import Snapshot
-from tftool.doctor.findings import STOPPED_AFTER
 
 
 def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
@@ -29,6 +28,9 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
     moving = [info for info in snapshot.frames if info.samples and not info.is_static]
     if not moving:
         return True
+    # A robot description, whose frames do not move, is shown without this import.
+    from tftool.doctor.findings import STOPPED_AFTER
+
     newest = [info.newest for info in moving]
     first = min(info.oldest for info in moving)
     late = max(newest) - min(newest) > STOPPED_AFTER * NANOSECONDS

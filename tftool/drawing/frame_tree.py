@@ -12,7 +12,6 @@ from itertools import zip_longest
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
-import yaml
 from rich.cells import cell_len
 from rich.text import Text
 
@@ -170,6 +169,9 @@ def _yaml_entry(info: FrameInfo) -> str:
     if _plain(info.frame) and all(told.values()):
         # PyYAML takes 200 µs per name, which would be seconds for many names.
         return f"{info.frame}:\n" + "".join(f"  {key}: {text}\n" for key, text in told.items())
+    # Few trees are written as YAML, and fewer need PyYAML, whose import delays every tree.
+    import yaml
+
     return str(yaml.safe_dump({info.frame: entry}, sort_keys=False, allow_unicode=True, width=4096))
 
 
