@@ -192,7 +192,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return the reason for a successful lookup: why the same lookup may fail in a user's node."""
+    """Return the text about a successful lookup: why it may still fail in a user's node."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)

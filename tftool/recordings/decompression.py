@@ -74,7 +74,7 @@ class _Room:
         self._zstd: Any = None
 
     def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
-        """Read and decompress bytes as `unpack` does; the result is valid until the next call."""
+        """Read and decompress bytes like the module's `unpack`; the next call overwrites them."""
         # The thread also reads the file: waiting for the disk does not hold the GIL.
         packed = read()
         if method == "zstd":

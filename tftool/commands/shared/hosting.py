@@ -335,6 +335,6 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
 
 
 def _has_host(link: "Link") -> bool:
-    """Return whether a session runs: hosted by tftool, or with a turtle simulator of ROS."""
+    """Return whether tftool hosts the session, or a turtle simulator of ROS is in it."""
     # A host that has just started has no turtles yet, but will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))

@@ -302,10 +302,10 @@ class _Solver:
         return np.asarray(shift - (shift @ axis) * axis + kept * axis)
 
     def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
-        """Return the fit with the smallest intervals, among several lengths of time segments.
+        """Return the fit with the smallest confidence intervals.
 
-        If longer segments have larger residuals, odometry drifts. The bootstrap of intervals cannot
-        detect a drift, so such lengths are not used.
+        Each fit uses another length of time segments. Lengths at which the residuals grow are left
+        out: odometry drifts over them, which bootstrapped confidence intervals do not show.
         """
         whole = float(problem.times[-1] - problem.times[0])
         lengths = [*(one for one in _SEGMENTS if one * 4.0 <= whole), math.inf]

@@ -114,9 +114,10 @@ def options_of(word: str) -> PoseOptions:
 
 
 def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
-    """Return the options of each file, in which an option belongs to the file before it.
+    """Return the options of each file.
 
-    An option before the first file belongs to all files.
+    An option belongs to the file before it on the command line; an option before the first file
+    belongs to all files.
 
     Args:
         given: For each option: the file before it, the option's name, and its value.

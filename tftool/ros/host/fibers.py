@@ -372,7 +372,7 @@ class Fiber:
             self._leave_alone()
 
     async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Interrupt a running thread: at its next request, or by an exception in its code."""
+        """Interrupt a running thread: at its next request to the event loop, or in its own code."""
         self.interrupted = True
         # After Ctrl-C a person waits, so busy code is interrupted; at the end of --for busy code is
         # a fault.

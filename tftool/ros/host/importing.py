@@ -214,10 +214,10 @@ class _Finder(MetaPathFinder):
     def _tested(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Return the spec of any module; None if there is no such module.
+        """Return the spec of a module; None if there is no such module.
 
-        A module below the tests' folder is loaded with builtins whose `import time` and the like
-        give tftool's versions.
+        In a module below the tests' folder, statements such as `import time` give tftool's
+        versions: that module gets builtins of its own.
         """
         for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
             spec = finder.find_spec(fullname, path, target)
