@@ -709,7 +709,7 @@ class History(Fields):
     # Pruning
 
     def keep_last(self, number: int) -> None:
-        """Drop the oldest samples until `number` remain, at least two."""
+        """Drop the oldest samples until `number` remain; two always remain."""
         if len(self) > (number := max(2, number)):
             self._let_go(self.count - number)
 

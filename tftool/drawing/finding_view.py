@@ -370,7 +370,7 @@ def _marked(text: str) -> str:
 
 
 def _general(text: str) -> str:
-    """Return a message template whose placeholders are replaced by names in capitals."""
+    """Replace each placeholder of a message template by its name in capitals."""
     parts = []
     for literal, name, spec, _ in Formatter().parse(in_words(text)):
         parts.append(literal)

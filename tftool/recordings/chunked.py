@@ -467,7 +467,7 @@ class ChunkedReader(File):
                 yield chunk, batch if batch is not None and len(batch) else None
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the data to decompress ahead of reading; None for a cut or uncompressed chunk."""
+        """Return a chunk's bytes to decompress before they are read; None if cut off or plain."""
         if chunk.cut or not chunk.is_packed:
             return None
         return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size

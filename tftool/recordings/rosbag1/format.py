@@ -195,6 +195,6 @@ def fields_of(header: bytes) -> dict[bytes, bytes]:
 
 
 def time_of(raw: bytes) -> Stamp:
-    """Return the stamp, nanoseconds, in eight bytes of a header."""
+    """Decode the eight bytes of a time in a header; return nanoseconds."""
     sec, nanosec = _TIME.unpack(raw)
     return int(sec) * NANOSECONDS + int(nanosec)

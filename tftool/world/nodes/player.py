@@ -127,7 +127,7 @@ class Player(Node):
         self.rate = min(max(rate, SLOWEST), FASTEST)
 
     def step(self) -> None:
-        """Pause, and send the next transform."""
+        """Pause the recording, then send only its next transform."""
         self.pause()
         if self._place < len(self._timeline):
             moment = int(self._timeline.moments[self._place])
