@@ -16,7 +16,8 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import NOTHING_YET, Chunk, ChunkedWriter
+from tftool.recordings.chunked import Chunk
+from tftool.recordings.chunked_writer import NOTHING_YET, ChunkedWriter
 from tftool.recordings.container import CopiedAttachment, Extras, MessageTable
 from tftool.recordings.containers import MCAP_MAGIC, library_name
 from tftool.recordings.decompression import best_compression, compressor

@@ -15,7 +15,8 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk, ChunkedWriter
+from tftool.recordings.chunked import Chunk
+from tftool.recordings.chunked_writer import ChunkedWriter
 from tftool.recordings.container import MessageTable
 from tftool.recordings.containers import ROS1_MAGIC
 from tftool.recordings.message_conversion import as_ros1
