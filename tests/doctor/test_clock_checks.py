@@ -9,9 +9,10 @@ from rich.console import Console
 from tests.doctor.judged import found, ids
 from tests.doctor.robots import LASTS, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
-from tftool.doctor.explanation import Cause, traced
+from tftool.doctor.explanation import traced
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
+from tftool.doctor.lookup_reasons import Cause
 from tftool.doctor.trace import Question
 from tftool.drawing import finding_view
 

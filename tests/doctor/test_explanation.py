@@ -9,7 +9,8 @@ from tests.doctor.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool import Buffer, Transform, TransformStamped, diagnose, explain
 from tftool.base.errors import InputError
 from tftool.base.stamps import seconds
-from tftool.doctor.explanation import Cause, Explanation, over_time, traced
+from tftool.doctor.explanation import Explanation, over_time, traced
+from tftool.doctor.lookup_reasons import Cause
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.trace import LinkVerdict, Question, message_of
 from tftool.drawing.explanation_view import render

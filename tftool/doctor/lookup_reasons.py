@@ -1,0 +1,469 @@
+"""Reasons for failed lookups, from the edges of the path, and the remedies."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
+from tftool.doctor.clock_checks import cure_of_offset
+from tftool.doctor.coverage_checks import Waits, waits_of
+from tftool.doctor.gap_checks import edge_stopped
+from tftool.doctor.missing_joins import proposed_frame, proposed_join
+from tftool.doctor.model import Model
+from tftool.doctor.name_checks import alike_frames, is_navsat_output
+from tftool.doctor.ros_words import in_words
+from tftool.doctor.shape_checks import nothing_says
+from tftool.doctor.stamp_stream import NEVER, Heard, Track
+from tftool.doctor.trace import LinkVerdict, LookupTrace, TracedLink
+from tftool.doctor.wording import dated, least_rate, moment, rounded_up, several, span
+
+if TYPE_CHECKING:
+    pass
+
+USUAL_WAIT = 0.1
+"""Time that most programs wait for a transform, seconds."""
+
+
+class Cause(Enum):
+    """Cause of a lookup's failure; WORKS if the lookup succeeds."""
+
+    LATE = "late"
+    CLOCK_OFFSET = "clock-offset"
+    CLOCK_MIXTURE = "clock-mixture"
+    STOPPED = "stopped"
+    GAP = "gap"
+    BEFORE_START = "before-start"
+    AFTER_END = "after-end"
+    CACHE = "cache"
+    UNKNOWN_FRAME = "unknown-frame"
+    SPLIT = "split"
+    SINGLE = "single"
+    NAME = "name"
+    LOOP = "loop"
+    WORKS = "works"
+
+
+@dataclass(frozen=True, slots=True)
+class Remedy:
+    """Remedy for a failed lookup.
+
+    Attributes:
+        kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher", "clock".
+        text: The remedy as a sentence.
+        command: Command to type; empty if there is none.
+        least: Smallest sufficient amount, nanoseconds; None for a remedy without an amount.
+        advised: Recommended amount, nanoseconds.
+        possible: Whether the remedy can help at all.
+    """
+
+    kind: str
+    text: str
+    command: str = ""
+    least: Duration | None = None
+    advised: Duration | None = None
+    possible: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TraceResult:
+    """Result of a traced lookup, from which its reason is derived."""
+
+    trace: LookupTrace
+    way: list[Track] | None
+    links: tuple[TracedLink, ...]
+    refusing: int | None
+    begin: Stamp | None
+    end: Stamp | None
+    available: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Reason for a lookup's result, with sentences and remedies."""
+
+    cause: Cause
+    why: tuple[str, ...]
+    remedies: tuple[Remedy, ...] = ()
+    useless: tuple[str, ...] = ()
+
+
+def misnamed(trace: LookupTrace) -> Reason | None:
+    """Return the reason for an unknown frame name; None if both names are known."""
+    model = trace.model
+    for name in (trace.question.target, trace.question.source):
+        if name.startswith("/") or not name:
+            bare = name.lstrip("/")
+            known = f"; tf knows {bare}" if bare in model.frames else ""
+            users = sorted({heard.topic for heard in model.heard if heard.frame == name})
+            where = f" in the publisher of {', '.join(users)}" if users else ""
+            why = "the name is empty" if not name else f"{name} has ROS 1's leading slash{known}"
+            return Reason(Cause.NAME, (why,), (Remedy("name", f'frame_id "{bare}"{where}'),))
+        if name not in model.frames:
+            return _unknown(trace, name)
+    return None
+
+
+def _described(model: Model, name: str) -> str | None:
+    """Return a sentence on why tf lacks a frame that the robot description defines.
+
+    Return None if the description has no such link.
+    """
+    robot, states = model.evidence.robot, model.evidence.joints
+    if robot is None or name not in robot.links or name == robot.root:
+        return None
+    joint = robot.joint_above(name)
+    told = f"the robot's description has it, in {joint.parent} by joint '{joint.name}'"
+    if joint.type == "floating":
+        return f"{told}, which is floating: robot_state_publisher skips it"
+    if not joint.moves:
+        return f"{told}, which is fixed: robot_state_publisher was not heard"
+    leader = robot.leader(joint.name, states or ())
+    if states is None or leader not in states:
+        return f"{told}, whose position is not known: no joint state names '{leader}'"
+    return f"{told}, and joint states say where that is: robot_state_publisher was not heard"
+
+
+def _unknown(trace: LookupTrace, name: str) -> Reason:
+    model = trace.model
+    says = [heard for heard in model.heard if heard.frame.removeprefix("/") == name]
+    slashed = [heard for heard in says if heard.frame != name]
+    why = [f"no transform names {name}"]
+    why += [
+        f"{heard.topic} says {heard.frame if heard in slashed else 'it'}, {len(heard.stamps):,} "
+        "times"
+        for heard in says
+    ]
+    described = _described(model, name)
+    if described is not None:
+        return Reason(Cause.UNKNOWN_FRAME, (*why, described))
+    alike = alike_frames(model, name)
+    remedies = []
+    if alike:
+        why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
+        mistyped = "" if says else f"ask for {alike[0]}, or "
+        remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
+    join = proposed_frame(model, name, [h.type for h in says if not is_navsat_output(h)])
+    if join is not None:
+        remedies.append(Remedy("join", join.fix.text, join.fix.command))
+        why += [join.why] if join.why else []
+    if slashed:
+        text = f'and set frame_id to "{name}": no frame of tf2 begins with a slash'
+        remedies.append(Remedy("name", text))
+    if not remedies:
+        where = "this recording" if model.evidence.recorded else f"this {model.evidence.kind}"
+        text = f"nothing in {where} publishes {name}: start the node that should, and record /tf"
+        remedies.append(Remedy("publisher", text))
+    return Reason(
+        Cause.UNKNOWN_FRAME, tuple(why), tuple(remedies), ("a timeout: nothing publishes it",)
+    )
+
+
+def no_join(known: TraceResult) -> Reason:
+    """Return the reason why two known frames are not connected."""
+    model, question = known.trace.model, known.trace.question
+    ours, theirs = model.tree_of[question.source], model.tree_of[question.target]
+    lesser, main = (ours, theirs) if len(ours.frames) <= len(theirs.frames) else (theirs, ours)
+    used = sorted({h.topic for h in model.heard if h.frame in lesser.frames})
+    by = f" (used by {', '.join(used)})" if used else ""
+    join = proposed_join(model, main, lesser)
+    fix = nothing_says(model, lesser.root) if join is None else join.fix
+    why = [
+        f"{lesser.root} has no parent; its tree: {', '.join(sorted(lesser.frames))}{by}",
+        f"the tree of {main.root}: {', '.join(sorted(main.frames))}",
+        "the join is missing" + (f"; {join.why}" if join is not None and join.why else ""),
+    ]
+    remedy = Remedy("join", fix.text, fix.command)
+    return Reason(Cause.SPLIT, tuple(why), (remedy,), ("a timeout: nothing publishes the join",))
+
+
+def works(known: TraceResult) -> Reason:
+    """Return the text about a successful lookup: why it may still fail in a user's node."""
+    model, question = known.trace.model, known.trace.question
+    for frame in (question.source, question.target):
+        tree = model.tree_of.get(frame)
+        if tree is not None and tree.is_circle:
+            return Reason(
+                Cause.LOOP,
+                (
+                    "it answers, but the frames hang in a circle: what walks to the root fails, "
+                    "and the other way round may mean another pose",
+                ),
+                (Remedy("publisher", "publish one direction only"),),
+            )
+    return Reason(
+        Cause.WORKS,
+        (
+            "this lookup works. If yours refuses: is there a listener, does the callback that "
+            "waits block its executor, had the buffer time to fill?",
+        ),
+    )
+
+
+def refusing_link(known: TraceResult) -> Reason:
+    """Return the reason why an edge of the path has no data at the time of the lookup."""
+    trace = known.trace
+    if known.refusing is None or known.way is None:
+        return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
+    link, track = known.links[known.refusing], known.way[known.refusing]
+    if track.static:
+        late = int(track.logs[0]) - trace.asked
+        return Reason(
+            Cause.LATE,
+            (f"the static {link.name} arrives {span(late)} after the question",),
+            (_timeout(known, None),),
+        )
+    if _is_simulated(trace.moment) != _is_simulated(int(track.sorted_stamps[-1])):
+        return _two_clocks(link, track, trace)
+    if (apart := _on_another_clock(trace.model, known.way)) is not None:
+        return apart
+    if len(track.by_stamp) == 1:
+        at = int(track.sorted_stamps[0])
+        return Reason(
+            Cause.SINGLE,
+            (f"{link.name} was sent once, at {moment(at)}: one sample answers for its own stamp",),
+            (Remedy("publisher", "send it with a StaticTransformBroadcaster (on /tf_static)"),),
+            ("a timeout: no second sample comes",),
+        )
+    if link.verdict is LinkVerdict.PRUNED:
+        return _pruned(known, link, track)
+    first, last = int(track.sorted_stamps[0]), int(track.sorted_stamps[-1])
+    if trace.moment < first:
+        return _before_start(known, link, track, first)
+    if trace.moment > last:
+        if _goes_on(trace, track):
+            return _after_end(link, trace, last)
+        return _stopped(link, trace, last)
+    return _late(known, link, track)
+
+
+def _is_simulated(stamp: Stamp) -> bool:
+    return stamp < SIMULATED_BELOW
+
+
+def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
+    stamp = int(track.sorted_stamps[-1])
+    names = ["the simulation's clock", "the wall clock"]
+    setting = "false" if _is_simulated(stamp) else "true"
+    text = trace.model.words["sim_time_of"].format(setting=setting, edge=link.name)
+    if trace.model.evidence.lacks_clock:
+        names[0] = "a clock that counts from 1970"
+        text = (
+            "no /clock was recorded: a simulation, or a computer whose clock was never set; "
+            f"{trace.model.words['which_clock']}"
+        )
+    clock, other = names if _is_simulated(stamp) else names[::-1]
+    return Reason(
+        Cause.CLOCK_MIXTURE,
+        (
+            f"{link.name} is stamped with {clock}: {dated(stamp)}",
+            f"the question is on {other}: {dated(trace.moment)}",
+        ),
+        (Remedy("clock", text),),
+        ("a timeout, a larger cache: the two clocks never meet",),
+    )
+
+
+def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
+    """Return the reason for a failed lookup whose path has edges on two clocks; else None.
+
+    See the check `clock-offset`.
+    """
+    moving = [track for track in way if not track.static]
+    off = [track for track in moving if track in model.unshifted]
+    if not off or len(off) == len(moving):
+        return None
+    ahead = -off[0].median_latency
+    is_or_are = "is" if len(off) == 1 else "are"
+    return Reason(
+        Cause.CLOCK_OFFSET,
+        (
+            f"{several([track.name for track in off])} {is_or_are} {span(abs(ahead))} off the "
+            "other clocks: no lookup across the two clocks can succeed",
+        ),
+        (Remedy("clock", in_words(cure_of_offset(model, ahead).text, model.words)),),
+        ("a timeout, a larger cache: the two clocks never meet",),
+    )
+
+
+def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
+    trace = known.trace
+    newest = int(track.stamps[trace.arrived(track)].max())
+    needed = newest - trace.moment
+    # The sample at or before the time must not be pruned. ROS 2 prunes before it inserts the newest
+    # sample, ROS 1 after: this cache time is enough for both.
+    before = track.sorted_stamps[track.sorted_stamps <= trace.moment]
+    least = newest - int(before[-1]) if len(before) else needed
+    advised = math.ceil((least + NANOSECONDS) / NANOSECONDS)
+    why = f"the buffer keeps {span(trace.cache)}, and {link.name} is {span(needed)} further on"
+    if trace.heard is not None and trace.after is not None:
+        why = (
+            f"{trace.heard.topic} arrives {span(trace.after)} after its stamp; the buffer keeps "
+            f"{span(trace.cache)}"
+        )
+    return Reason(
+        Cause.CACHE,
+        (why,),
+        (
+            Remedy(
+                "cache",
+                f"keep more, at least {span(least)}:",
+                trace.model.words["buffer"].format(needed=advised),
+                least,
+                advised * NANOSECONDS,
+            ),
+            Remedy("skip", "or look up when the measurement arrives, and keep the result"),
+        ),
+        ("a timeout: what was dropped does not come back",),
+    )
+
+
+def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Stamp) -> Reason:
+    trace = known.trace
+    why = [
+        f"{link.name} begins {span(first - trace.moment)} after the question, at {moment(first)}"
+    ]
+    if track.median_latency < 0:
+        why.append(
+            f"it is dated {span(-track.median_latency)} ahead (transform_tolerance): nothing "
+            "before its first stamp can ever be placed through it"
+        )
+    lost = ""
+    if trace.heard is not None:
+        count = int(np.count_nonzero(trace.heard.stamps < first))
+        lost = f"; the first {count} messages of {trace.heard.topic} are lost"
+    return Reason(
+        Cause.BEFORE_START,
+        tuple(why),
+        (Remedy("skip", f"ask for {moment(first)} or later{lost}"),),
+        ("a timeout, a larger cache: older data will not come",),
+    )
+
+
+def _goes_on(trace: LookupTrace, track: Track) -> bool:
+    """Whether an edge's samples continue to the end of the recording or scenario.
+
+    The thresholds are those of the check `edge-stopped`.
+    """
+    evidence, limits = trace.model.evidence, edge_stopped.limits
+    least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+    ends = evidence.recorded or evidence.kind == "scenario"
+    return ends and trace.model.end - int(track.logs[-1]) <= least
+
+
+def _after_end(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
+    evidence = trace.model.evidence
+    ended = "recording" if evidence.recorded else evidence.kind
+    return Reason(
+        Cause.AFTER_END,
+        (
+            f"the {ended} ends with {link.name} at {moment(last)}, "
+            f"{span(trace.moment - last)} before the question",
+        ),
+        (Remedy("skip", f"ask for {moment(last)} or earlier"),),
+        ("a timeout: nothing comes any more",),
+    )
+
+
+def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
+    return Reason(
+        Cause.STOPPED,
+        (
+            f"{link.name} ended at {moment(last)}, {span(trace.moment - last)} before the "
+            "question, and nothing follows",
+        ),
+        (Remedy("publisher", "check whether its publisher still runs"),),
+        ("a timeout: nothing comes any more",),
+    )
+
+
+def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
+    trace = known.trace
+    stamps = track.sorted_stamps
+    after = int(np.searchsorted(stamps, trace.moment, side="left"))
+    step = int(stamps[after] - stamps[after - 1]) if after else 0
+    heard = trace.heard
+    is_gap = step > max(5 * track.period, NANOSECONDS // 2)
+    why = f"{link.name} comes every {span(track.period)}, {span(link.latency)} after its stamp"
+    cause = Cause.LATE
+    if is_gap:
+        cause = Cause.GAP
+        why = f"{link.name} has a gap of {span(step)} from {moment(int(stamps[after - 1]))} on"
+    elif heard is not None and heard.median_latency < -20_000_000:
+        cause = Cause.CLOCK_OFFSET
+        why = (
+            f"{heard.topic} is stamped {span(-heard.median_latency)} ahead of its arrival: its "
+            "clock is ahead"
+        )
+    elif heard is not None:
+        why += f"; {heard.topic} after {span(heard.median_latency)}"
+    remedies = [_timeout(known, heard)]
+    if cause is Cause.CLOCK_OFFSET:
+        remedies.insert(0, Remedy("clock", "synchronise the clocks (chronyc tracking; PTP)"))
+    elif cause is Cause.LATE:
+        later = link.latency - (heard.median_latency if heard is not None else 0)
+        left = USUAL_WAIT - later / NANOSECONDS
+        often = least_rate(link.name, link.period, later, USUAL_WAIT)
+        if often:
+            remedies.append(
+                Remedy(
+                    "rate",
+                    f"or {often}" if left > 0 else often,
+                    least=None if left <= 0 else round(left * NANOSECONDS),
+                    possible=left > 0,
+                )
+            )
+    useless = [
+        f"latest instead of the stamp: {trace.question.source} would be placed where it was "
+        f"{span(link.short_by)} before",
+        "a larger cache: what is missing has not come yet",
+    ]
+    return Reason(cause, (why,), tuple(remedies), tuple(useless))
+
+
+def _waits(trace: LookupTrace, heard: Heard) -> Waits | None:
+    return waits_of(trace.model, heard, trace.question.target, warm=False)
+
+
+def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
+    """Return the remedy to wait, with the timeout that this lookup needs.
+
+    Args:
+        known: The traced lookup.
+        heard: Messages of the looked-up topic, whose needed timeouts are added; None for no topic.
+    """
+    trace = known.trace
+    if known.begin is None:
+        text = "a timeout does not help: by the time the one end comes, the other is pruned"
+        return Remedy("timeout", text, possible=False)
+    least = max(0, known.begin - trace.asked)
+    advised = rounded_up(least)
+    text = f"a timeout of {advised // 10**6} ms (least: {least / 1e6:.1f})"
+    waits = None if heard is None else _waits(trace, heard)
+    if heard is not None and waits is not None and len(waits.served):
+        p95, worst = waits.serves(95), int(waits.served.max())
+        text += (
+            f"; {p95 / 1e6:.1f} ms serve 95 % of {heard.topic}, {worst / 1e6:.1f} ms all "
+            f"{int(np.count_nonzero(waits.waits != NEVER))} that are ever served"
+        )
+    return Remedy("timeout", text, "", least, advised)
+
+
+CHECK_OF = {
+    Cause.LATE: "sensor-outruns-tf",
+    Cause.CLOCK_OFFSET: "clock-offset",
+    Cause.CLOCK_MIXTURE: "clock-mixture",
+    Cause.STOPPED: "edge-stopped",
+    Cause.GAP: "gap",
+    Cause.BEFORE_START: "late-start",
+    Cause.CACHE: "cache-short",
+    Cause.UNKNOWN_FRAME: "unknown-frame",
+    Cause.SPLIT: "split-tree",
+    Cause.SINGLE: "single-sample",
+    Cause.NAME: "slash-twins",
+    Cause.LOOP: "loop",
+}
+"""Id of the check that looks for each cause."""
