@@ -77,6 +77,15 @@ def test_notes_are_counted_and_shown_on_request():
     assert "warning (1 more note: --verbose). " in shown(findings.render(made.judged()))
 
 
+def test_an_issue_counts_the_findings_that_it_lists():
+    made = robot()
+    made.hears("/image", "laser", kind="sensor_msgs/Image")
+    made.moving("odom", "base_link", end=5.0, pose=lambda _: (9.0, 0.0, 0.0, *NO_TURN))
+    text = findings.as_markdown(made.judged())
+    assert "image-not-optical" not in text
+    assert text.splitlines()[-1] == f"{text.count('| warning |')} warning."
+
+
 def test_a_consequence_is_one_line_below_its_cause():
     made = robot(odometry=False)
     made.moving("odom", "base_link", end=5.0)

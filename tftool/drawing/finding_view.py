@@ -172,29 +172,27 @@ def summary(diagnosis: Diagnosis) -> str:
         return f"nothing found; {count(diagnosis.ran, 'check')} ran{skipped}{why}{notes}"
     # The first finding among those with the worst severity.
     worst = min(told, key=lambda one: one.severity.rank)
-    numbers = [(one.value, sum(f.severity is one for f in told)) for one in Severity]
-    counts = ", ".join(count(number, word) for word, number in numbers if number)
     notes = f" ({count(len(quiet), 'more note')}: --verbose)" if quiet else ""
     calm = "" if worst.severity is not Severity.NOTE else "If all works, leave it so. "
     return (
-        f"{counts}{notes}. {calm}`tftool doctor --explain {worst.id}` tells more; "
+        f"{counted(told)}{notes}. {calm}`tftool doctor --explain {worst.id}` tells more; "
         "`--markdown` prints this for an issue."
     )
 
 
-def counted(diagnosis: Diagnosis) -> str:
+def counted(findings: Sequence[Finding]) -> str:
     """Count findings by severity: "1 error, 2 warnings"; "" if there are none."""
-    numbers = [(severity.value, diagnosis.count(severity)) for severity in Severity]
+    numbers = [(one.value, sum(found.severity is one for found in findings)) for one in Severity]
     return ", ".join(count(number, word) for word, number in numbers if number)
 
 
 def brief(diagnosis: Diagnosis) -> str:
     """Return a line about a diagnosis, to print below another command's output."""
-    told = [f for f in diagnosis.findings if f.because_of is None and f.severity is not _CALM]
-    if not told:
+    causes = [finding for finding in diagnosis.findings if finding.because_of is None]
+    ids = ", ".join(dict.fromkeys(one.id for one in causes if one.severity is not _CALM))
+    if not ids:
         return "Doctor: nothing is wrong."
-    ids = ", ".join(dict.fromkeys(finding.id for finding in told))
-    return f"Doctor: {counted(diagnosis)} ({ids}). 'tftool doctor' on it tells more."
+    return f"Doctor: {counted(causes)} ({ids}). 'tftool doctor' on it tells more."
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
@@ -451,7 +449,7 @@ def as_markdown(diagnosis: Diagnosis) -> str:
         for one in told:
             lines += [f"**{one.id}**", "", *_fenced(_plain(one)), ""]
         lines += ["</details>", ""]
-    lines.append(summary(diagnosis) if not told else f"{counted(diagnosis)}.")
+    lines.append(f"{counted(told)}." if told else summary(diagnosis))
     return "\n".join(lines) + "\n"
 
 
