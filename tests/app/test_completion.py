@@ -279,7 +279,7 @@ def test_a_file_without_frames_offers_nothing(offered, tmp_path, monkeypatch):
 )
 def test_tab_completes_in_a_real_shell(tmp_path, recorded, shell, options):
     if shutil.which(shell) is None:
-        pytest.skip(f"needs {shell}")
+        pytest.skip(f"the shell {shell} is not installed")
     (tmp_path / "tftool").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tftool "$@"\n')
     (tmp_path / "tftool").chmod(0o755)
     (tmp_path / "script").write_text(completion.SCRIPTS[shell])

@@ -199,7 +199,7 @@ def test_new_names_can_be_asked_for_as_tf2_keeps_names(run, words, name):
 def test_a_folder_without_permission_is_said(run, capsys):
     (run / "locked").mkdir(mode=0o500)
     if os.access(run / "locked", os.W_OK):
-        pytest.skip("root may write everywhere")
+        pytest.skip("this user, probably root, may write to every folder")
 
     assert main(["edit", "a.mcap", "-o", "locked/b.mcap"]) == 3
 

@@ -215,7 +215,7 @@ def test_recordings_are_fetched_by_url(tftool, fleet, tmp_path):
 def test_a_place_that_needs_another_package_is_wrong_usage(tftool):
     pytest.importorskip("fsspec", reason="the extra 'fleet'")
     if find_spec("s3fs") is not None:
-        pytest.skip("s3fs is installed")
+        pytest.skip("s3fs, whose absence is tested, is installed")
 
     result = tftool("info", "s3://bucket/run.mcap")
 

@@ -120,7 +120,7 @@ def test_a_file_that_may_not_be_read_is_refused(tmp_path):
     path.write_bytes(MCAP)
     path.chmod(0)
     if os.access(path, os.R_OK):
-        pytest.skip("root may read everything")
+        pytest.skip("this user, probably root, may read every file")
 
     with pytest.raises(InputError, match="permission denied"):
         find(str(path))
