@@ -75,7 +75,8 @@ async def _run_to_end(command: SystemCommand) -> tuple[list[tuple[str, bool]], i
 
     async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
         async for line in lines_of(stream):
-            lines.extend([(line, is_stdout)])
+            # One list for both streams has the lines in the order of their arrival.
+            lines.append((line, is_stdout))  # noqa: PERF401
 
     _, late = await asyncio.wait(
         [asyncio.ensure_future(read(*one)) for one in streams], timeout=LONGEST_RUN
