@@ -1,4 +1,4 @@
-"""The same package twice in one process: the native version, and plain Python.
+"""The package twice in one process: with its native kernel, and in plain Python.
 
 The second copy of `tftool.buffer` is imported under TFTOOL_PURE=1. Both copies share everything
 else, such as `TransformStamped` and the exceptions, so that their results can be compared.

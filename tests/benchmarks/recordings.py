@@ -107,7 +107,7 @@ def _write(kind: str, path: Path, per_message: int) -> None:
 
 
 def _write_big(path: Path, method: str) -> None:
-    """Write 2 GB of images, of which a thousandth is transforms."""
+    """Write 2 GB of messages: an image of 500 kB before each message of transforms."""
     from tests.recordings import writers
 
     image = np.random.default_rng(3).integers(0, 255, 500_000, dtype=np.uint8).tobytes()

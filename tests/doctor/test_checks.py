@@ -285,7 +285,7 @@ def test_what_could_move_and_rests_is_no_constant():
     ]
     # The frame is above all moving frames.
     lowest = long_drive("dock", parent="hall")
-    # A robot description has fixed joints, one of which is mounted on the frame.
+    # A robot description has fixed joints, and one of them is mounted on the frame.
     arm = long_drive("arm")
     arm.static("base_link", "imu")
     arm.static("arm", "gripper")

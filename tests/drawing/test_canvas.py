@@ -40,7 +40,7 @@ def draw(picture, rows=16, size=FIELD, **how):
 
 
 def turtle(name, x, y, theta=0.0, **how):
-    """Return a turtle without a frame, of which only its sprite and name are drawn."""
+    """Return a turtle without a frame: only its sprite and its name are drawn."""
     ahead = ((math.cos(theta), math.sin(theta)),)
     return PlaneFrame(name, x, y, ahead, is_turtle=True, is_frame=False, **how)
 

@@ -37,7 +37,7 @@ def test_the_nearer_surface_hides_the_farther_one():
     corners = np.concatenate([square(1.0), square(5.0, 2.0)])
     found = rasterise(corners, np.concatenate([HALVES + 4, HALVES]), 16, 16)
 
-    # The large square has 8 × 8 points, of which the small one covers 4 × 4.
+    # The large square has 8 × 8 points; the small square covers 4 × 4 of them.
     assert (found.owners >= 0).sum() == 64
     assert np.isin(found.owners, (0, 1)).sum() == 16
     assert set(found.depths[found.owners >= 0].tolist()) == {1.0, 5.0}

@@ -1,4 +1,4 @@
-"""Tests of MCAP files of which few messages are needed, read singly from many chunks at once."""
+"""Tests of reading few messages of an MCAP file: one by one, from many chunks at once."""
 
 import struct
 

@@ -1,4 +1,4 @@
-"""The same content written to every container by other libraries."""
+"""Writers of equal content to every container, by other libraries than tftool."""
 
 import io
 from collections.abc import Callable, Sequence

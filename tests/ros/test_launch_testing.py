@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-# Imported before the inner test runs, each of which removes the modules that it has imported.
+# Imported before the inner test runs, because each run removes the modules that it imported.
 import tftool.ros.launch_plugin
 from tftool.ros.launch_testing.text import build_line_match, build_text_match, expect_output
 

@@ -121,7 +121,7 @@ def test_texts_of_a_damaged_database_may_be_any_bytes(tmp_path):
 
 
 def test_a_database_of_many_pages_becomes_another_container_message_by_message(tmp_path):
-    """Check a database whose pages are read in parts, several of which are in memory at once."""
+    """Check a database with more pages than are read at once; several parts are in memory."""
     path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
     rows_of_a_page = [
         (number, bytes([0, 1, 0, 0]) + number.to_bytes(3000)) for number in range(1600)

@@ -40,13 +40,13 @@ class At(Node):
 
 
 class Before(At):
-    """The same node, before all other nodes in each instant; it must be created first."""
+    """Node like `At` that runs before all other nodes in each instant; create it first."""
 
     phase: ClassVar[Phase] = Phase.SIMULATE
 
 
 class After(At):
-    """The same node, after all other nodes in each instant."""
+    """Node like `At` that runs after all other nodes in each instant."""
 
     phase: ClassVar[Phase] = Phase.WATCH
 

@@ -192,7 +192,7 @@ class _Yaml:
         if not isinstance(node, yaml.SequenceNode):
             where = self.where(node)
             what = f"'{parent.tag}' must be a list of actions"
-            raise InputError(f"{where}: {what}: begin each with '- '")
+            raise InputError(f"{where}: {what}: begin each item with '- '")
         for item in node.value:
             if not isinstance(item, yaml.MappingNode) or len(item.value) != 1:
                 where = self.where(item)

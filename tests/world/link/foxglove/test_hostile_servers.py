@@ -364,7 +364,7 @@ def handshake(request):
 
 
 def test_a_connection_may_break_at_every_byte():
-    """Check connections of which each ends one byte later than the one before; the first lasts."""
+    """Check connections that end after 0, 1, 2 … bytes; the first connection lasts."""
     size = len(handshake(b"Sec-WebSocket-Key: x\r\n")) + len(EXCHANGE) + len(frame(good(1), 2))
     said, heard, started = [], [], []
     ended = threading.Event()
