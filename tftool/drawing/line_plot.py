@@ -361,6 +361,7 @@ def pair_plot(
         return []
     found = {one.title: one for one in panels([trajectory_of(path)], span.start, _QUANTITIES)}
     lines: list[Text] = []
+    titles: list[Text] = []
     for title, unit, color in (
         ("distance", "m", theme.blend(palette.accent, palette.text, 0.1)),
         ("rotation", "°", _yaw_color(palette)),
@@ -371,13 +372,13 @@ def pair_plot(
         if is_low and lines:
             lines[0].append("  ").append_text(curve.pop(0)).truncate(width)
             curve = [] if is_single else curve
+        elif rows + is_low >= TITLED_FROM:
+            titles.append(curve[0])
         lines += curve
-    if note:
-        titles = [line for line in lines if line.plain.startswith(("distance ", "yaw "))]
-        for line in titles:
-            line.stylize(theme.ink(palette.dim))
-            line.append(f"  {note}", theme.ink(palette.warning))
-            line.truncate(width)
+    for title_line in titles if note else ():
+        title_line.stylize(theme.ink(palette.dim))
+        title_line.append(f"  {note}", theme.ink(palette.warning))
+        title_line.truncate(width)
     if with_axis:
         first, last = (f"{as_seconds(t - span.start):.1f}" for t in (span.first, span.last))
         words = f"{'':{PAIR_LABELS + 1}}{first}{last + ' s':>{max(0, columns - len(first))}}"
