@@ -95,17 +95,18 @@ def test_keys_are_known_by_their_bytes(typed, keys):
 def test_on_a_terminal_keys_steer_it(tmp_path):
     file = write_mcap(tmp_path / "long.mcap", content(1000))
     words = ("-m", "tftool", "play", str(file), "--host", "--paused", "--loop")
-    terminal = Terminal(tmp_path, 80, 12, words, {})
+    terminal = Terminal(tmp_path, 80, 14, words, {})
     try:
         terminal.shows("⏸  0.00 / ")
         terminal.press("]", "]", "]")
         terminal.shows("⏸  3.00 / ")
         terminal.press("{")
         terminal.shows("⏸  0.00 / ")
+        terminal.shows("space play")
         terminal.press("Up")
         terminal.shows("×1.1")
         terminal.press("Space")
-        terminal.shows("▶ ")
+        terminal.shows("space pause")
         terminal.press("q")
         terminal.ended(0)
     finally:
@@ -118,9 +119,24 @@ def test_on_a_terminal_findings_are_marked_and_told(tmp_path, tftool, simulated)
     words = ("-m", "tftool", "play", str(file), "--host", "--paused")
     terminal = Terminal(tmp_path, 100, 20, words, {})
     try:
-        terminal.until(lambda screen: "█" in screen or "▓" in screen, "a mark")
+        terminal.shows("Findings of the doctor")
         terminal.press("n")
-        terminal.until(lambda screen: " s: " in screen, "the finding")
+        terminal.until(lambda screen: "│▸1/" in screen, "the finding")
+        terminal.press("q")
+        terminal.ended(0)
+    finally:
+        terminal.tmux("kill-server")
+
+
+@pytest.mark.skipif(shutil.which("tmux") is None, reason="tmux is not installed")
+def test_at_the_end_the_screen_waits_and_r_replays(tmp_path):
+    file = write_mcap(tmp_path / "long.mcap", content(90))
+    terminal = Terminal(tmp_path, 80, 24, ("-m", "tftool", "play", str(file), "--host"), {})
+    try:
+        terminal.shows("end: r replays, q quits")
+        terminal.shows("/tf")
+        terminal.press("r")
+        terminal.until(lambda screen: "▶ " in screen and "end" not in screen, "the replay")
         terminal.press("q")
         terminal.ended(0)
     finally:

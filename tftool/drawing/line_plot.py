@@ -125,7 +125,8 @@ def over_time(
         for line in _drawn(panel, (low, high), shaded, rows, look, number):
             text.append_text(line)
         number += len(panel.curves)
-    text.append(_axis(low, high, look.width))
+    columns = max(10, look.width - LABELS - 1)
+    text.append(f"{'':>{LABELS + 1}}{time_axis(low, high, columns)}\n")
     for reason in told:
         text.append(f"{fitted(reason, look.width)}\n", style="dim")
     return text
@@ -277,9 +278,8 @@ def draw_curve(dots: Dots, across: Floats, up: Floats, color: Color) -> None:
     dots.draw(np.stack([ends, points[-len(ends) :]], 1), packed(color))
 
 
-def _axis(low: float, high: float, width: int) -> str:
-    """Format the labels of the time axis: round numbers of seconds, and the unit "s"."""
-    columns = max(10, width - LABELS - 1)
+def time_axis(low: float, high: float, columns: int) -> str:
+    """Format the labels of a time axis: round numbers of seconds, and the unit "s"."""
     # A tick slightly outside the data is written at the edge.
     slack = 0.02 * (high - low)
     found = round_ticks(low, high, max(3, columns // 14))
@@ -293,7 +293,7 @@ def _axis(low: float, high: float, width: int) -> str:
             line[place : place + len(label)] = label
             end = place + len(label) + 1
     line[-1] = "s"
-    return f"{'':>{LABELS + 1}}{''.join(line)}\n"
+    return "".join(line)
 
 
 def _style(color: Color) -> str:

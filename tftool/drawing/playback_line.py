@@ -1,30 +1,40 @@
-"""Position in a recording that is being played, and the doctor's finding nearest to it."""
+"""Timeline of a recording that is being played, its findings, and its topics."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+import numpy.typing as npt
 from rich.text import Text
 
 from tftool.base.color import Color
 from tftool.base.plain_text import visible
-from tftool.base.stamps import Duration, as_seconds
+from tftool.base.stamps import Duration, as_seconds, seconds
 from tftool.drawing import theme
-from tftool.drawing.table_columns import fitted
+from tftool.drawing.line_plot import time_axis
+from tftool.drawing.sparklines import sparkline
+from tftool.drawing.table_columns import fitted, padded
 
 KEYS = (
     ("space", "pause"),
     ("n N", "findings"),
-    ("→", "next"),
     ("[ ]", "1 s"),
     ("{ }", "10 s"),
     ("↑↓", "rate"),
-    ("0", "start"),
+    ("?", "keys"),
+    ("r", "replay"),
+    ("→", "next message"),
     ("q", "quit"),
 )
 """Keys of the player with their meanings, the most important first."""
 
 _ASCII = {"→": "right", "↑↓": "up/down"}
-_SHORTEST_BAR, _LONGEST_BAR = 8, 120
+
+NEAR = seconds(0.5)
+"""Nanoseconds from a finding within which the finding is lit."""
+
+JUST_NOW = seconds(0.2)
+"""Real nanoseconds for which a topic is lit after a message."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,108 +74,192 @@ class Playback:
     laps: int = 0
     marks: Sequence[PlaybackMark] = ()
 
+    @property
+    def is_over(self) -> bool:
+        """Whether the player waits at the end."""
+        return self.is_paused and self.done >= self.total
 
-def line(
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlayedTopic:
+    """Topic of a recording, with the times of its messages.
+
+    Attributes:
+        name: Name of the topic.
+        count: Number of its messages.
+        moments: Times of its messages, nanoseconds from the recording's start, ascending; None if
+            the times are not known.
+    """
+
+    name: str
+    count: int
+    moments: npt.NDArray[np.int64] | None = None
+
+
+def lines(
     playback: Playback,
+    moments: npt.NDArray[np.int64],
     width: int,
     *,
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
-) -> Text:
-    """Return the position as a line of at most `width` cells: state, seconds, rate, bar.
+) -> list[Text]:
+    """Return four lines: position and rate, density of messages, findings, and seconds.
 
     Args:
         playback: State of the player.
-        width: Longest line in cells.
+        moments: Times of the transforms, nanoseconds from the recording's start.
+        width: Width in cells.
         ascii_only: Whether to draw in ASCII.
-        palette: Colours of the screen, for the findings.
+        palette: Colours of the screen.
     """
     state = ("||" if playback.is_paused else "> ") if ascii_only else "⏸▶"[not playback.is_paused]
-    seconds, total = as_seconds(playback.done), as_seconds(playback.total)
+    total = as_seconds(playback.total)
     count = len(f"{total:.2f}")
-    words = f"{state} {seconds:{count}.2f} / {total:.2f} s"
+    words = f"{state} {as_seconds(playback.done):{count}.2f} / {total:.2f} s"
     words += f"  {'x' if ascii_only else '×'}{playback.rate:.3g}"
     if playback.laps:
         words += f"  lap {playback.laps + 1}"
-    room = min(width - len(words) - 2, _LONGEST_BAR)
-    text = Text(words, no_wrap=True, overflow="crop")
-    if room >= _SHORTEST_BAR:
-        text.append("  ").append_text(_bar(playback, room, ascii_only, palette))
-    text.truncate(max(width, 0))
-    return text
+    color, dim = theme.ink(palette.accent), theme.ink(palette.dim)
+    text = Text(words, theme.ink(palette.text, bold=True), no_wrap=True, overflow="crop")
+    if playback.is_over:
+        text.append("  end: ", theme.ink(palette.text))
+        text.append("r", theme.ink(palette.accent, bold=True)).append(" replays, ", dim)
+        text.append("q", theme.ink(palette.accent, bold=True)).append(" quits", dim)
+    text.truncate(width)
+    width = max(1, width)
+    counts, _ = np.histogram(moments, bins=width, range=(0, max(1, playback.total)))
+    curve = Text(sparkline(counts.tolist(), width, ascii_only=ascii_only), dim)
+    curve.stylize(color, 0, _place(playback.done, playback, width))
+    axis = time_axis(0.0, total, width) if total > 0 else ""
+    return [text, curve, _bar(playback, width, ascii_only, palette), Text(axis, dim)]
 
 
 def keys(playback: Playback, *, ascii_only: bool = False) -> list[tuple[str, str]]:
     """Return the keys of the player with their meanings, the most important first."""
     # Without findings, the keys that jump between findings would have no effect.
     shown = [(key, does) for key, does in KEYS if playback.marks or key != "n N"]
+    if playback.is_paused:
+        shown[0] = ("space", "play")
     return [(_ASCII.get(key, key) if ascii_only else key, does) for key, does in shown]
 
 
 def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette) -> Text:
     """Return the timeline: findings as coloured spans, and the position drawn over the spans."""
-    share = playback.done / playback.total if playback.total > 0 else 1.0
-    full = round(room * min(max(share, 0.0), 1.0))
+    full = _place(playback.done, playback, room)
     solid, empty = ("#", ".") if ascii_only else ("━", "─")
-    bar = [*[(solid, "")] * full, *[(empty, "dim")] * (room - full)]
+    played, dim = theme.hexadecimal(palette.accent), theme.hexadecimal(palette.dim)
+    bar = [*[(solid, played)] * full, *[(empty, dim)] * (room - full)]
     for mark in reversed(playback.marks):
-        first, last = (
-            min(room - 1, max(0, int(room * moment / max(1, playback.total))))
-            for moment in (mark.since, mark.until)
-        )
+        first, last = (_place(moment, playback, room) for moment in (mark.since, mark.until))
         style = theme.hexadecimal(_color(mark, palette))
         bar[first : last + 1] = [("=" if ascii_only else "═", style)] * (last + 1 - first)
         # One finding may fill the whole bar, so its begin has a sign of its own.
         bar[first] = ("?!" if ascii_only else "▓█")[mark.is_error], style
-    if playback.marks:
-        bar[min(room - 1, full)] = "|" if ascii_only else "●", "bold"
+    bar[full] = "|" if ascii_only else "●", f"bold {theme.hexadecimal(palette.text)}"
     return Text.assemble(*bar)
+
+
+def _place(moment: Duration, playback: Playback, room: int) -> int:
+    """Return the column of a moment on a timeline of `room` cells."""
+    share = moment / playback.total if playback.total > 0 else 1.0
+    return max(0, min(room - 1, int(room * share)))
 
 
 def _color(mark: PlaybackMark, palette: theme.Palette) -> Color:
     return palette.error if mark.is_error else palette.warning
 
 
-def finding_line(
+def finding_lines(
     playback: Playback,
     width: int,
+    height: int,
     *,
     ascii_only: bool = False,
     palette: theme.Palette = theme.DARK,
-) -> Text:
-    """Return number, time and text of the finding nearest to the position; empty if none.
+) -> list[Text]:
+    """Return the findings in order of time, a line each; the nearest to the position is lit.
 
     Args:
         playback: State of the player.
         width: Longest line in cells.
+        height: Most lines; the nearest finding is one of them.
         ascii_only: Whether to draw in ASCII.
         palette: Colours of the findings.
     """
     marks = sorted(playback.marks, key=lambda one: one.since)
     if not marks:
-        return Text()
+        return []
     head = playback.done
 
     def distance(mark: PlaybackMark) -> tuple[Duration, Duration, bool]:
         away = max(mark.since - head, head - max(mark.since, mark.until), 0)
         return away, abs(head - mark.since), not mark.is_error
 
-    nearest = min(marks, key=distance)
-    span = f"{as_seconds(nearest.since):.2f}"
-    if nearest.until > nearest.since:
-        span += f"{'-' if ascii_only else '–'}{as_seconds(nearest.until):.2f}"
-    kind = "error" if nearest.is_error else "warning"
-    style = theme.hexadecimal(_color(nearest, palette))
-    place = f"{marks.index(nearest) + 1}/{len(marks)}"
-    text = Text.assemble((f"{place} {kind}", f"bold {style}"), f"  {span} s  ")
-    text.append(visible(nearest.message), style)
+    nearest = marks.index(min(marks, key=distance))
+    first = max(0, min(nearest - height // 2, len(marks) - height))
+    shown = []
+    for place, mark in enumerate(marks[first : first + height], first):
+        span = f"{as_seconds(mark.since):.2f}"
+        if mark.until > mark.since:
+            span += f"{'-' if ascii_only else '–'}{as_seconds(mark.until):.2f}"
+        is_lit = place == nearest and distance(mark)[0] <= NEAR
+        arrow = (">" if ascii_only else "▸") if is_lit else " "
+        kind = "error" if mark.is_error else "warning"
+        words = f"{arrow}{place + 1:>{len(str(len(marks)))}}/{len(marks)} {kind:7}  {span:>13} s  "
+        words = fitted(words + visible(mark.message), width, more="~" if ascii_only else "…")
+        line = Text(words, theme.ink(palette.text if is_lit else palette.dim, bold=is_lit))
+        sign = words.find(kind)
+        line.stylize(theme.ink(_color(mark, palette), bold=is_lit), sign, sign + len(kind))
+        shown.append(line)
+    return shown
+
+
+def topic_lines(
+    topics: Sequence[PlayedTopic],
+    playback: Playback,
+    width: int,
+    height: int,
+    *,
+    ascii_only: bool = False,
+    palette: theme.Palette = theme.DARK,
+) -> list[Text]:
+    """Return the topics with their rates, a line each; a lit sign marks a message just now.
+
+    Args:
+        topics: Topics of the recording.
+        playback: State of the player.
+        width: Width in cells.
+        height: Most lines; the last line counts topics that do not fit.
+        ascii_only: Whether to draw in ASCII.
+        palette: Colours of the screen.
+    """
     more = "~" if ascii_only else "…"
-    return text if text.cell_len <= width else Text(fitted(text.plain, width, more=more), style)
-
-
-def passed(marks: Sequence[PlaybackMark], before: Duration, now: Duration) -> list[PlaybackMark]:
-    """Return the marks that begin after `before` and up to `now`."""
-    return [one for one in marks if before < one.since <= now]
+    room = height if len(topics) <= height else height - 1
+    lit, unlit = ("*", ".") if ascii_only else ("●", "·")
+    since = playback.done - max(1, round(JUST_NOW * playback.rate))
+    shown = []
+    for topic in topics[: max(0, room)]:
+        moments = topic.moments
+        now = 0
+        if moments is not None:
+            now = int(np.diff(np.searchsorted(moments, (since, playback.done), side="right"))[0])
+        rate = topic.count / max(1e-9, as_seconds(playback.total))
+        facts = f"{rate:7.1f} Hz" if topic.count > 1 else f"{topic.count:>7} msg"
+        color = palette.accent if now else palette.dim
+        shown.append(
+            Text.assemble(
+                ((lit if now else unlit) + " ", theme.ink(color, bold=bool(now))),
+                (
+                    padded(visible(topic.name), max(1, width - 13), more=more),
+                    theme.ink(palette.text if now else palette.dim),
+                ),
+                (facts, theme.ink(palette.text if now else palette.dim)),
+            )
+        )
+    if room < len(topics):
+        shown.append(Text(f"  {len(topics) - len(shown)} more", theme.ink(palette.accent)))
+    return shown
 
 
 def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:

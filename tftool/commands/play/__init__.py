@@ -18,9 +18,10 @@ class PlayOptions(Command, recordings=True):
     commands, and for ROS 2 nodes with use_sim_time. 'tftool view', 'tftool echo' and your own nodes
     receive everything live.
 
-    On a terminal, space pauses, the right arrow sends the next message, [ and ] seek by a second, {
-    and } by ten seconds, up and down change the rate, n goes to the doctor's next finding, 0 to the
-    start, q quits. Findings are marked on the timeline, and printed when the playback passes them.
+    A terminal shows the timeline with the doctor's findings, the topics and the frames. Space
+    pauses, the right arrow sends the next message, [ and ] seek by a second, { and } by ten
+    seconds, up and down change the rate, n goes to the next finding, 0 to the start. At the end, r
+    replays and q quits; --for ends the playback without a key.
 
     tftool play run.mcap
     tftool play run.mcap --from 12.5 --to 20 --rate 0.5 --loop

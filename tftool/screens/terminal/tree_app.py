@@ -184,12 +184,16 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     def _arrange(self) -> None:
         """Show the tree, the picture, or both: the picture below a tree that leaves enough room."""
         rows, space = self.panel("rows"), self.space
-        height = self.size.height - 2
+        height = self.size.height - 2 - self._rows_above()
         needs = 0 if self._seen is None else len(self._seen[0].frames) + HEADINGS + 2
         has_room = 0 < needs <= height - LEAST_SPACE and self.size.width >= WITH_SPACE
         rows.display = not self._is_alone
         rows.styles.height = needs if has_room else "1fr"
         space.display = space.in_space = self._is_alone or has_room
+
+    def _rows_above(self) -> int:
+        """Return the number of rows between the title bar and the tree."""
+        return 0
 
     @property
     def space(self) -> SpacePanel:

@@ -54,6 +54,7 @@ class Player(Node):
         rate: float = 1.0,
         is_paused: bool = False,
         is_looping: bool = False,
+        waits_at_end: bool = False,
         is_restamped: bool = False,
         is_silent: bool = False,
         names_topics: bool = False,
@@ -70,6 +71,7 @@ class Player(Node):
             rate: Seconds of the recording per second of `pace`.
             is_paused: Whether to begin paused.
             is_looping: Whether to start again at the end.
+            waits_at_end: Whether to pause at the end, instead of ending.
             is_restamped: Whether to replace stamps by the time of sending, and publish no `/clock`.
             is_silent: Whether to publish no `/clock` although the recording's stamps are kept.
             names_topics: Whether to name the topic as the sender of a transform if the sending node
@@ -84,6 +86,7 @@ class Player(Node):
         self.is_paused = is_paused
         self.laps = 0
         self._is_looping = is_looping
+        self._waits_at_end = waits_at_end
         self._is_restamped = is_restamped
         self._is_silent = is_silent or is_restamped
         self._names_topics = names_topics
@@ -165,7 +168,9 @@ class Player(Node):
             self._welcome()
             is_behind = self._send_due()
             if self.is_over:
-                return
+                if not self._waits_at_end:
+                    return
+                self.pause()
             if self._is_looping and not self.is_paused and self.position >= self.end:
                 self._start_over()
             await self._pace.sleep_until(self._next_turn(is_behind), self.phase, self.rank)
