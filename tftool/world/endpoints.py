@@ -1,7 +1,7 @@
-"""Publishers and subscriptions of topics, with their quality of service.
+"""Publishers and subscriptions of topics, with their quality of service, and clients of services.
 
-The publishers and subscriptions of all nodes are stored here, also those of other processes. Topics
-inside one process, such as pressed keys, have no ROS type and no entry.
+Those of all nodes are stored here, also those of other processes. Topics inside one process, such
+as pressed keys, have no ROS type and no entry.
 """
 
 from collections import deque
@@ -11,10 +11,11 @@ from typing import Any, Final, Literal
 
 from tftool.base.stamps import Duration
 
-Role = Literal["publisher", "subscription"]
+Role = Literal["publisher", "subscription", "client"]
 
 PUBLISHER: Final = "publisher"
 SUBSCRIPTION: Final = "subscription"
+CLIENT: Final = "client"
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,13 +89,13 @@ def _is_longer(offered: Duration | None, requested: Duration | None) -> bool:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Endpoint:
-    """Publisher of a topic, or subscription to it.
+    """Publisher of a topic, subscription to it, or client of a service.
 
     Attributes:
-        role: Whether this is a publisher or a subscription.
+        role: Whether this is a publisher, a subscription or a client.
         node: Name of the node.
-        topic: Name of the topic, without a leading slash.
-        interface: Type of the messages, such as "std_msgs/msg/String".
+        topic: Name of the topic or service, without a leading slash.
+        interface: Type of the messages or the service, such as "std_msgs/msg/String".
         quality: Offered or requested quality of service.
         is_remote: Whether the endpoint belongs to another process.
         gid: Id of another process's endpoint; empty for an endpoint of this process.
@@ -106,7 +107,7 @@ class Endpoint:
     node: str
     topic: str
     interface: str
-    quality: Quality
+    quality: Quality = USUAL
     is_remote: bool = False
     gid: bytes = b""
     deliver: "Callable[[Any, Endpoint | None], object] | None" = None
@@ -114,7 +115,7 @@ class Endpoint:
 
 
 class Endpoints:
-    """Publishers and subscriptions of a world, and of the other processes in its session."""
+    """Endpoints of a world, and of the other processes in its session."""
 
     def __init__(self, changed: Callable[[], object], warn: Callable[[str, str], object]) -> None:
         """Create an empty store.
@@ -161,11 +162,11 @@ class Endpoints:
         return endpoint not in self._silent
 
     def of(self, topic: str, role: Role) -> list[Endpoint]:
-        """Return the publishers of a topic, or its subscriptions."""
+        """Return the publishers or subscriptions of a topic, or the clients of a service."""
         return [one for one in self._by_topic.get(topic, ()) if one.role == role]
 
     def topics(self) -> list[str]:
-        """Return the names of all topics that have an endpoint."""
+        """Return the names of all topics or services that have an endpoint."""
         return list(self._by_topic)
 
     def _compare(self, publisher: Endpoint, subscription: Endpoint) -> None:

@@ -101,6 +101,7 @@ class World:
         log: Log of the nodes.
         nodes: Nodes, in the order of joining.
         endpoints: Publishers and subscriptions of the nodes of all processes.
+        clients: Clients of services, of the nodes of all processes.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
         failure: Error about the node whose exception ended the run, as soon as it is known.
     """
@@ -144,6 +145,7 @@ class World:
         self._supervisor: Supervisor | None = None
         self._watchers: Listeners[()] = Listeners(self.report)
         self.endpoints = Endpoints(self._changed, self.log.warn)
+        self.clients = Endpoints(self._changed, self.log.warn)
         self.tf: Topic[TransformMessage] = self._topic("tf", TransformMessage)
         self.tf_static: Topic[TransformMessage] = self._topic("tf_static", TransformMessage)
 

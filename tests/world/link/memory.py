@@ -4,8 +4,8 @@ import itertools
 from collections import deque
 
 from tftool.base.errors import LinkError
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
-from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, GraphEntity
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.link.graph import NODE, SERVER, Graph, GraphEntity
 from tftool.world.link.reach import Reach
 from tftool.world.link.seam import Arrived, Middleware
 

@@ -11,7 +11,7 @@ from tftool.base.errors import LinkError, TftoolError
 from tftool.messages.classes import INTERFACES, build
 from tftool.messages.turtle_messages import Empty, RotateAbsolute
 from tftool.world import node
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Endpoint, Quality
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
@@ -263,6 +263,35 @@ def test_a_service_of_any_type_is_answered_and_shown_under_its_node():
             (entity,) = two.guest.graph.entities("server", name="enable")
             assert (entity.node, entity.ros_type) == ("motors", "std_srvs/srv/SetBool")
             await until(lambda: two.host.graph.entities("client", name="enable"))
+
+    play(ask())
+
+
+def test_a_client_is_known_to_other_processes_even_before_its_service_exists():
+    async def announce():
+        async with Two() as two:
+            client = Endpoint(CLIENT, "arm/asker", "enable", "std_srvs/srv/SetBool")
+            leave = two.there.clients.add(client)
+            await until(lambda: two.here.clients.of("enable", CLIENT))
+
+            (found,) = two.here.clients.of("enable", CLIENT)
+            assert (found.node, found.interface) == ("arm/asker", "std_srvs/srv/SetBool")
+            leave()
+            await until(lambda: not two.here.clients.of("enable", CLIENT))
+
+    play(announce())
+
+
+def test_a_client_that_is_announced_is_counted_once_after_its_request():
+    async def ask():
+        async with Two() as two:
+            two.here.serve("enable", lambda request: SET_BOOL.Response(), SET_BOOL)
+            two.there.clients.add(Endpoint(CLIENT, "asker", "enable", "std_srvs/srv/SetBool"))
+            await until(lambda: two.there.has_service("enable"))
+            await two.there.call("enable", SET_BOOL.Request())
+            await until(lambda: two.here.clients.of("enable", CLIENT))
+
+            assert [one.node for one in two.here.clients.of("enable", CLIENT)] == ["asker"]
 
     play(ask())
 

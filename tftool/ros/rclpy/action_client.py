@@ -93,7 +93,11 @@ class ActionClient(Requester):
         self.type_ = action_type
         self._name = action_name
         self.full = seat.full(action_name)
-        seat.keep(lambda: self)
+        seat.keep(self._join)
+
+    def _join(self) -> "ActionClient":
+        self.announce(f"{self.full}/_action/send_goal", f"{self.type_.interface__}_SendGoal")
+        return self
 
     def is_served(self) -> bool:
         """Return whether a server of the action exists; call this in the event loop's thread."""

@@ -16,6 +16,7 @@ from tftool.ros.host.program import TICK
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.time import Clock, ClockType, Time
+from tftool.world.endpoints import CLIENT, Endpoint
 
 Work = Callable[[], Any]
 """Function that an executor calls in the spinning thread; may return a coroutine."""
@@ -108,6 +109,12 @@ class Requester(WorkQueue):
     def __init__(self, seat: NodeSeat, group: Any) -> None:
         super().__init__(seat, group)
         self._asking: set[asyncio.Task[None]] = set()
+        self._leave: Callable[[], None] | None = None
+
+    def announce(self, service: str, kind: str) -> None:
+        """List the entity as a client of a service; call this in the event loop's thread."""
+        client = Endpoint(CLIENT, self.seat.authority, service, kind)
+        self._leave = self.seat.world.clients.add(client)
 
     def is_served(self) -> bool:
         """Return whether a server is available; called in the event loop's thread."""
@@ -161,6 +168,8 @@ class Requester(WorkQueue):
     def withdraw(self) -> None:
         """Close the entity and cancel all its requests."""
         super().withdraw()
+        if self._leave is not None:
+            self._leave()
         for task in list(self._asking):
             task.cancel()
 

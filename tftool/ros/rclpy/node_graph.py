@@ -9,8 +9,6 @@ from typing import Any, TypeVar
 
 from tftool.messages.classes import interface_name
 from tftool.ros.host.names import join
-from tftool.ros.host.program import Program
-from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.qos import (
     HistoryPolicy,
     QoSProfile,
@@ -18,9 +16,8 @@ from tftool.ros.rclpy.qos import (
     qos_profile_unknown,
 )
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
-from tftool.ros.rclpy.services import Client
 from tftool.ros.rclpy.time import Duration, Infinite
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Role
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Endpoint, Endpoints, Role
 
 
 class TopicEndpointTypeEnum(IntEnum):
@@ -207,19 +204,9 @@ class NodeGraph:
         return self.__look(lambda: self._tftool.world.count_services(full))
 
     def count_clients(self, service_name: str) -> int:
-        """Count the clients of a service in this process's ROS nodes."""
+        """Count the clients of a service in the ROS nodes of all processes."""
         full = self._tftool.full(service_name, is_service=True)
-        return self.__look(lambda: sum(name == full for name, _ in self.__called()))
-
-    def __called(self, by: str | None = None) -> Iterator[tuple[str, str]]:
-        """Yield (name, type) of each service with a client in this process.
-
-        Args:
-            by: Full name of the node whose clients count; None for all nodes.
-        """
-        for one in _entities(self._tftool, by):
-            if isinstance(one, Client):
-                yield one.full, one.srv_type.interface__
+        return self.__look(lambda: len(self._tftool.world.clients.of(full, CLIENT)))
 
     # Entities of one node
 
@@ -227,13 +214,15 @@ class NodeGraph:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Return (name, types) of each topic that a ROS node publishes."""
-        return _of_node(self._tftool, node_name, node_namespace, self.__held, PUBLISHER)
+        endpoints = self._tftool.world.endpoints
+        return _of_node(self._tftool, node_name, node_namespace, _held, endpoints, PUBLISHER)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Return (name, types) of each topic to which a ROS node subscribes."""
-        return _of_node(self._tftool, node_name, node_namespace, self.__held, SUBSCRIPTION)
+        endpoints = self._tftool.world.endpoints
+        return _of_node(self._tftool, node_name, node_namespace, _held, endpoints, SUBSCRIPTION)
 
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
@@ -244,15 +233,9 @@ class NodeGraph:
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
-        """Return (name, types) of each service that a ROS node of this process calls."""
-        return _of_node(self._tftool, node_name, node_namespace, self.__called)
-
-    def __held(self, node: str, role: Role) -> Iterator[tuple[str, str]]:
-        endpoints = self._tftool.world.endpoints
-        for topic in endpoints.topics():
-            for end in endpoints.of(topic, role):
-                if end.node == node:
-                    yield topic, end.interface
+        """Return (name, types) of each service that a ROS node calls."""
+        clients = self._tftool.world.clients
+        return _of_node(self._tftool, node_name, node_namespace, _held, clients, CLIENT)
 
 
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
@@ -277,7 +260,7 @@ def get_action_server_names_and_types_by_node(
 def get_action_client_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Return (name, types) of the action clients of a ROS node in this process.
+    """Return (name, types) of the action clients of a ROS node.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -290,17 +273,12 @@ def _node_names(seat: NodeSeat) -> list[str]:
     return [*(one.name for one in seat.world.nodes if one.is_shown), *seat.world.far_nodes]
 
 
-def _entities(seat: NodeSeat, by: str | None) -> Iterator[Any]:
-    """Yield the publishers, timers and other entities of this process's ROS nodes.
-
-    Args:
-        seat: tftool's state of a node of the same world.
-        by: Full name of the only node to include; None for all nodes.
-    """
-    for program in seat.world.nodes:
-        for other in program.nodes if isinstance(program, Program) else ():
-            if by in (None, other.authority):
-                yield from other.entities
+def _held(node: str, ends: Endpoints, role: Role) -> Iterator[tuple[str, str]]:
+    """Yield (name, type) of each topic or service for which a node has an endpoint."""
+    for name in ends.topics():
+        for end in ends.of(name, role):
+            if end.node == node:
+                yield name, end.interface
 
 
 def _served_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]:
@@ -310,9 +288,9 @@ def _served_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]
 
 
 def _sought_actions(by: str, seat: NodeSeat) -> Iterator[tuple[str, str]]:
-    for one in _entities(seat, by):
-        if isinstance(one, ActionClient):
-            yield one.full, one.type_.interface__
+    for name, kind in _held(by, seat.world.clients, CLIENT):
+        if name.endswith("/_action/send_goal"):
+            yield name.removesuffix("/_action/send_goal"), kind.removesuffix("_SendGoal")
 
 
 def _of_node(

@@ -53,6 +53,10 @@ class ServiceEnd(WorkQueue):
 class Client(ServiceEnd, Requester):
     """Client that sends requests to a service."""
 
+    def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
+        super().__init__(seat, kind, name, full, group)
+        self.announce(full, kind.interface__)
+
     def is_served(self) -> bool:
         """Return whether a server is available; called in the event loop's thread."""
         return self.seat.world.has_service(self.full)

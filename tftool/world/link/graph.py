@@ -7,11 +7,10 @@ from enum import StrEnum
 from typing import Final
 
 from tftool.base.stamps import Stamp
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Quality
 
 NODE: Final = "node"
 SERVER: Final = "server"
-CLIENT: Final = "client"
 KINDS: Final = (NODE, PUBLISHER, SUBSCRIPTION, SERVER, CLIENT)
 
 MOST: Final = 20_000

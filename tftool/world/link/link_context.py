@@ -4,11 +4,11 @@ The connection (`session.Link`) creates bridges for topics, services and actions
 this module, not the connection, so that imports go in one direction.
 """
 
-from typing import Final
+from typing import Final, cast
 
 from tftool.base.errors import LinkError, MalformedMessage
 from tftool.base.stamps import Stamp
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.world.endpoints import PUBLISHER, Endpoint, Quality, Role
 from tftool.world.link.graph import Graph, GraphEntity
 from tftool.world.link.link_options import Options
 from tftool.world.link.seam import Middleware
@@ -104,10 +104,10 @@ class LinkContext:
         return self.far_endpoint(entity)
 
     def far_endpoint(self, entity: GraphEntity) -> Endpoint:
-        """Return another process's publisher or subscription as an endpoint of the world."""
+        """Return a publisher, subscription or client of another process as a world's endpoint."""
         if entity not in self.endpoints:
             self.endpoints[entity] = Endpoint(
-                PUBLISHER if entity.kind == PUBLISHER else SUBSCRIPTION,
+                cast("Role", entity.kind),
                 entity.node,
                 entity.name,
                 entity.ros_type,

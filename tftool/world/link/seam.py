@@ -61,7 +61,7 @@ class WireRequest(Protocol):
 
 
 class WireClient(Protocol):
-    """Client of one service, announced in the graph with its first request."""
+    """Client of one service."""
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
         """Send a request, and wait at most `timeout` seconds for the response.
@@ -73,7 +73,7 @@ class WireClient(Protocol):
         """
 
     def close(self) -> None:
-        """Close the client, and withdraw its announcement."""
+        """Close the client."""
 
 
 class Watcher(Protocol):
@@ -188,6 +188,13 @@ class Middleware:
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
         """Create a client of a service for a node of this process."""
         raise LinkError(self.NO_WRITING)
+
+    def announce_client(self, node: str, name: str, ros_type: str) -> Callable[[], None]:
+        """Announce a node's client; return a function that ends the announcement.
+
+        Several clients of a process send their requests through one `client`.
+        """
+        return nothing
 
     # For middlewares: reports to the watcher, if there is one yet
 

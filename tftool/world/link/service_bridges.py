@@ -18,7 +18,7 @@ from tftool.world.action_parts import (
     goal_info,
     message,
 )
-from tftool.world.endpoints import Quality
+from tftool.world.endpoints import CLIENT, Quality
 from tftool.world.link.graph import GraphEntity
 from tftool.world.link.link_context import LinkContext
 from tftool.world.link.seam import Arrived, WireRequest
@@ -74,7 +74,9 @@ class Asking:
     def __init__(self, link: LinkContext, name: str, ros_type: str) -> None:
         self._link = link
         self._name = name
+        self._ros_type = ros_type
         self._client = link.middleware.client(link.main_node, name, ros_type)
+        self._hide: Callable[[], None] | None = None
 
     async def ask(self, payload: bytes, timeout: float) -> bytes:
         """Send a request, and wait at most `timeout` seconds for the response.
@@ -82,6 +84,11 @@ class Asking:
         Raises:
             LinkError: If there is no response, or the server refuses.
         """
+        # Announced with the first request, because every world knows all services, and the graph
+        # would be full. A user's node announces its own client.
+        if self._hide is None and not self._link.world.clients.of(self._name, CLIENT):
+            announce = self._link.middleware.announce_client
+            self._hide = announce(self._link.main_node, self._name, self._ros_type)
         try:
             return await self._client.ask(payload, self._link.now(), timeout)
         except LinkError as error:
@@ -90,6 +97,8 @@ class Asking:
     def close(self) -> None:
         """Close the client of the service."""
         self._client.close()
+        if self._hide is not None:
+            self._hide()
 
 
 def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answering:

@@ -14,7 +14,7 @@ from typing import Any, Final
 from tftool.base.errors import MalformedMessage
 from tftool.messages.classes import INTERFACES, Message
 from tftool.world.clock import WallClock
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Endpoint
 from tftool.world.link.graph import NODE, SERVER, GraphEntity, Process, Role, hosts
 from tftool.world.link.link_context import NAME, LinkContext
 from tftool.world.link.link_options import Options
@@ -64,6 +64,7 @@ class Link(LinkContext):
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
         self._servers: dict[str, tuple[Offer[Any], Answering | ActionServer]] = {}
         self._clients: dict[str, ServiceClient | ActionClient] = {}
+        self._announced: dict[Endpoint, Callable[[], None]] = {}
         self._closed = False
         self._settling = False
         self._reconciling = False
@@ -123,9 +124,7 @@ class Link(LinkContext):
             server.close()
         for client in self._clients.values():
             client.close()
-        for stop in self._nodes.values():
-            stop()
-        for stop in self._stops:
+        for stop in (*self._announced.values(), *self._nodes.values(), *self._stops):
             stop()
         self.middleware.close()
 
@@ -160,6 +159,7 @@ class Link(LinkContext):
             self._refresh_topics,
             self._match_servers,
             self._match_clients,
+            self._announce_clients,
         )
 
     def _match(self, *steps: Callable[[], None]) -> None:
@@ -184,15 +184,16 @@ class Link(LinkContext):
             self._nodes[name] = self.middleware.node(name)
 
     def _match_endpoints(self) -> None:
-        """Store other processes' nodes, publishers and subscriptions in the world."""
+        """Store other processes' nodes, publishers, subscriptions and clients in the world."""
         self.world.know_far_nodes(one.node for one in self.graph.entities(NODE))
-        there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION))
+        there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION, CLIENT))
         for entity in self.endpoints.keys() - there:
             del self.endpoints[entity]
         for entity in self._removals.keys() - there:
             self._removals.pop(entity)()
         for entity in there - self._removals.keys():
-            self._removals[entity] = self.world.endpoints.add(self.far_endpoint(entity))
+            ends = self.world.clients if entity.kind == CLIENT else self.world.endpoints
+            self._removals[entity] = ends.add(self.far_endpoint(entity))
 
     def _name_topics(self) -> None:
         """Add other processes' topics to the topics of the world.
@@ -279,6 +280,22 @@ class Link(LinkContext):
                 continue
             made = ServiceClient if name == entity.name else ActionClient
             self._clients[name] = made(self, name, entity)
+
+    def _announce_clients(self) -> None:
+        """Announce the clients of this world's nodes, whether or not their service has a server."""
+        clients = self.world.clients
+        own = {
+            end
+            for name in clients.topics()
+            for end in clients.of(name, CLIENT)
+            if not end.is_remote and is_plain(name)
+        }
+        for end in self._announced.keys() - own:
+            self._announced.pop(end)()
+        for end in own - self._announced.keys():
+            self._announced[end] = self.middleware.announce_client(
+                end.node, end.topic, end.interface
+            )
 
     def _is_offered(self, name: str, *, remote: bool) -> bool:
         """Return whether a service or action has a server here, or, if `remote`, elsewhere."""

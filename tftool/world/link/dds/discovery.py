@@ -15,11 +15,11 @@ from cyclonedds.core import InstanceState
 from tftool.base.errors import LinkError, MalformedMessage
 from tftool.messages.classes import Interfaces, Message
 from tftool.messages.codec import Codec, codec
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Quality
 from tftool.world.link.dds import dds_types as names
 from tftool.world.link.dds.dds_types import Types
 from tftool.world.link.dds.participant import DdsSample, Participant, TopicWriter
-from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, GraphEntity, Process, node_name
+from tftool.world.link.graph import NODE, SERVER, Graph, GraphEntity, Process, node_name
 
 INFO: Final = "rmw_dds_common/msg/ParticipantEntitiesInfo"
 

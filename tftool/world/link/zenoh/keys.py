@@ -14,8 +14,8 @@ from tftool.base.errors import MalformedMessage
 from tftool.base.stamps import Stamp
 from tftool.messages import hashes
 from tftool.messages.classes import INTERFACES
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
-from tftool.world.link.graph import CLIENT, NODE, SERVER, GraphEntity, Process, Role
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.link.graph import NODE, SERVER, GraphEntity, Process, Role
 
 LIVELINESS: Final = "@ros2_lv"
 OURS: Final = "@tftool"

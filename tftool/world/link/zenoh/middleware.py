@@ -9,9 +9,8 @@ from typing import Final
 from tftool.base.errors import LinkError, MalformedMessage
 from tftool.base.stamps import Stamp, seconds
 from tftool.world.clock import WallClock
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Quality
 from tftool.world.link.graph import (
-    CLIENT,
     NODE,
     SERVER,
     Graph,
@@ -252,7 +251,12 @@ class ZenohMiddleware(Middleware):
 
     def client(self, node: str, name: str, ros_type: str) -> "ZenohClient":
         """Create a client of a service for a node of this process."""
-        return ZenohClient(self, name, ros_type, self._token(CLIENT, node, name, ros_type, SERVICE))
+        gid = keys.gid_of(self._token(CLIENT, node, name, ros_type, SERVICE))
+        return ZenohClient(self, name, ros_type, gid)
+
+    def announce_client(self, node: str, name: str, ros_type: str) -> Callable[[], None]:
+        """Announce a node's client; return a function that ends the announcement."""
+        return self.show(self._token(CLIENT, node, name, ros_type, SERVICE))
 
     def key_of_service(self, name: str, ros_type: str) -> str:
         """Return the zenoh key of a service's requests, with the server's type hash if known."""
@@ -339,30 +343,24 @@ class ZenohRequest:
 
 
 class ZenohClient:
-    """Client of a service over zenoh, whose token is announced with its first request."""
+    """Client of a service over zenoh."""
 
-    def __init__(self, middleware: ZenohMiddleware, name: str, ros_type: str, token: str) -> None:
+    def __init__(self, middleware: ZenohMiddleware, name: str, ros_type: str, gid: bytes) -> None:
         self._middleware = middleware
         self._name = name
         self._ros_type = ros_type
-        self._token = token
-        self._gid = keys.gid_of(token)
+        self._gid = gid
         self._sequence = 0
-        self._stack = contextlib.ExitStack()
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
         """Send a request, and wait at most `timeout` seconds for the response."""
-        if not self._sequence:
-            # Shown with the first request: every world knows all services; the graph would be full.
-            self._stack.callback(self._middleware.show(self._token))
         self._sequence += 1
         beside = Attachment(self._sequence, stamp, self._gid).encode()
         key = self._middleware.key_of_service(self._name, self._ros_type)
         return await self._middleware.wire.ask(key, payload, beside, timeout=timeout)
 
     def close(self) -> None:
-        """Withdraw the announcement of the client."""
-        self._stack.close()
+        """Do nothing: a client holds nothing between two requests."""
 
 
 def _no_answer_at(reach: ZenohReach) -> str:
