@@ -323,6 +323,12 @@ def test_keys_zoom_go_back_and_hide_curves():
     assert sight.hidden == {2}
     sight.press("2")
     assert sight.hidden == frozenset()
+    sight.press("i")
+    assert sight.hidden == {*range(2, 10)}
+    sight.press("i")
+    assert sight.hidden == {1, *range(3, 10)}
+    sight.press("0")
+    assert sight.hidden == frozenset()
     sight.press("q")
     assert sight.ended
 
@@ -341,3 +347,21 @@ def test_a_hidden_curve_leaves_the_axis_to_the_others():
     assert "2 y 400" in hidden
     assert "1.0│" in hidden
     assert "400│" not in hidden
+
+
+def test_noise_does_not_fill_the_height_and_a_hidden_panel_is_a_title():
+    stamps = np.arange(50) * seconds(0.1) + 1
+    noise = np.random.default_rng(1).normal(0.0, 1e-9, 50)
+    moves = np.stack([noise + 3.0, noise, noise], 1)
+    turns = np.tile([0.0, 0.0, 0.0, 1.0], (50, 1))
+    path = trajectory_of(TransformArray("map", "car", stamps, moves, turns, np.ones(50, bool)))
+    quantities = chosen(["x", "distance"])
+
+    both = over_time([path], 1, quantities, PlotLook(80, 24)).plain.splitlines()
+    one = over_time([path], 1, quantities, PlotLook(80, 24, numbered=True, hidden=frozenset({1})))
+
+    curve = [line for line in both if "\u2800" < line[15:16] <= "\u28ff"]
+    assert len(curve) == 2
+    lines = one.plain.splitlines()
+    assert lines[1].startswith("distance")
+    assert len(lines) == pytest.approx(len(both), abs=2)

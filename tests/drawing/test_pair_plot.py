@@ -71,11 +71,13 @@ def test_with_two_lines_a_curve_has_its_name_at_its_left(path):
 
 
 @pytest.mark.parametrize("height", [3, 4])
-def test_a_very_low_plot_has_the_distance_with_its_scale_and_both_values(path, height):
+def test_a_very_low_plot_has_both_curves_with_their_ranges_and_the_time(path, height):
     lines = plotted(path, height=height)
 
-    assert re.fullmatch(r"distance 10\.000 m  yaw -?180\.0°", lines[0])
-    assert [lines[1][:8].strip(), lines[-1][:8].strip()] == ["10│", "0│"]
+    assert re.match(r"distance 10\.000 m  yaw -?180\.0°", lines[0])
+    assert [line[:8].strip() for line in lines[1:3]] == ["0–10│", "±180│"]
+    time = lines[0].split()[-2:] if height == 3 else lines[3].split()
+    assert time == (["0.0–10.0", "s"] if height == 3 else ["0.0", "10.0", "s"])
     assert len(lines) == height
 
 
@@ -91,7 +93,8 @@ def test_seven_lines_have_both_curves_with_their_scales_and_the_time(path):
 def test_few_lines_have_both_scales_below_one_line_with_both_values(path, height):
     lines = plotted(path, height=height)
 
-    assert re.fullmatch(r"distance 10\.000 m  yaw -?180\.0°", lines[0])
+    time = " +0.0–10.0 s" if height == 5 else ""
+    assert re.fullmatch(rf"distance 10\.000 m  yaw -?180\.0°{time}", lines[0])
     assert [line[:8].strip() for line in lines[1:5]] == ["10│", "0│", "180│", "-180│"]
     assert [line.split() for line in lines[5:]] == [["0.0", "10.0", "s"]] * (height - 5)
 

@@ -18,7 +18,7 @@ FARTHEST_ROWS: Final = 7
 """Largest distance in rows between a label and its frame."""
 
 SMALL: Final = 2
-"""Largest reach of a symbol near which another frame's label may be."""
+"""Largest reach of a small symbol, near which another frame's label may be if there is no room."""
 
 ON_LINE: Final = 0.4
 """Cost of a cell with a line."""
@@ -114,13 +114,15 @@ class Placer:
             beside = columns - 1
             is_joined = (beside >= 0) & (beside != label.column) & (costs[rows, beside] >= TAKEN)
             cost += 3.0 * is_joined
-            large = [one for one in labels if one.reach > SMALL and one is not label]
             own = _apart(label, columns, rows, width)
-            closer = np.zeros(len(cost), bool)
-            for other in large:
+            closer = np.zeros(len(cost))
+            for other in labels:
+                if other is label or (other.column, other.row) == (label.column, label.row):
+                    continue
                 edge, centre = _apart(other, columns, rows, width)
-                closer |= (edge < own[0]) | ((edge == own[0]) & (centre <= own[1]))
-            cost += 5.0 * closer
+                is_closer = (edge < own[0]) | ((edge == own[0]) & (centre <= own[1]))
+                closer = np.maximum(closer, is_closer * (5.0 if other.reach > SMALL else 2.0))
+            cost += closer
             best = int(cost.argmin())
             if cost[best] >= (TAKEN if label is labels[0] else SOLID):
                 continue

@@ -36,8 +36,8 @@ LABELS: Final = 10
 NOISE: Final = 1e-6
 """Fraction of a panel's largest value below which a value is shown as 0."""
 
-HALF_DIGIT: Final = 0.0005
-"""Half of the last digit of a value with three decimals."""
+LAST_DIGIT: Final = 0.001
+"""Last digit of a value with three decimals."""
 
 LEAST_ROWS: Final = 3
 ROWS: Final = 7
@@ -109,22 +109,31 @@ def over_time(
         # With several pairs, each curve has its own name; a live plot has a title bar.
         pair = visible(f"{found[0].source} in {found[0].target}")
         text.append(f"{fitted(pair, look.width)}\n", style="bold")
+    numbers = [1 + sum(len(one.curves) for one in drawn[:place]) for place in range(len(drawn))]
+    # A panel whose curves are all hidden is only a title, and leaves its lines to the others.
+    seen = [
+        place
+        for place, (number, one) in enumerate(zip(numbers, drawn, strict=True))
+        if not look.hidden.issuperset(range(number, number + len(one.curves)))
+    ]
     tall, taller = ROWS, 0
     if look.height is not None:
         around = 2 + len(told) + is_named
         room = look.height - around - len(drawn)
-        tall = max(LEAST_ROWS, room // max(1, len(drawn)))
+        if look.numbered:
+            # On a screen, panels without room are titles too: their values stay visible.
+            seen = seen[: max(1, room // LEAST_ROWS)]
+        tall = max(LEAST_ROWS, room // max(1, len(seen)))
         # With an odd number of lines, a tick in the middle line is exactly in the middle.
         tall -= 1 - tall % 2
         # The first panels share the lines that remain, in pairs.
-        taller = max(0, room - tall * len(drawn)) // 2
-    number = 1
-    for place, panel in enumerate(drawn):
+        taller = max(0, room - tall * len(seen)) // 2
+    for place, (number, panel) in enumerate(zip(numbers, drawn, strict=True)):
         text.append_text(_titled(panel, look, number))
-        rows = tall + 2 * (place < taller)
-        for line in _drawn(panel, (low, high), shaded, rows, look, number):
-            text.append_text(line)
-        number += len(panel.curves)
+        if place in seen:
+            rows = tall + 2 * (seen.index(place) < taller)
+            for line in _drawn(panel, (low, high), shaded, rows, look, number):
+                text.append_text(line)
     columns = max(10, look.width - LABELS - 1)
     text.append(f"{'':>{LABELS + 1}}{time_axis(low, high, columns)}\n")
     for reason in told:
@@ -210,8 +219,8 @@ def _value(last: float, largest: float) -> str:
     if abs(last) < NOISE * largest:
         return "0"
     # Beside values of a tenth and more, powers of ten would only show noise.
-    is_small = 0.0 < abs(last) < HALF_DIGIT and largest >= 0.1
-    return "0.000" if is_small else axis_number(last)
+    is_small = 0.0 < abs(last) < LAST_DIGIT and largest >= 0.1
+    return f"{round(last, 3) + 0.0:.3f}" if is_small else axis_number(last)
 
 
 def _drawn(
@@ -304,13 +313,13 @@ PAIR_LABELS: Final = 7
 """Cells at the left of a curve of `pair_plot` for the labels of its axis."""
 
 LOWEST_SCALED: Final = 3
-"""Smallest number of lines of a curve with a scale."""
+"""Smallest number of lines of a plot with a title line."""
 
 SCALED_FROM: Final = 5
-"""Smallest number of lines of two curves with scales."""
+"""Smallest number of lines of a plot whose curves have scales."""
 
 TITLED_FROM: Final = 3
-"""Smallest number of lines of a curve with a title line."""
+"""Smallest number of lines of a curve with a title line of its own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -352,11 +361,10 @@ def pair_plot(
         note: Words after the last values, which are then dim, such as "9 s old".
     """
     columns = width - PAIR_LABELS - 1
-    # In a low plot, one title line has both values; in a lower one, only the distance has a curve.
+    # In a low plot, one title line has both values, and the time if there is no line for it.
     is_low = LOWEST_SCALED <= height < 2 * TITLED_FROM + 1
-    is_single = LOWEST_SCALED <= height < SCALED_FROM
-    with_axis = height > SCALED_FROM
-    rows = height - 1 if is_single else (height - with_axis - is_low) // 2
+    with_axis = height > LOWEST_SCALED and height != SCALED_FROM
+    rows = (height - with_axis - is_low) // 2
     if columns < 8 or rows < 1:
         return []
     found = {one.title: one for one in panels([trajectory_of(path)], span.start, _QUANTITIES)}
@@ -367,20 +375,24 @@ def pair_plot(
         ("rotation", "°", _yaw_color(palette)),
     ):
         curve = _curve(
-            found[title], title, unit, color, span, columns, rows + is_low, palette, ascii_only
+            found[title], title, unit, color, span, columns, rows, palette, ascii_only, is_low
         )
         if is_low and lines:
             lines[0].append("  ").append_text(curve.pop(0)).truncate(width)
-            curve = [] if is_single else curve
-        elif rows + is_low >= TITLED_FROM:
+        elif is_low or rows >= TITLED_FROM:
             titles.append(curve[0])
         lines += curve
     for title_line in titles if note else ():
         title_line.stylize(theme.ink(palette.dim))
         title_line.append(f"  {note}", theme.ink(palette.warning))
         title_line.truncate(width)
+    first, last = (f"{as_seconds(t - span.start):.1f}" for t in (span.first, span.last))
+    if is_low and not with_axis:
+        over = f"{first}{'-' if ascii_only else '–'}{last} s"
+        room = width - lines[0].cell_len
+        if room > len(over):
+            lines[0].append(f"{over:>{room}}", theme.ink(palette.dim))
     if with_axis:
-        first, last = (f"{as_seconds(t - span.start):.1f}" for t in (span.first, span.last))
         words = f"{'':{PAIR_LABELS + 1}}{first}{last + ' s':>{max(0, columns - len(first))}}"
         lines.append(Text(words, theme.ink(palette.dim), no_wrap=True))
     return lines
@@ -403,6 +415,7 @@ def _curve(
     rows: int,
     palette: theme.Palette,
     ascii_only: bool,
+    is_low: bool,
 ) -> list[Text]:
     (curve,) = panel.curves
     title, unit = ("yaw", "d" if ascii_only else unit) if title == "rotation" else (title, unit)
@@ -412,12 +425,15 @@ def _curve(
     dim, strong = theme.ink(palette.dim), theme.ink(color, bold=True)
     lines = []
     labels = [""] * rows
-    if rows >= TITLED_FROM:
+    if is_low or rows >= TITLED_FROM:
         lines.append(Text.assemble((f"{title} ", dim), (said, strong), no_wrap=True))
-        rows -= 1
+        rows -= not is_low
     low, high = _scale(title, curve.values)
-    if lines:
+    if lines and rows > 1:
         labels = [f"{high:g}", *[""] * (rows - 2), f"{low:g}"]
+    elif lines:
+        dash, both = ("-", "+-") if ascii_only else ("–", "±")
+        labels = [f"{both}{high:g}" if low == -high else f"{low:g}{dash}{high:g}"]
     else:
         labels = [title[:4], *[""] * (rows - 2), said.replace(" ", "")][:rows]
     dots = Dots(columns, rows)

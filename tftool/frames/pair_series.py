@@ -50,6 +50,10 @@ class PlotCurve:
     values: Floats
 
 
+LEAST_SPAN: Final = {"m": 0.01, "°": 1.0, "m/s": 0.01, "°/s": 1.0}
+"""Smallest span of an axis by unit; a smaller span would only magnify noise."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotPanel:
     """Curves of a plot with a common axis.
@@ -65,14 +69,13 @@ class PlotPanel:
     curves: tuple[PlotCurve, ...]
 
     def limits(self) -> tuple[float, float]:
-        """Return the limits of an axis that shows all curves; equal values are set apart."""
+        """Return the limits of an axis that shows all curves, at least `LEAST_SPAN` apart."""
         values = np.concatenate([one.values for one in self.curves] or [np.zeros(1)])
         values = values[np.isfinite(values)]
         low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
-        least = max(1e-6, 1e-6 * max(abs(low), abs(high)))
-        if high - low < least:
-            return low - 0.5 * max(least, 0.1), high + 0.5 * max(least, 0.1)
-        return low, high
+        least = max(LEAST_SPAN.get(self.unit, 1e-6), 1e-6 * max(abs(low), abs(high)))
+        apart = max(0.0, 0.5 * (least - (high - low)))
+        return low - apart, high + apart
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,8 +30,8 @@ class PlotOptions(Command, looks_only=True, recordings=True):
 
     The plot shows position, roll pitch yaw, distance, speed and turn rate. Spans in which lookups
     fail are shaded, with the reason. A running session is drawn live until q is pressed; + and -
-    zoom, left and right move through time, a digit hides a curve. A recording or a scenario is
-    drawn as a whole. Times are seconds since the start of FROM.
+    zoom, left and right move through time, a digit hides a curve, i shows one curve only. A
+    recording or a scenario is drawn as a whole. Times are seconds since the start of FROM.
 
     tftool plot turtle2 turtle1
     tftool plot map base_link run.mcap --only x,y,yaw --from 5 --to 20

@@ -34,6 +34,7 @@ def drawn(
     start: Stamp,
     console: Console,
     *,
+    margin: int = 0,
     height: int | None = None,
     span: tuple[float, float] | None = None,
     hidden: frozenset[int] | None = None,
@@ -45,11 +46,12 @@ def drawn(
         found: Transforms over time.
         start: Time that is 0 on the axis.
         console: Console to print on; the plot is 80 columns wide if the console is no terminal.
+        margin: Number of columns that the plot leaves free.
         height: Number of lines; None for a suitable number.
         span: Seconds since `start` that the axis covers; None for all data.
         hidden: Numbers of the curves that keys have hidden; None without keys.
     """
-    width = console.width if console.is_terminal else 80
+    width = (console.width if console.is_terminal else 80) - margin
     ascii_only = options.ascii_only or console.options.ascii_only
     look = view.PlotLook(
         width, height, ascii_only, options.light, hidden is not None, hidden or frozenset()

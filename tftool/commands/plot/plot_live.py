@@ -1,7 +1,9 @@
 """Live plot of a session on the terminal."""
 
-from rich.console import Console
+from rich import box
+from rich.console import Console, Group
 from rich.live import Live
+from rich.panel import Panel
 from rich.text import Text
 
 from tftool.base.errors import InputError, TransformException, UsageError
@@ -32,11 +34,15 @@ NEAREST = seconds(0.2)
 KEYS = (
     Hint("+ -", "zoom"),
     Hint("left right", "time"),
-    Hint("0", "all"),
     Hint("1-9", "hide a curve"),
+    Hint("i", "only one curve"),
+    Hint("0", "all"),
     Hint("q", "quit"),
 )
 """Keys of a live plot with their meanings."""
+
+_CURVES = frozenset(range(1, 10))
+"""Numbers of curves that keys can hide."""
 
 _STEP = 1.5
 """Magnification of one step of the zoom."""
@@ -57,7 +63,10 @@ class PlotSight:
         self._back: Duration = 0
 
     def press(self, key: str) -> None:
-        """Handle a key: + and - zoom, arrows move in time, 0 shows all, digits hide curves."""
+        """Handle a key: zoom, move in time, hide curves, isolate one, or show all.
+
+        The key "i" shows only the first curve, then only the second, and so on.
+        """
         quarter = self._span // 4
         if key in ("q", "Q"):
             self.ended = True
@@ -70,9 +79,13 @@ class PlotSight:
         elif key == "right":
             self._back = self._back - quarter
         elif key == "0":
-            self._span, self._back = self._window, 0
+            self._span, self._back, self.hidden = self._window, 0, frozenset()
         elif key in "123456789":
             self.hidden ^= {int(key)}
+        elif key == "i":
+            alone = _CURVES - self.hidden
+            first = min(alone) % len(_CURVES) + 1 if len(alone) == 1 else 1
+            self.hidden = _CURVES - {first}
         self._back = max(0, self._back)
 
     def span(self, now: Stamp) -> tuple[Stamp, Stamp]:
@@ -108,14 +121,23 @@ def plot_live(connection: Connection, options: PlotOptions, pairs: list[tuple[st
             end = None if options.lasting is None else due + options.lasting
             world.clock.limit(end)
             while not sight.ended and (end is None or due <= end):
-                height = console.height - 1 - takes_keys
+                # Title bar and border take three lines.
+                height = console.height - 2 - takes_keys
                 text = _newest(world, options, pairs, start, sight, console, height)
+                text.rstrip()
                 elapsed, back = as_seconds(due - start), as_seconds(sight.back)
                 head = title_bar(title, elapsed, console.width, look, behind=back)
-                text = head.append("\n").append_text(text)
-                if takes_keys:
-                    text.append_text(footer(KEYS, console.width, look))
-                live.update(text, refresh=True)
+                framed = Panel(
+                    text,
+                    title="Curves",
+                    title_align="left",
+                    box=box.ASCII if ascii_only else box.ROUNDED,
+                    border_style=look.ink(look.palette.dim),
+                    padding=0,
+                    height=console.height - 1 - takes_keys,
+                )
+                keys = [footer(KEYS, console.width, look)] if takes_keys else []
+                live.update(Group(head, framed, *keys), refresh=True)
                 due = max(due + seconds(0.2), world.clock.now())
                 await world.clock.sleep_until(due, Phase.WATCH)
 
@@ -149,4 +171,6 @@ def _newest(
     except (TransformException, UsageError, InputError) as refusal:
         return Text(f"Waiting: {refusal}\n", style="yellow", overflow="fold")
     span = as_seconds(begin - start), as_seconds(now - start)
-    return drawn(options, found, start, console, height=height, span=span, hidden=sight.hidden)
+    return drawn(
+        options, found, start, console, margin=2, height=height, span=span, hidden=sight.hidden
+    )
