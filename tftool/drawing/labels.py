@@ -75,7 +75,7 @@ def label_text(name: str, age: float, columns: int, least: int, *, ascii_only: b
     more = "~" if ascii_only else "…"
     text = fitted(name, max(least, columns // 3), more=more)
     if theme.is_stale(age):
-        text = f"{text} {age:.1f} s ago"
+        text = f"{text} {theme.age_words(age)} ago"
     text = fitted(text, columns, more=more)
     return text.encode("ascii", "replace").decode("ascii") if ascii_only else text
 

@@ -103,6 +103,11 @@ def is_stale(age: float) -> bool:
     return not age <= FRAME_TIMEOUT / 3.0
 
 
+def age_words(age: float) -> str:
+    """Format a frame's age: whole seconds if the frame is stale, so that all panels agree."""
+    return f"{age // 1:.0f} s" if is_stale(age) else f"{age:.1f} s"
+
+
 def of_age(color: Color, age: float, palette: Palette) -> Color:
     """Return a frame's colour by its age: its own, amber when silent, red after a long silence.
 

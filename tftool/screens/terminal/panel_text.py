@@ -145,7 +145,7 @@ def _facts(
         rate = "0.0" if stopped else f"{info.rate:.1f}"
         if stopped and not theme.is_stale(age):
             ink = look.ink(look.palette.warning)
-    shown = f"{age:.1f} s" if age < 100.0 else f"{age:.0f} s"
+    shown = theme.age_words(age)
     if columns.age > 10 and theme.is_stale(age):
         shown += " ago"
     return [(f"{rate:>{columns.rate}}", ink), (f"{shown:>{columns.age}}", None)]
@@ -207,7 +207,7 @@ def _time_of(moment: SceneMoment, found: TransformStamped, age: float) -> tuple[
     since = as_seconds(found.stamp - (moment.stamp - moment.elapsed))
     # A stamp of another clock is shown as it is.
     stamp = f"{since:.3f} s" if abs(since) < FAR else f"{as_seconds(found.stamp):.3f}"
-    return "at", f" {stamp}" + (f", {age:.1f} s old" if age else "")
+    return "at", f" {stamp}" + (f", {theme.age_words(age)} old" if age else "")
 
 
 def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tuple[str, str]]:
@@ -519,7 +519,7 @@ class PairPlot:
             # The curve of a static pair ends at the present too.
             stamps = stamps[stamps <= now]
         age = 0.0 if moment.behind else stopped_for(moment)
-        note = f"{age:.0f} s old" if age else ""
+        note = f"{theme.age_words(age)} old" if age else ""
         key = (pair.target, pair.source, span, newest, note, width, height, look)
         if key == self._key:
             return self._lines
@@ -532,7 +532,8 @@ class PairPlot:
         if path is None or not pair.target or not path.valid.any():
             words = "No pose to plot in this span."
             if newest is not None and newest < span.first:
-                words += f" The newest is {as_seconds(now - newest):.0f} s old."
+                old = stopped_for(moment) or as_seconds(now - newest)
+                words += f" The newest is {theme.age_words(old)} old."
             self._lines = wrapped(words, width, look.ink(look.palette.dim))
             return self._lines
         ascii_only = look.ascii_only

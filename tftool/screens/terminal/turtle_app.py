@@ -16,6 +16,7 @@ from textual.content import Content
 
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.drawing import theme
 from tftool.screens.terminal import panel_text as keys
 from tftool.screens.terminal import panel_text as panels
 from tftool.screens.terminal.log_lines import Journal
@@ -128,6 +129,7 @@ class TurtleApp(PanelApp):
         self._question.at = self.setting.at
         self._stale = True
         self._painted: object = None
+        self._aged: dict[str, float] = {}
         self._count = 0
         self._back = 0
         self._strip = 1
@@ -258,8 +260,10 @@ class TurtleApp(PanelApp):
         # The tree's new size is only known after the next update.
         self._stale = has_grown
         self._draw_field(moment)
-        # The picture and the tree must show the same frames.
-        if panels_too or has_grown:
+        aged = {name: age // 1 for name, age in moment.ages.items() if theme.is_stale(age)}
+        # The picture and the panels must show the same frames, and the same ages.
+        if panels_too or has_grown or aged != self._aged:
+            self._aged = aged
             self._draw_panels(moment)
 
     def _draw_field(self, moment: SceneMoment) -> None:
