@@ -68,7 +68,7 @@ def test_panels_take_all_rows_of_the_screen_between_title_and_keys():
         assert lines[-2].startswith("╰")
         assert lines[-1].rstrip().endswith("q quit")
         # Both curves use the rows of their panel.
-        tall = line_of(lines, "│odom ") - line_of(lines, "│base ")
+        tall = line_of(lines, "● odom ") - line_of(lines, "● base ")
         assert tall >= (size[1] - 14) // 2
 
 
@@ -111,10 +111,10 @@ def test_a_silent_sender_has_no_rate_and_no_bar_and_is_sorted_last():
     first, second = line_of(lines, "│node_0 "), line_of(lines, "│node_1 ")
     assert "10.00 Hz" not in "".join(lines)
     assert "0.00 Hz" in lines[first]
-    assert "▇" not in lines[first]
-    assert "▇" in lines[second]
-    assert "0.00 Hz" in lines[line_of(lines, "│base ")]
-    assert line_of(lines, "│odom ") < line_of(lines, "│base ")
+    assert "━" not in lines[first]
+    assert "━" in lines[second]
+    assert "0.00 Hz" in lines[line_of(lines, "● base ")]
+    assert line_of(lines, "● odom ") < line_of(lines, "● base ")
 
 
 def test_a_chain_names_its_pair_and_its_delay():
@@ -143,5 +143,16 @@ def test_keys_are_told_and_q_ends_it():
 def test_numbered_frames_are_sorted_by_their_numbers():
     lines = shown(frames=("link_10", "link_2", "link_1"))
 
-    places = [line_of(lines, f"│{name} ") for name in ("link_1", "link_2", "link_10")]
+    places = [line_of(lines, f"● {name} ") for name in ("link_1", "link_2", "link_10")]
     assert places == sorted(places)
+
+
+def test_bars_have_a_scale_and_small_curves_their_maximum():
+    lines = shown(frames=[f"link_{n:02}" for n in range(12)], size=(120, 24))
+
+    # The fastest node sends at 10 Hz; the scale is a round number above its rate.
+    heading = lines[line_of(lines, "broadcaster ")]
+    assert heading.rstrip(" │").endswith("12Hz")
+    row = lines[line_of(lines, "● link_00 ")]
+    assert row.count("20.0 ms") == 1
+    assert row.rstrip(" │").endswith("20ms")

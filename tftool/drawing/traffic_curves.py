@@ -20,6 +20,7 @@ from tftool.drawing.sparklines import TrafficHistory, TrafficLook, sparkline
 from tftool.drawing.table_columns import fitted, padded, rest_of_list
 from tftool.drawing.traffic_view import (
     bar,
+    delay_digits,
     is_silent,
     late_style,
     milliseconds,
@@ -36,11 +37,14 @@ SHORTEST: Final = seconds(5)
 NUMBER: Final = 10
 """Width in cells of a number with its unit."""
 
-GUTTER: Final = 5
+GUTTER: Final = 7
 """Cells at the left of a curve for its scale."""
 
 WITH_SCALE: Final = 3
 """Smallest number of lines of a curve with a scale."""
+
+WITH_MIDDLE: Final = 5
+"""Smallest number of lines of a curve whose scale has a label in the middle."""
 
 _STEPS: Final = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
@@ -104,6 +108,7 @@ def curves(
     if not links:
         return [Text("No transforms yet.", dim)]
     window = _window(now, links, history)
+    digits = delay_digits(one.series for one in links if not one.is_static)
     lines = [_heading(as_seconds(window), layout)][: layout.height - 1]
     room = layout.height - len(lines)
     shown = links[layout.first :]
@@ -116,7 +121,8 @@ def curves(
         if not link.is_static and len(links) <= room:
             extra = -(-spare // repeated)
             spare, repeated = spare - extra, repeated - 1
-        lines += _block(now, link, history.looks(link.frame), window, 1 + extra, layout)
+        looks = history.looks(link.frame)
+        lines += _block(now, link, looks, window, 1 + extra, digits, layout)
     if len(shown) < len(links):
         left = len(links) - len(shown) - layout.first
         words = rest_of_list(left, layout.first, ascii_only=layout.ascii_only)
@@ -140,20 +146,27 @@ def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
     longest = max([cell_len(visible(name)) for name, _ in found], default=0)
     names = max(len("broadcaster"), min(longest, layout.width // 3))
     cells = layout.width - names - 3 * NUMBER - 4
-    numbers = f"{'rate':>{NUMBER}}{'delay':>{NUMBER}}{'most':>{NUMBER}}"
-    lines = [Text(fitted(padded("broadcaster", names) + numbers, layout.width, more=""), dim)]
+    numbers = f"{'rate':>{NUMBER}}{'mean delay':>{NUMBER + 1}}{'most':>{NUMBER}}"
+    top, digits = _above(fastest), delay_digits(traffic.senders.values())
+    scale = f"  0{_short(top, 'Hz'):>{cells - 1}}" if cells >= 8 else ""
+    words = padded("broadcaster", names) + numbers + scale
+    lines = [Text(fitted(words, layout.width, more=""), dim)]
     room = layout.height - 1
     for name, one in found if len(found) <= room else found[: max(1, room - 1)]:
         late = late_style(now, one, False)
         line = Text.assemble(
             (padded(visible(name), names, more=layout.more), dim),
             (f"{rate_words(now, one):>{NUMBER}}", layout.ink(layout.state(late))),
-            (f"{milliseconds(one.average_delay):>{NUMBER}}", layout.ink(layout.state(late))),
-            (f"{milliseconds(one.maximum_delay):>{NUMBER}}", dim),
+            (
+                f"{milliseconds(one.average_delay, digits):>{NUMBER + 1}}",
+                layout.ink(layout.state(late)),
+            ),
+            (f"{milliseconds(one.maximum_delay, digits):>{NUMBER}}", dim),
         )
         if cells >= 8:
-            drawn = bar(rates[name], fastest, cells, ascii_only=layout.ascii_only)
-            line.append("  " + drawn, layout.ink(_rate_color(palette)))
+            drawn = bar(rates[name], top, cells, ascii_only=layout.ascii_only).replace("▇", "━")
+            ink = layout.state(late) if late else _rate_color(palette)
+            line.append("  " + drawn, layout.ink(ink))
         line.truncate(layout.width)
         lines.append(line)
     if len(found) > len(lines) - 1:
@@ -179,8 +192,8 @@ def _heading(span: float, layout: TrafficLayout) -> Text:
     over = f"last {span:.0f} s"
     wide = layout.curve
     words = padded("frame", layout.names)
-    for word in ("rate", "delay"):
-        words += f"{word:>{NUMBER}}  " + (f"{over:>{wide - 1}} " if wide else "")
+    for word in ("rate", "mean delay"):
+        words += f"{word:>{NUMBER}}  " + (f"{over:<{wide - 1}} " if wide else "")
     return Text(fitted(words, layout.width, more=""), layout.ink(layout.palette.dim))
 
 
@@ -190,6 +203,7 @@ def _block(
     looks: Sequence[TrafficLook],
     window: Duration,
     height: int,
+    digits: int,
     layout: TrafficLayout,
 ) -> list[Text]:
     """Return the lines of one edge: its name, and both curves beside their numbers."""
@@ -201,21 +215,26 @@ def _block(
     name = layout.ink(layout.state(late) if late else color, bold=True)
     # A blank line below keeps tall curves of neighbours apart.
     tall = height - 1 if height > WITH_SCALE else height
-    rates, delays = _numbers(now, link, tall)
+    rates, delays = _numbers(now, link, tall, digits)
+    sign = ("!" if late else "+") if layout.ascii_only else "●"
     words = [
-        visible(link.frame),
-        f" in {visible(link.parent)}",
-        f" from {visible(link.sender)}",
+        f"{' ' if link.is_static else sign} {visible(link.frame)}",
+        f"  in {visible(link.parent)}",
+        f"  from {visible(link.sender)}",
     ]
+    healthy = layout.ink(layout.state(late) if late else _rate_color(palette))
     drawn = [
         _curve(looks, part, now, window, (layout.curve, tall), ink, layout)
-        for part, ink in ((1, _rate_color(palette)), (2, _delay_color(palette)))
+        for part, color in ((1, _rate_color(palette)), (2, _delay_color(palette)))
+        for ink in [layout.state(late) if late else color]
     ]
     lines = []
     for row in range(tall):
         word = words[row] if row < len(words) else ""
         line = Text(no_wrap=True, overflow="crop")
         line.append(padded(word, layout.names, more=layout.more), dim if row else name)
+        if not row:
+            line.stylize(healthy, 0, 1)
         for texts, cells in zip((rates, delays), drawn, strict=True):
             text = texts[row] if row < len(texts) else ""
             is_dim = row > 0 or link.is_static
@@ -226,7 +245,7 @@ def _block(
     return [*lines, *[Text()] * (height - tall)]
 
 
-def _numbers(now: Stamp, link: FrameTraffic, tall: int) -> tuple[list[str], list[str]]:
+def _numbers(now: Stamp, link: FrameTraffic, tall: int, digits: int) -> tuple[list[str], list[str]]:
     """Return the numbers that are written to the left of the rate curve and the delay curve."""
     series: Series = link.series
     if link.is_static:
@@ -236,10 +255,8 @@ def _numbers(now: Stamp, link: FrameTraffic, tall: int) -> tuple[list[str], list
         since = f"{short_duration(silence(now, series))} ago"
         rates = [*rates, since] if tall > 1 else [since]
     most = series.maximum_delay
-    words = (
-        "" if most is None else f"max {most:.1f} s" if most >= 1.0 else f"max {most * 1e3:.0f} ms"
-    )
-    return rates, [milliseconds(series.average_delay), words]
+    words = "" if most is None else f"max {most * 1e3:.{digits}f}"
+    return rates, [milliseconds(series.average_delay, digits), words]
 
 
 def _curve(
@@ -260,15 +277,23 @@ def _curve(
     found = [one for one in looks if one.moment >= now - window]
     values: list[float | None] = [one[part] for one in found]
     if rows < WITH_SCALE:
-        shown = sparkline(values, columns, ascii_only=layout.ascii_only)
-        last = Text(shown or " " * columns, layout.ink(color)).append(" ")
+        # The maximum of a small curve is written after the curve.
+        most = max((one for one in values if one is not None), default=None)
+        unit = "ms" if part == 2 else "Hz"
+        told = "" if most is None else _short(most * (1e3 if part == 2 else 1.0), unit)
+        shown = sparkline(values, max(0, columns - GUTTER), ascii_only=layout.ascii_only)
+        last = Text(f"{shown:{max(0, columns - GUTTER)}}", layout.ink(color))
+        last.append(f"{told:>{min(columns, GUTTER)}} ", layout.ink(palette.dim))
         return [*[Text(" " * (columns + 1))] * (rows - 1), last]
     columns -= GUTTER
     highest = max((one for one in values if one is not None), default=0.0)
     # A scale of a few microseconds would only magnify jitter.
     top = max(1e-3, _above(highest))
     heights = _heights(found, values, now, window, 2 * columns) / top
-    scale = {0: _short(top * (1e3 if part == 2 else 1.0)), rows - 1: "0"}
+    shown_top = top * (1e3 if part == 2 else 1.0)
+    scale = {0: _short(shown_top, "ms" if part == 2 else "Hz"), rows - 1: "0"}
+    if rows >= WITH_MIDDLE and rows % 2:
+        scale[rows // 2] = _short(0.5 * shown_top)
     lines = []
     for row, cells in enumerate(_filled(heights, columns, rows, color, palette, layout.ascii_only)):
         line = Text(f"{scale.get(row, ''):>{GUTTER - 1}} ", layout.ink(palette.dim))
@@ -308,7 +333,8 @@ def _filled(
         counts = last + 1 - tops
         across = np.repeat(known, counts)
         down = last - (np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts))
-        shares = 0.72 * (1.0 - down // 4 / max(1, rows)) + 0.18
+        # A faint fill, so that the curve itself is what the eye follows.
+        shares = 0.14 * (1.0 - down // 4 / max(1, rows)) + 0.06
         ground = np.full(len(down), packed(palette.panel), np.int64)
         dots.mark(across, down, blended(ground, color, shares))
     points = np.stack([known + 0.5, tops + 0.5], 1)
@@ -326,5 +352,5 @@ def _above(value: float) -> float:
     return next((power * step for step in _STEPS if power * step >= wanted), 10.0 * power)
 
 
-def _short(value: float) -> str:
-    return f"{value:.3g}"[: GUTTER - 1]
+def _short(value: float, unit: str = "") -> str:
+    return f"{value:.3g}{unit}"[: GUTTER - 1]

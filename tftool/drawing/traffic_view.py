@@ -1,6 +1,6 @@
 """Rates and delays of received transforms: in tf2_monitor's format, as a table, as JSON."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -176,6 +176,7 @@ def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
 ) -> list[TableColumn]:
     """Return the columns of rate, delay and time since the last message."""
+    digits = delay_digits(one for one, still in zip(series, statics, strict=True) if not still)
     rates = [rate_words(now, one) for one in series]
     heights = [present_rate(now, one) or 0.0 for one in series]
     late = [late_style(now, one, still) for one, still in zip(series, statics, strict=True)]
@@ -203,10 +204,13 @@ def _measures(
         TableColumn("rate", shown, stands_right=True, goes=6),
         TableColumn("", bars, goes=1),
         TableColumn(
-            "delay", cells([milliseconds(one.average_delay) for one in series]), True, goes=5
+            "delay",
+            cells([milliseconds(one.average_delay, digits) for one in series]),
+            True,
+            goes=5,
         ),
         TableColumn(
-            "most", cells([milliseconds(one.maximum_delay) for one in series]), True, goes=2
+            "most", cells([milliseconds(one.maximum_delay, digits) for one in series]), True, goes=2
         ),
         TableColumn("last heard", silent, True),
     ]
@@ -312,6 +316,12 @@ def _number(value: float | None) -> str:
     return "unknown" if value is None else format(value, "g")
 
 
-def milliseconds(value: float | None) -> str:
+def delay_digits(series: Iterable[Series]) -> int:
+    """Return the number of decimals of all delays in milliseconds, mean and most alike."""
+    largest = max((abs(one.maximum_delay or 0.0) for one in series), default=0.0)
+    return 3 if 0.0 < largest < 0.01 else 1 if largest < 10.0 else 0
+
+
+def milliseconds(value: float | None, digits: int = 1) -> str:
     """Format a number of seconds as milliseconds."""
-    return NONE if value is None else f"{value * 1e3:.1f} ms"
+    return NONE if value is None else f"{value * 1e3:.{digits}f} ms"
