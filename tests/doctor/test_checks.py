@@ -376,7 +376,7 @@ def test_trees_that_nothing_joins_are_one_finding():
     finding = found(made, "split-tree")
     assert finding.message == "arm_left, arm_right are not joined to the tree of odom"
     assert len(finding.evidence) == 2
-    assert "where to join arm_left, arm_right:" in finding.fixes[0].text
+    assert finding.fixes[0].text == "nothing in the data says where to join arm_left, arm_right"
 
 
 def test_wheels_of_one_message_with_two_publishers_are_one_finding():
@@ -394,10 +394,12 @@ def test_wheels_of_one_message_with_two_publishers_are_one_finding():
     made.moving("base_link", "head", pose=stands)
     conflicts = [one for one in made.judged().findings if one.id == "publisher-conflict"]
     assert [one.edges for one in conflicts] == [
-        (("base_link", "left"), ("base_link", "right")),
         (("base_link", "head"),),
+        (("base_link", "left"), ("base_link", "right")),
     ]
-    assert conflicts[0].message.startswith("left in base_link, right in base_link have two sources")
+    assert conflicts[1].message.startswith("left in base_link, right in base_link have two sources")
+    # Two wheels that only turn may as well be fast.
+    assert [one.severity for one in conflicts] == [Severity.WARNING, Severity.NOTE]
 
 
 def test_odometry_messages_say_which_transform_is_missing():
@@ -479,7 +481,8 @@ def test_a_base_below_map_beside_odom_is_out_of_line():
         "odom in map never moves, and nothing hangs from odom"
         in (found(made, "rep105-shape").evidence[0])
     )
-    assert "first stop its constant publisher" in found(made, "rep105-shape").fixes[0].text
+    # Some stacks are so on purpose.
+    assert found(made, "rep105-shape").severity is Severity.NOTE
 
     above = Robot()
     above.moving("odom", "map")
@@ -603,7 +606,7 @@ def test_what_only_came_after_time_went_back_is_left_out():
 def test_a_threshold_can_be_changed_and_is_then_told():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", without=(3.0, 4.0))
-    assert "gap" in ids(made)
+    assert "gap" in ids(made, notes=True)
     wide = Settings(limits={"gap": {"seconds": 2.0}})
     assert "gap" not in [one.id for one in made.judged(wide).findings]
     narrow = Settings(limits={"gap": {"seconds": 0.7}})

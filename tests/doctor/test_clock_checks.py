@@ -1,7 +1,6 @@
 """Tests of the checks of clocks and stamps, each on a small robot."""
 
 import io
-from dataclasses import replace
 
 import pytest
 from rich.console import Console
@@ -11,7 +10,6 @@ from tests.doctor.robots import LASTS, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.explanation import traced
 from tftool.doctor.findings import Severity
-from tftool.doctor.judge import judge
 from tftool.doctor.lookup_reasons import Cause
 from tftool.doctor.trace import Question
 from tftool.drawing import finding_view
@@ -91,7 +89,7 @@ def test_messages_of_a_sensor_have_wild_stamps_too():
 def test_transforms_from_the_future_and_of_long_ago():
     ahead = robot(odometry=False)
     ahead.moving("odom", "base_link", offset=0.5)
-    assert found(ahead, "future-stamp").severity is Severity.WARNING
+    assert found(ahead, "future-stamp").severity is Severity.NOTE
 
     localised = robot()
     localised.moving("map", "odom", hz=20, pose=stands, offset=1.0)
@@ -99,10 +97,11 @@ def test_transforms_from_the_future_and_of_long_ago():
 
     late = robot(odometry=False, scans=False)
     late.moving("odom", "base_link", latency=0.8)
-    assert found(late, "stale-stamp").severity is Severity.WARNING
-    later = robot(odometry=False, scans=False)
-    later.moving("odom", "base_link", latency=11.0)
-    assert found(later, "stale-stamp").severity is Severity.ERROR
+    assert found(late, "stale-stamp").severity is Severity.NOTE
+    # Scans of the present time have to wait for such transforms.
+    later = robot(odometry=False)
+    later.moving("odom", "base_link", latency=1.1, end=LASTS - 1.0)
+    assert ids(later) == ["sensor-outruns-tf"]
 
 
 def test_a_sensor_whose_clock_is_ahead():
@@ -195,7 +194,6 @@ def test_an_imu_on_the_right_clock_is_off_all_others():
     made.heard["/imu"] = (kind, [(stamp + seconds(143 * 3600), log, f) for stamp, log, f in rows])
     findings = [one for one in made.judged().findings if one.because_of is None]
     assert [one.id for one in findings] == ["clock-offset", "shifted-clock"]
-    # One of the two is enough in a report.
     assert [one.is_shown for one in findings] == [True, False]
     assert findings[0].topics == ("/imu",)
     assert "143 hours off" in findings[0].message
@@ -212,13 +210,13 @@ def test_a_gps_that_is_late_is_no_clock_beside_which_an_imu_is_ahead():
 
 
 @pytest.mark.parametrize(
-    ("hours", "words"), [(5.8, "set the one"), (-5.8, "if all agree, old data was played")]
+    ("hours", "words"), [(5.8, "chronyc tracking`)"), (-5.8, "played again looks the same")]
 )
 def test_stamps_ahead_of_the_recorder_by_hours_are_another_clock_and_not_played(hours, words):
     made = robot(log_from=START - hours * 3600.0)
     made.hears("/points", "laser", 5.0, "sensor_msgs/PointCloud2")
     made.moving("map", "odom", 10.0, stands, offset=-hours * 3600.0, latency=0.002)
-    assert words in found(made, "clock-offset").fixes[0].text
+    assert found(made, "clock-offset").fixes[0].text.endswith(words)
 
 
 def test_without_a_clock_stamps_near_1970_may_be_a_simulation_or_not():
@@ -329,21 +327,16 @@ def test_what_repeats_one_stamp_gets_no_advice_about_clocks_or_the_cache():
     assert not any("chrony" in fix.text for one in made.judged().findings for fix in one.fixes)
 
 
-@pytest.mark.parametrize(
-    ("kind", "words"),
-    [("MCAP file", "self.get_clock().now()"), ("ROS 1 bag", "rospy.Time.now() (C++: ros::Time")],
-)
-def test_a_localiser_that_repeats_a_stamp_is_not_to_be_stamped_anew(kind, words):
+def test_no_stamp_that_stands_still_is_to_be_stamped_anew():
     made = robot()
     for tick in range(160):
         made.sent("map", "odom", tick * 0.05, stamp=seconds(START + 1.0))
         made.sent("base_link", "arm", tick * 0.05, stamp=seconds(START + 1.0))
-    findings = judge(replace(made.evidence(), kind=kind)).findings
-    cure = {one.edges[0]: one.fixes for one in findings if one.id == "frozen-stamp"}
-    (localiser,), (arm,) = cure["map", "odom"], cure["base_link", "arm"]
-    assert localiser.text.startswith("compare the stamp with those of the scans")
-    assert "now()" not in localiser.text
-    assert words in arm.text
+    findings = [one for one in made.judged().findings if one.id == "frozen-stamp"]
+    assert len(findings) == 2
+    assert {one.fixes[0].text for one in findings} == {
+        "look at what its publisher waits for: `ros2 topic info --verbose /tf`"
+    }
 
 
 def test_stamps_that_repeat_while_a_slow_simulation_stands_are_not_frozen():
@@ -368,7 +361,7 @@ def test_seconds_of_a_slow_network_are_no_part_of_a_clock_that_was_never_set():
     found_shift = found(made, "shifted-clock")
     assert found_shift.message.startswith("all stamps are 184 days before their reception")
     assert "3 of 3 streams" in found_shift.evidence[0]
-    assert ids(made) == ["stale-stamp"]
+    assert ids(made) == []
     assert {child for _, child in found(made, "stale-stamp").edges} == {"arm", "hand"}
 
 
@@ -422,7 +415,7 @@ def test_a_localiser_on_the_recorders_clock_is_off_the_others_and_no_more(hours)
     assert finding.edges == (("map", "odom"),)
     off = "14.94 s" if hours > 0 else "168 hours"
     assert finding.message.startswith(f"odom in map is {off}")
-    assert ("played" in finding.fixes[0].text) == (hours < -1)
+    assert ("played again" in finding.fixes[0].text) == (hours < -1)
     # No other data shows the two clocks.
     assert ids(made, notes=True) == ["clock-offset"]
     asked = traced(made.judged().model, Question("map", "laser", seconds(START + 4.0)))
@@ -450,7 +443,7 @@ def test_a_delay_that_varies_is_not_a_clock():
         made.sent("odom", "base_link", tick * 0.05, drives(tick * 0.05), latency=1.0 + tick / 400)
     late = found(made, "stale-stamp")
     assert late.evidence[0].endswith("1.20 s late (median), from 1.04 s to 1.36 s for 80 %")
-    assert "clocks" not in late.fixes[0].text
+    assert not late.fixes
 
     steady = robot(odometry=False, scans=False)
     steady.moving("odom", "base_link", latency=0.8)
@@ -461,8 +454,9 @@ def test_stamps_that_come_in_time_on_another_topic_show_that_tf_queues():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", latency=2.0)
     made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", latency=0.01)
-    cure = found(made, "stale-stamp").fixes[0].text
-    assert cure.startswith("/odom has the same stamps, 10 ms late: these messages wait in a queue")
+    finding = found(made, "stale-stamp")
+    assert finding.severity is Severity.WARNING
+    assert finding.fixes[0].text.startswith("/odom has the same stamps, 10 ms late")
 
 
 def test_a_localiser_out_of_order_hangs_on_the_odometry_that_its_scans_wait_for():
@@ -543,6 +537,6 @@ def test_data_of_rosbag_play_beside_live_nodes_is_told_as_such():
     rows = made.records["map", "odom", False]
     live = [(stamp + seconds(168 * 3600), pose, number) for stamp, pose, number in rows]
     made.records["map", "odom", False] = live
-    assert "if all agree" in found(made, "clock-offset").fixes[0].text
+    assert "looks the same" in found(made, "clock-offset").fixes[0].text
     made.sent("base_link", "arm", 1.0, node="/play_1649593754885150512")
     assert found(made, "clock-offset").fixes[0].text.startswith("a recording was played")

@@ -60,7 +60,7 @@ def test_a_higher_rate_is_advised_only_where_the_link_comes_too_seldom(hz, advis
 
 
 @pytest.mark.parametrize(
-    ("hours", "cure"), [(0.004, "set the one that is off"), (168.0, "played beside")]
+    ("hours", "cure"), [(-0.004, "chronyc tracking`)"), (168.0, "played again looks the same")]
 )
 def test_a_path_across_two_clocks_is_no_matter_of_the_cache(hours, cure):
     made = robot(log_from=START + hours * 3600.0)
@@ -74,7 +74,7 @@ def test_a_path_across_two_clocks_is_no_matter_of_the_cache(hours, cure):
 
     assert (found.cause, found.check) == (Cause.CLOCK_OFFSET, "clock-offset")
     assert found.why[0].startswith("odom in map is ")
-    assert [cure in remedy.text for remedy in found.remedies] == [True]
+    assert [remedy.text.endswith(cure) for remedy in found.remedies] == [True]
 
 
 def test_a_frame_with_a_slash_is_used_by_its_messages():
@@ -223,8 +223,7 @@ def test_two_clocks_never_meet():
             "odom",
             "camera_link",
             Cause.SPLIT,
-            "nothing in the data says where to join camera_link: find the node that should publish "
-            "that",
+            "nothing in the data says where to join camera_link",
         ),
     ],
 )

@@ -68,7 +68,8 @@ def test_a_wheel_that_turns_more_than_once_per_sample_has_one_source():
     for tick in range(160):
         angle += 1.5 if tick % 2 else 2.0 * math.pi - 1.4
         made.sent("base_link", "wheel", tick * 0.05, (0.0, 0.2, 0.0, *turned(angle, 1)))
-    assert "publisher-conflict" in ids(made)
+    # Without the name of the source of joint states, this may be two sources or one fast wheel.
+    assert found(made, "publisher-conflict").severity is Severity.NOTE
     made.hears("/joint_states", "", kind="sensor_msgs/JointState")
     evidence = made.evidence()
     known = (*evidence.publishers, Publisher("/joint_states", "/gazebo"))
@@ -82,7 +83,7 @@ def test_a_recorder_whose_clock_is_behind_all_streams_is_no_offset():
     made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", latency=-0.049)
     assert "clock-offset" not in ids(made, notes=True)
     made.moving("map", "odom", 10.0)
-    assert "clock-offset" in ids(made)
+    assert "clock-offset" in ids(made, notes=True)
 
 
 def test_a_late_topic_made_from_one_in_time_names_the_node_between():
@@ -158,15 +159,6 @@ def test_a_pose_and_its_transform_from_one_node_wait_for_nothing():
     known = (*evidence.publishers, Publisher("/pose", "/star"))
     told = judge(replace(evidence, publishers=known)).findings
     assert "sensor-outruns-tf" not in [one.id for one in told]
-
-
-def test_wheels_that_never_turn_are_not_shown_as_mounts():
-    for child, told in (("left_wheel_link", []), ("gps_link", ["static-on-tf"])):
-        made = robot(scans=False, odometry=False)
-        made.moving("odom", "base_link", 10.0, end=70.0)
-        made.moving("base_link", child, 10.0, stands, end=70.0)
-        shown = [one.id for one in made.judged().findings if one.is_shown]
-        assert shown == told
 
 
 def test_repeated_stamps_before_noetic_are_a_note():

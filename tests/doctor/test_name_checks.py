@@ -15,9 +15,7 @@ def test_a_frame_that_no_transform_names_is_told_with_what_fits():
     made.hears("/scan", "laser_frame")
     finding = found(made, "unknown-frame")
     assert (finding.frames, finding.topics) == (("laser_frame",), ("/scan",))
-    assert finding.fixes[0].text == (
-        "if laser is the frame of this sensor, set frame_id to it in the publisher of /scan"
-    )
+    assert finding.fixes[0].text == "if laser is the frame of this sensor, /scan should name it"
 
 
 def test_a_slash_in_a_header_has_its_own_check():
@@ -78,9 +76,11 @@ def test_a_mount_is_proposed_for_a_sensor_of_a_device_without_a_base():
 def test_an_unknown_frame_of_two_robots_is_not_in_their_namespaced_transforms_either():
     made = Robot()
     made.moving("odom", "base_link", topic="/r1/tf")
+    made.sent("base_link", "imu", 0.0, topic="/r1/tf_static")
     for robot_name in ("r1", "r2"):
         made.hears(f"/{robot_name}/gps/fix", "navsat_link", kind="sensor_msgs/NavSatFix")
     finding = found(made, "unknown-frame")
+    assert finding.severity is Severity.WARNING
     assert finding.because_of is None
     assert finding.evidence[0].endswith("; 2 robots use this name: r1, r2")
 
@@ -139,11 +139,11 @@ def test_a_prefix_that_half_of_the_frames_carry():
 def test_transforms_on_a_namespaced_topic():
     made = Robot()
     made.moving("odom", "base_link", topic="/r1/tf")
-    assert found(made, "namespaced-topic").severity is Severity.WARNING
+    assert found(made, "namespaced-topic").evidence == ("nothing moves on /tf",)
 
     beside = robot()
     beside.moving("other", "thing", topic="/r1/tf")
-    assert found(beside, "namespaced-topic").severity is Severity.NOTE
+    assert found(beside, "namespaced-topic").evidence == ("/tf has transforms too",)
 
 
 def test_a_note_does_not_hide_an_error():

@@ -80,16 +80,6 @@ def test_a_filter_far_below_the_positions_that_it_uses():
     assert ids(far_away(-8.0)) == []
 
 
-def test_two_nodes_may_estimate_one_pose_differently():
-    for node, severity in (("/wheels", Severity.NOTE), ("/filter", Severity.WARNING)):
-        made = robot(odometry=False)
-        made.moving("odom", "base_link", node="/filter")
-        made.odometry = Robot()
-        beside = lambda t: (0.5 * t, 0.3, 0.0, *NO_TURN)  # noqa: E731
-        made.odometry.moving("odom", "base_link", pose=beside, topic="/odom", node=node)
-        assert found(made, "odometry-tf-mismatch").severity is severity
-
-
 def test_negative_variances_are_read_from_the_messages(tmp_path):
     path = tmp_path / "run.bag"
     kind = "nav_msgs/msg/Odometry"

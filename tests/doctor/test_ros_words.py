@@ -7,7 +7,6 @@ import pytest
 from tests.doctor.corpus import FAULTS, REENACTED, made_by
 from tests.doctor.judged import found
 from tests.doctor.robots import robot
-from tftool.base.stamps import seconds
 from tftool.doctor.judge import judge
 from tftool.doctor.missing_joins import static_publisher
 from tftool.drawing import finding_view
@@ -45,18 +44,6 @@ def test_a_mount_is_published_by_the_command_of_the_recordings_ros():
     pose = Transform((1.0, 2.0, -0.5), (0.0, 0.0, 0.6, 0.8))
     command = static_publisher("a", "b", pose, ros1=True)
     assert command == "rosrun tf2_ros static_transform_publisher 1 2 -0.5 0 0 0.6 0.8 a b"
-
-
-def test_the_stamp_of_now_is_written_as_in_the_recordings_ros():
-    made = robot()
-    for tick in range(160):
-        made.sent("base_link", "arm", tick * 0.05, stamp=seconds(1.0))
-    made.records["base_link", "arm", False] = [
-        (0, pose, number) for _, pose, number in made.records["base_link", "arm", False]
-    ]
-    assert "self.get_clock().now().to_msg()" in found(made, "zero-stamp").fixes[0].text
-    made.kind = "ROS 1 bag"
-    assert "rospy.Time.now()" in found(made, "zero-stamp").fixes[0].text
 
 
 def test_the_page_of_checks_tells_the_words_of_both():

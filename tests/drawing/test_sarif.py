@@ -49,7 +49,7 @@ def test_a_finding_is_at_its_file_and_names_its_edges():
         if one["ruleId"] == "edge-stopped"
     )
 
-    assert result["level"] == "error"
+    assert result["level"] == "warning"
     (place,) = result["locations"]
     assert place["physicalLocation"]["artifactLocation"]["uri"] == "drive%201/run.mcap"
     assert place["logicalLocations"] == [{"kind": "edge", "fullyQualifiedName": "map -> odom"}]

@@ -16,22 +16,13 @@ from tftool.doctor.wording import several, span
 
 check = checks_of(Area.CLOCKS)
 
-_SET_CLOCK = Fix(
-    "compare the clocks of the computers (`date`, `chronyc tracking`), and set the one that is off"
+_COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc tracking`)")
+_LOOKS_THE_SAME = Fix(
+    f"{_COMPARE_CLOCKS.text}; an older recording that is played again looks the same"
 )
 _PLAY_AGAIN = Fix("a recording was played beside nodes that run on the present time: {play_again}")
-_LOOK = Fix(
-    "compare the clocks of the computers (`date`, `chronyc tracking`); if all agree, old data was "
-    "played beside new data: {play_again}"
-)
-_OLDER = Fix(
-    "compare the clocks of the robot and the recorder (`date`); if they agree, an older recording "
-    "was played again"
-)
 _BOTH = 0.05
 """Fraction of an edge's samples on another clock above which they come from a second source."""
-_PLAYED = seconds(3600)
-"""Offset of stamps from which old data is likelier than two clocks."""
 
 _ONE_CLOCK = seconds(0.05)
 """Maximum difference between two offsets, nanoseconds, that belong to one clock."""
@@ -168,37 +159,28 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "of": model.shift.of,
             "most": "all" if model.shift.streams == model.shift.of else "most",
         },
-        # What was recorded before is stamped before its reception.
-        fixes=(_OLDER if model.shift.by > 0 else _SET_CLOCK,),
+        fixes=(cure_of_offset(model),),
         alone=True,
-        loud=model.shift.streams > 1
-        and not model.was_played
-        and not any(_is_unshifted(model, heard) for heard in model.heard),
     )
 
 
 @check(
     "future-stamp",
-    Severity.WARNING,
+    Severity.NOTE,
     rule="the median latency of a transform is below -{seconds:g} s (for a transform from "
-    "map to odometry: -{localisation:g} s); a note from -{note:g} s on. Not reported if"
+    "map to odometry: -{localisation:g} s). Not reported if"
     " it is ahead by its own period, or is a constant that is up to 1 s ahead",
     headline="{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
     detail="{edge}: {ahead:span} ahead (median){clock}",
     consequence="the latest common time is in the future: a lookup of the latest transform combines"
     " different moments",
-    fixes=(
-        Fix(
-            "compare the clocks of the computers (`chronyc tracking`); if they agree, look for an "
-            "offset that the publisher adds to its stamps (transform_tolerance)"
-        ),
-    ),
+    fixes=(_COMPARE_CLOCKS,),
     causes=(
-        "a tolerance that is too large",
+        "an offset that the publisher adds to its stamps (transform_tolerance)",
         "the publisher's clock is ahead",
     ),
     links=threads("ros-navigation/navigation2#3166"),
-    limits={"seconds": 0.25, "localisation": 2.0, "note": 0.02},
+    limits={"seconds": 0.02, "localisation": 2.0},
     needs=("log times",),
     why="AMCL stamps its transform 1 s ahead, and offsets of 0.1 s are in use; ROS 1's "
     "static publishers and gmapping stamp theirs one period ahead, its "
@@ -215,9 +197,7 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         least = limits["localisation"] if track.is_localisation else limits["seconds"]
         if ahead > least * NANOSECONDS:
-            yield _ahead(model, track, ahead, Severity.WARNING)
-        elif not track.is_localisation and ahead > limits["note"] * NANOSECONDS:
-            yield _ahead(model, track, ahead, Severity.NOTE)
+            yield _ahead(model, track, ahead)
 
 
 def _by_design(track: Track, ahead: int) -> bool:
@@ -234,7 +214,7 @@ def _by_design(track: Track, ahead: int) -> bool:
     return not track.moves and ahead <= CONSTANTS_AHEAD
 
 
-def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
+def _ahead(model: Model, track: Track, ahead: int) -> Hit:
     # If a computer's clock is wrong, all its streams are ahead by the same amount.
     others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
     others += [t for t in model.dynamic if t.nodes and not set(t.nodes) & set(track.nodes)]
@@ -244,7 +224,7 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
         if abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
     ]
     told = f"; so are {several(also)}" if also else ""
-    return hit_of(track, {"ahead": ahead, "also": also, "clock": told}, severity=severity)
+    return hit_of(track, {"ahead": ahead, "also": also, "clock": told})
 
 
 @check(
@@ -256,12 +236,7 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
     detail="{what}: {count} of {of}, {stamp:dated}",
     consequence="after a transform stamped ahead, tf2 drops further ones until time reaches it; one"
     " stamped behind is dropped itself",
-    fixes=(
-        Fix(
-            "check the source of the publisher's stamps; `tftool edit --from A --to B` "
-            "removes everything stamped outside from a recording"
-        ),
-    ),
+    fixes=(Fix("look at where its publisher takes the stamps from"),),
     causes=(
         "memory that was never set, or a number read with the wrong bytes",
         "one message stamped before the clock was set",
@@ -295,9 +270,10 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @check(
     "stale-stamp",
-    Severity.WARNING,
-    rule="the median latency is above {transforms:g} s for a transform (an error above the "
-    "cache time) or {messages:g} s for messages",
+    Severity.NOTE,
+    rule="the median latency is above {transforms:g} s for a transform or {messages:g} s for "
+    "messages. A warning if another topic shows where the delay arises: one with the same stamps, "
+    "or one from which the late topic is made, arrives in time",
     headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
     detail="{what}: {late:span} late (median){varies}",
     consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
@@ -318,47 +294,40 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 )
 def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms or messages are stamped long before they arrive."""
-    cache = model.settings.cache_time
     for track in model.dynamic:
         least = limits["transforms"] * NANOSECONDS
         if track.is_localisation:
             least = max(least, track.period)
         if len(track.stamps) > 1 and track.median_latency > least and not stands_still(track):
-            severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
-            yield _late(model, track, track.name, severity)
+            yield _late(model, track)
     for heard in model.heard:
         # A latched message may be old, and without motion an old message is as good as a new one.
         if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
-            yield _late(model, heard, heard.topic, Severity.WARNING)
+            yield _late(model, heard)
 
 
 _STEADY = seconds(0.1)
 """Maximum variation, from 10 % to 90 % quantile, of a delay that no queue causes."""
 
 
-def _late(model: Model, stream: "Track | Heard", name: str, severity: Severity) -> Hit:
+def _late(model: Model, stream: "Track | Heard") -> Hit:
     low, high = (int(one) for one in np.percentile(stream.latency, (10, 90)))
     varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
-    cure = (
-        "look for what delays these messages: the network, the recorder, a busy computer"
-        if varies
-        else "compare the clocks of the computers (`chronyc tracking`), and its stamps with those "
-        "of the data it is made from"
-    )
-    for other in model.heard:
+    shown = _relayed_late(model, stream)
+    for other in model.heard if isinstance(stream, Track) else ():
         # Nobody dates a transform by a message that has not come.
         soon = 4 * abs(other.median_latency) < stream.median_latency
-        if soon and np.isin(stream.stamps, other.stamps).mean() > 0.5:
-            cure = (
+        if soon and not shown and np.isin(stream.stamps, other.stamps).mean() > 0.5:
+            shown = (
                 f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
-                "messages wait in a queue, and no clock is wrong; look for a slow network, or "
-                "record on the robot"
+                "messages wait on their way, and no clock is wrong"
             )
-    facts = {"what": name, "late": stream.median_latency, "varies": varies}
-    cure = _relayed_late(model, stream) or cure
-    return hit_of(stream, facts, severity=severity, fixes=(Fix(cure),))
+    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies}
+    if not shown:
+        return hit_of(stream, facts, fixes=() if varies else (_COMPARE_CLOCKS,))
+    return hit_of(stream, facts, severity=Severity.WARNING, fixes=(Fix(shown),))
 
 
 def _relayed_late(model: Model, stream: "Track | Heard") -> str:
@@ -386,7 +355,8 @@ def _relayed_late(model: Model, stream: "Track | Heard") -> str:
     Severity.WARNING,
     rule="the median latency of a sensor's messages is below -{seconds:g} s (for a laser "
     "scan: less one scan), or messages or transforms are on the recorder's clock in a recording "
-    "that is shifted as a whole. A note if steady streams (95 % within {spread:g} s, "
+    "that is shifted as a whole. An error if such a transform is off by more than the cache time. "
+    "A note up to {certain:g} s, or if steady streams (95 % within {spread:g} s, "
     "{samples:g} messages), none ahead and each later than its own period, form groups "
     "more than {apart:g} s apart",
     headline="{topic} {found}",
@@ -396,11 +366,12 @@ def _relayed_late(model: Model, stream: "Track | Heard") -> str:
         "robot base and single-board computer",
         "robot and desk computer",
         "a lidar in its own time",
+        "a recording that is played beside nodes on the present time",
     ),
     links=threads(
         "turtlebot/turtlebot4_robot#8", "DFKI-NI/mir_robot#7", "ROBOTIS-GIT/turtlebot3#618"
     ),
-    limits={"seconds": 0.02, "spread": 0.02, "apart": 0.05, "samples": 20},
+    limits={"seconds": 0.02, "certain": 0.05, "spread": 0.02, "apart": 0.05, "samples": 20},
     needs=(
         "log times",
         "headers",
@@ -462,8 +433,12 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                     else " any more"
                 ),
             },
-            severity=Severity.ERROR if told and abs(ahead) > model.settings.cache_time else None,
-            fixes=(cure_of_offset(model, ahead),),
+            severity=Severity.ERROR
+            if told and abs(ahead) > model.settings.cache_time
+            else Severity.NOTE
+            if abs(ahead) < limits["certain"] * NANOSECONDS
+            else None,
+            fixes=(cure_of_offset(model),),
             alone=True,
         )
     if not alike:
@@ -507,19 +482,13 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
     return told
 
 
-def cure_of_offset(model: Model, ahead: Duration) -> Fix:
-    """Return the next step for stamps that differ from the time of reception.
-
-    Args:
-        model: The evidence, prepared.
-        ahead: Time by which stamps are later than reception, nanoseconds. A very long time means
-            replayed data rather than two unsynchronised clocks.
-    """
+def cure_of_offset(model: Model) -> Fix:
+    """Return the next step for stamps that differ from the time of reception."""
     if model.was_played:
         return _PLAY_AGAIN
-    # What was recorded before is stamped before its reception.
-    is_old = abs(ahead) > _PLAYED and model.shift is not None and model.shift.by > 0
-    return _LOOK if is_old else _SET_CLOCK
+    # Data that was recorded before is stamped before its reception.
+    is_old = model.shift is not None and model.shift.by > 0
+    return _LOOKS_THE_SAME if is_old else _COMPARE_CLOCKS
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -557,7 +526,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
                 "others, steadily: a delay in its driver, or another clock",
                 "so": "a delay is waited for; a clock that is off stays off",
             },
-            fixes=(_SET_CLOCK,),
+            fixes=(_COMPARE_CLOCKS,),
             alone=True,
         )
 

@@ -11,11 +11,11 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
-from tftool.doctor.missing_joins import is_moving_frame
+from tftool.doctor.missing_joins import has_base, is_moving_frame
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_checks import stands_still
-from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part, rate
+from tftool.doctor.stamp_stream import NEVER, PLACED, Heard, Track, last_part
 from tftool.doctor.wording import ALIKE, arrival, least_rate, rounded_up, span
 from tftool.recordings.contract import Stamps
 
@@ -26,18 +26,12 @@ check = checks_of(Area.COVERAGE)
     "static-missing",
     Severity.ERROR,
     rule="no static topic has a message, and messages are in frames that tf does not know. A "
-    "warning without a scan, a point cloud or a range among them. "
+    "warning without a scan, a point cloud or a range among them, or without a base frame in tf. "
     "Not reported if there is no static topic and constants are sent on /tf, as in "
     "early ROS 1",
-    headline="the statics are missing: {why}",
+    headline="no transform names {frames}: {why}",
     detail="messages are in {frames}, which no transform names",
-    consequence="these sensors cannot be placed",
-    fixes=(
-        Fix(
-            "take the statics from another recording of the robot, or from its description:",
-            "tftool edit RECORDING -o WHOLE --statics-from OTHER",
-        ),
-    ),
+    consequence="these messages cannot be placed",
     causes=(
         "robot_state_publisher was not started",
         "the second part of a split recording",
@@ -77,7 +71,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         count=sum(len(heard.stamps) for heard in unknown),
         facts={"frames": names, "why": why},
         severity=None
-        if any(last_part(heard.type) in PLACED for heard in unknown)
+        if has_base(model) and any(last_part(heard.type) in PLACED for heard in unknown)
         else Severity.WARNING,
         fixes=(Fix(cure),),
         alone=True,
@@ -111,14 +105,13 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @check(
     "static-late",
-    Severity.WARNING,
+    Severity.NOTE,
     rule="a static first arrives more than {seconds:g} s after the first message in a frame "
     "below it, and is not dated before that message: then only the recorder heard it late",
     headline="{where} {concerned:arrives|arrive} later than messages that need {concerned:it|them}",
     detail="{edge}: {late:span} late; before it: {missed}",
     consequence="a listener that ran from the start could not place these messages, although the "
     "recording can",
-    fixes=(Fix("start the publisher of the statics before the sensors"),),
     causes=("a driver that publishes its mount when it is ready",),
     links=threads("ros/geometry2#181"),
     limits={"seconds": 1.0},
@@ -167,10 +160,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="statics are in {messages} messages",
     detail="{told} {lost}",
     consequence="a player keeps only so many for late listeners",
-    fixes=(
-        Fix("start listeners before playing"),
-        Fix("for new recordings: send a node's statics in one call of one broadcaster"),
-    ),
+    fixes=(Fix("start listeners before playing"),),
     causes=("several static publishers",),
     links=threads("ros/ros_comm#706", "ros2/geometry2#585"),
     limits={"kept": 10},
@@ -203,7 +193,6 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
                     "told": "the last lacks" if len(lasts) == 1 else f"the last {len(lasts)} lack",
                 },
                 alone=True,
-                loud=True,
             )
 
 
@@ -268,11 +257,12 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
 @check(
     "sensor-outruns-tf",
     Severity.WARNING,
-    rule="the 95 % quantile of the waits for the last transform that a message on the robot needs "
-    "is {seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
+    rule="the 95 % quantile of the waits for the last transform that a scan, a point cloud or a "
+    "range on the robot needs is {seconds:g} s or more, or a share above {never:g} never gets it; "
+    "a share above {some:g} has to wait. A note for other messages, or if a share"
     " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
     "{messages:g} messages, which are not markers or those of an IMU, a compass or a "
-    "satellite receiver, nor odometry, paths or maps; a warning needs a share above {some:g}",
+    "satellite receiver, nor odometry, paths or maps",
     headline="{topics} {topics:arrives|arrive} before the transforms {topics:it needs|they need}",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
@@ -381,7 +371,7 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
     if refused > limits["some"] and (
         p95 > limits["seconds"] * NANOSECONDS or never > limits["never"]
     ):
-        severity = Severity.WARNING
+        severity = None if last_part(heard.type) in PLACED else Severity.NOTE
     elif refused > limits["refused"] and p95 > limits["note"] * NANOSECONDS:
         severity = Severity.NOTE
     else:
@@ -414,7 +404,6 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
         severity=severity,
         fixes=_cures(heard, waits, limits["seconds"]),
         alone=True,
-        loud=True,
     )
 
 
@@ -450,10 +439,6 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     usual = waits.serves(95)
     later = waits.link.median_latency - heard.median_latency
     often = least_rate(waits.link.name, waits.link.period, later, wait)
-    depth = max(1, math.ceil((usual if worst > 3 * usual else worst) / NANOSECONDS * rate(heard)))
-    ahead = Fix(
-        f"or date {waits.link.name} {math.ceil(worst / 1e6)} ms further ahead (transform_tolerance)"
-    )
     mount = Fix(f"or, if {waits.link.name} is a mount, as it never moved: send it on /tf_static")
     wait_for = (
         f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms is enough for all that can "
@@ -467,9 +452,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     return (
         Fix(wait_for),
         *((Fix(f"or {often}") if later < wait * NANOSECONDS else Fix(often),) if often else ()),
-        *((ahead,) if waits.link.is_localisation else ()),
         *((mount,) if not waits.link.moves and not _is_robot(waits.link) else ()),
-        *((Fix(f"let the message filter's queue hold {depth} messages"),) if depth > 1 else ()),
     )
 
 
@@ -481,16 +464,12 @@ def _is_robot(link: Track) -> bool:
 
 @check(
     "cache-short",
-    Severity.WARNING,
+    Severity.NOTE,
     rule="95 % of a topic's messages arrive later than the cache time (10 s; --cache-time)",
     headline="{topic} arrives later than the cache keeps its moment",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",
-    consequence='"extrapolation into the past": the transforms it needs were dropped',
-    fixes=(
-        Fix("{cache}", "{buffer}"),
-        Fix("or look up when the measurement arrives, and keep the result"),
-    ),
+    consequence='"extrapolation into the past" in a listener: it has dropped the transforms',
     causes=(
         "a slow detector",
         "a consumer that is behind",
@@ -537,7 +516,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:begins|begin} later than messages that need {concerned:it|them}",
     detail="{edge} begins at {begin:moment}: {lost} messages of {topic} can never be placed "
     "in {fixed}",
-    consequence="waiting does not help; skip these messages",
+    consequence="waiting does not help",
     causes=(
         "AMCL dates its first transform ahead (transform_tolerance)",
         "a node that starts later",
@@ -586,5 +565,4 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
                     "topic": heard.topic,
                     "fixed": fixed,
                 },
-                loud=True,
             )

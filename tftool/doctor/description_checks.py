@@ -16,7 +16,7 @@ from tftool.robots.robot_model import Robot
 
 check = checks_of(Area.DESCRIPTION)
 
-_STATES = "{states}; or make the joint fixed"
+_STATES = "look who publishes joint states: `{publishers} /joint_states`"
 
 
 @check(
@@ -120,7 +120,7 @@ def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
     detail="{frame}: {reason}",
     consequence="nothing can be placed in these frames",
     causes=(
-        "robot_state_publisher does not run, or with another description",
+        "robot_state_publisher does not run, or with another description than the robot's",
         "/tf_static was not recorded",
         "a movable joint has no state",
     ),
@@ -141,28 +141,21 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
         return
     joint_of = {joint.child: joint for joint in robot.joints.values()}
     missing = [link for link in robot.links if model.prefix + link not in model.frames]
-    strange = len(missing) == len(robot.links)
     for link in missing:
         frame, joint = model.prefix + link, joint_of.get(link)
         if joint is None:
-            reason, fix = "the root of the description", "start robot_state_publisher"
+            reason = "the root of the description"
         elif joint.type == "fixed":
-            reason = f"fixed to {joint.parent}: the statics are missing"
-            fix = "start robot_state_publisher; record /tf_static too"
+            reason = f"fixed to {joint.parent}: no static transform names it"
         elif joint.type == "floating":
             reason = f"floating in {joint.parent}: robot_state_publisher leaves it out"
-            fix = "publish where it is with a TransformBroadcaster"
         else:
             reason = f"moved by {joint.name} ({joint.type}): no state of it was published"
-            fix = _STATES
-        if strange:
-            fix = "compare the description with the robot: none of its links is in tf"
         yield Hit(
             edges=() if joint is None else ((model.prefix + joint.parent, frame),),
             frames=(frame,),
             facts={"frame": frame, "reason": reason},
             severity=None if any(h.frame == frame for h in model.heard) else Severity.NOTE,
-            fixes=(Fix(fix),),
         )
 
 

@@ -95,7 +95,6 @@ class Finding:
         fixes: Remedies, the most likely first.
         because_of: Id of the finding that explains this one; None if there is none.
         known: Whether the report given as the baseline already has this finding.
-        is_shown: Whether a report shows the finding without --verbose.
     """
 
     id: str
@@ -116,7 +115,11 @@ class Finding:
     fixes: tuple[Fix, ...] = ()
     because_of: str | None = None
     known: bool = False
-    is_shown: bool = True
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether a report shows the finding without --verbose: notes need that option."""
+        return self.because_of is None and self.severity is not Severity.NOTE
 
     @property
     def fingerprint(self) -> str:
@@ -171,9 +174,7 @@ class Hit:
     severity: Severity | None = None
     confidence: Confidence = Confidence.CERTAIN
     fixes: tuple[Fix, ...] = ()
-    alone: bool | str = False
-    """Whether the hit becomes a separate finding, even if there are similar hits. A word instead
-    merges the hits with this word; the fact `named` is then the name in the headline.
-    """
-    loud: bool = False
-    """Whether a note is shown without --verbose."""
+    alone: bool = False
+    """Whether the hit becomes a separate finding, even if there are similar hits."""
+    group: str = ""
+    """Key of the similar hits with which the hit is merged: those with the same key."""

@@ -5,11 +5,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import Heard, Track, last_part
+from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part
 from tftool.doctor.wording import several
 
 check = checks_of(Area.COVERAGE)
@@ -40,7 +41,8 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
     "share of {share:g}, before the recording's end, while other streams continue; of "
     "{samples:g} samples or more, except detections of a camera that have no children. A warning "
-    "if all moving transforms end; a note for a part of a robot that no sensor message is in",
+    "if all moving transforms end, or if a recording has no later scan, point cloud or range in "
+    "the frame or below it; then a note for a part of a robot, or a frame without children",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
@@ -78,10 +80,18 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         # If all links end at once, as when a session's host exits, it is not the fault of one link.
         if latest - last <= least and last - model.start > _AT_ONCE * length:
             continue
+        severity, ended = None, int(track.stamps.max())
+        if not any(other.logs[-1] - last > least for other in model.dynamic):
+            severity = Severity.WARNING
+        elif model.evidence.recorded and not _needed_in(model, track, ended, NEVER):
+            is_part = model.is_minor(track) or (
+                len(model.below(track.child)) == 1 and last_part(track.child) not in BASES
+            )
+            severity = Severity.NOTE if is_part else Severity.WARNING
         yield hit_of(
             track,
             {
-                "last": int(track.stamps.max()),
+                "last": ended,
                 "before": before,
                 "period": track.period,
                 "below": sorted(model.below(track.child)),
@@ -89,12 +99,18 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             since=last,
             until=model.end,
             count=1,
-            severity=Severity.NOTE
-            if model.is_minor(track)
-            else None
-            if any(other.logs[-1] - last > least for other in model.dynamic)
-            else Severity.WARNING,
+            severity=severity,
         )
+
+
+def _needed_in(model: Model, track: Track, begin: int, end: int) -> int:
+    """Count the sensor messages with stamps between two that an edge has to place."""
+    below = model.below(track.child)
+    return sum(
+        int(np.count_nonzero((heard.stamps > begin) & (heard.stamps < end)))
+        for heard in model.heard
+        if last_part(heard.type) in PLACED and heard.frame.removeprefix("/") in below
+    )
 
 
 _AT_ONCE = 0.1
@@ -114,11 +130,7 @@ def _is_detection(model: Model, track: Track) -> bool:
         return False
     steps = track.steps
     is_irregular = len(steps) > 1 and float(steps.std()) > float(steps.mean())
-    return is_irregular or _is_named_seen(track)
-
-
-def _is_named_seen(track: Track) -> bool:
-    return _SEEN.search(last_part(track.child).lower()) is not None
+    return is_irregular or _SEEN.search(last_part(track.child).lower()) is not None
 
 
 @check(
@@ -126,8 +138,8 @@ def _is_named_seen(track: Track) -> bool:
     Severity.WARNING,
     rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
     "samples or more; a note for transforms that are published on change (variation "
-    "above {variation:g}), for a gap below {note:g} s, and for a part of a robot that no sensor "
-    "message is in",
+    "above {variation:g}), for a gap below {note:g} s, and if no scan, point cloud or range in the "
+    "frame or below it has a stamp in the gap",
     headline="{where} {concerned:has a gap|have gaps}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -167,6 +179,9 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         on_change = bool(mean) and float(regular.std()) / mean > limits["variation"]
         stamps = track.stamps
         missing = int(np.count_nonzero((stamps > begin) & (stamps < end)))
+        needed = _needed_in(model, track, begin, end)
+        why = f"; {missing} samples in it are unusable (NaN)" if missing else ""
+        why += f"; {count(needed, 'sensor message')} in it" if needed else ""
         yield hit_of(
             track,
             {
@@ -177,24 +192,15 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
                 "also": also,
                 "beside": f"; at the same time: {several(silent)}" if silent else "",
                 "unusable": missing,
-                "why": f"; {missing} samples in it are unusable (NaN)" if missing else "",
+                "why": why,
             },
             since=begin,
             until=end,
             count=len(found),
             severity=Severity.NOTE
-            if on_change
-            or end - begin < limits["note"] * NANOSECONDS
-            or model.is_minor(track)
-            or (_is_detection(model, track) and _is_named_seen(track))
+            if on_change or end - begin < limits["note"] * NANOSECONDS or not needed
             else Severity.WARNING,
-            fixes=(
-                Fix(
-                    "look for what these have in common: one source, one node, the network"
-                    if silent
-                    else "all else went on: look at its publisher at that time"
-                ),
-            ),
+            fixes=() if silent else (Fix("all else went on: look at its publisher at that time"),),
         )
 
 
@@ -224,7 +230,7 @@ def _is_silent(heard: Heard, begin: int, end: int) -> bool:
     headline="nothing arrived for {length:span} on {streams} of {of} streams",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="whatever was stamped then came late, in a burst, or never",
-    fixes=(Fix("look at the network and the recorder at that time; record on the robot"),),
+    fixes=(Fix("look at the network and the recorder at that time"),),
     causes=(
         "a network that was gone",
         "a recorder or a disk that hung",
@@ -295,11 +301,11 @@ def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
 @check(
     "single-sample",
     Severity.WARNING,
-    rule="a transform on a dynamic topic was sent once",
+    rule="a transform on a dynamic topic was sent once; a note if no sensor message is in the "
+    "frame or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}",
     consequence="one sample answers only for its own stamp, and only while the cache keeps it",
-    fixes=(Fix("if it is a mount, send it on /tf_static; if it moves, send it regularly"),),
     causes=("a mount sent with a TransformBroadcaster",),
     why="tf2 interpolates between two samples and never extrapolates from one",
     because_of=(
@@ -311,13 +317,19 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame with one sample only."""
     for track in model.dynamic:
         if len(track.stamps) == 1 and len(track.by_stamp) == 1:
-            yield hit_of(track, {"stamp": int(track.stamps[0])}, topics=track.topics, count=1)
+            yield hit_of(
+                track,
+                {"stamp": int(track.stamps[0])},
+                topics=track.topics,
+                count=1,
+                severity=None if _needed_in(model, track, 0, model.end) else Severity.NOTE,
+            )
 
 
 @check(
     "no-transforms",
     Severity.ERROR,
-    rule="no topic carries a transform",
+    rule="no topic carries a transform; a warning if no message has a position either",
     headline="there are no transforms",
     consequence="nothing can be placed in another frame",
     fixes=(Fix("look whether the robot sends any: `{publishers} /tf`; if so, record it"),),
@@ -327,12 +339,16 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
 def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recording has no transforms."""
     if not model.tracks and not model.nameless:
-        yield Hit(topics=tuple(t.name for t in model.evidence.topics if t.transforms))
+        is_needed = any(heard.is_spatial for heard in model.heard)
+        yield Hit(
+            topics=tuple(t.name for t in model.evidence.topics if t.transforms),
+            severity=None if is_needed else Severity.WARNING,
+        )
 
 
 @check(
     "truncated-recording",
-    Severity.NOTE,
+    Severity.WARNING,
     rule="part of the recording could not be read",
     headline="part of the recording could not be read",
     detail="{damage}",
@@ -345,4 +361,4 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
 def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
     """The recorder was killed, or the file is damaged: only the first part was read."""
     if model.evidence.damage:
-        yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True, loud=True)
+        yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True)

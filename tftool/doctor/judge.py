@@ -193,20 +193,18 @@ def _findings(
     for number, (check, _) in enumerate(hits):
         of_check[check.id].append(number)
     causes = [_cause_of(number, hits, of_check) for number in range(len(hits))]
-    grouped: dict[tuple[str, Severity, str | None, int | str], list[Hit]] = {}
+    grouped: dict[tuple[str, Severity, str | None, int | None, str], list[Hit]] = {}
     for number, ((check, hit), cause) in enumerate(zip(hits, causes, strict=True)):
         severity = hit.severity or check.severity
         if severity is Severity.ERROR and hit.confidence is Confidence.POSSIBLE:
             severity = Severity.WARNING  # only evidence in the data is an error
-        key = (check.id, severity, cause, number if hit.alone is True else str(hit.alone))
+        key = (check.id, severity, cause, number if hit.alone else None, hit.group)
         grouped.setdefault(key, []).append(hit)
     findings = [
         replace(
             _joined(CHECKS[key[0]], group, limits[key[0]], words),
             because_of=key[2],
             severity=key[1],
-            is_shown=key[2] is None
-            and (key[1] is not Severity.NOTE or any(hit.loud for hit in group)),
         )
         for key, group in grouped.items()
     ]

@@ -284,7 +284,7 @@ def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
             f"{several([track.name for track in off])} {is_or_are} {span(abs(ahead))} off the "
             "other clocks: no lookup across the two clocks can succeed",
         ),
-        (Remedy("clock", in_words(cure_of_offset(model, ahead).text, model.words)),),
+        (Remedy("clock", in_words(cure_of_offset(model).text, model.words)),),
         ("a timeout, a larger cache: the two clocks never meet",),
     )
 

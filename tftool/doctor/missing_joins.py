@@ -106,6 +106,11 @@ def own_trees(
     return tuple(sorted(frame for frame in model.frames if model.tree_of[frame].root in trees[0]))
 
 
+def has_base(model: Model) -> bool:
+    """Whether the transforms contain a robot: a base frame on which sensors are mounted."""
+    return any(base_of(tree) for tree in model.trees)
+
+
 def is_moving_frame(model: Model, name: str) -> bool:
     """Whether an unknown frame is probably the robot itself, which no static transform places.
 

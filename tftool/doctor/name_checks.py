@@ -7,7 +7,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from tftool.base.plain_text import near_names
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import distinctive_words, is_world, proposed_frame, quoted
+from tftool.doctor.missing_joins import (
+    distinctive_words,
+    has_base,
+    is_world,
+    proposed_frame,
+    quoted,
+)
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import PLACED, Heard, family, last_part
@@ -29,7 +35,8 @@ MOST_COMPARED = 300_000
     Severity.ERROR,
     rule="the frame of a message with a position is in no transform of the whole recording. A "
     "warning if none of the messages is a scan, a point cloud or a range, which costmaps and "
-    "maps have to place; a note if nothing but the frame of a localiser or of the earth is unknown",
+    "maps have to place, or if tf has no base frame; a note if none comes from a sensor, or if "
+    "nothing but the frame of a localiser or of the earth is unknown",
     headline="no transform names {named}",
     detail="{frame}: {says}{hint}",
     consequence="none of these messages can be placed anywhere",
@@ -84,9 +91,10 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 "alike": alike,
                 "hint": hint,
             },
-            severity=_severity(name, heards, fixes),
+            severity=_severity(model, name, heards, fixes),
             fixes=fixes,
-            alone=fixes[0].text if len(fixes) == 1 and not fixes[0].command else True,
+            alone=len(fixes) > 1 or bool(fixes[0].command),
+            group=fixes[0].text,
         )
 
 
@@ -95,13 +103,16 @@ def is_navsat_output(heard: Heard) -> bool:
     return last_part(heard.type) == "NavSatFix" and last_part(heard.topic) == "filtered"
 
 
-def _severity(name: str, heards: Iterable[Heard], fixes: Sequence[Fix]) -> Severity | None:
+def _severity(
+    model: Model, name: str, heards: Iterable[Heard], fixes: Sequence[Fix]
+) -> Severity | None:
     """Return the severity of a finding about an unknown frame; None for an error."""
     if any(last_part(heard.type) in PLACED for heard in heards):
-        return None
+        return None if has_base(model) else Severity.WARNING
     # A recording for a localiser has goals and reference poses in its map.
     is_vague = is_world(name) and not any(fix.command for fix in fixes)
-    return Severity.NOTE if is_vague else Severity.WARNING
+    is_sensor = any(heard.type.startswith("sensor_msgs/") for heard in heards)
+    return Severity.WARNING if is_sensor and not is_vague else Severity.NOTE
 
 
 def _sharing(heards: Iterable[Heard]) -> list[str]:
@@ -162,8 +173,7 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
     topic = heards[0].topic
     fixes = []
     if alike:
-        text = f"if {alike[0]} is the frame of this sensor, set frame_id to it in the publisher of"
-        fixes.append(Fix(f"{text} {topic}"))
+        fixes.append(Fix(f"if {alike[0]} is the frame of this sensor, {topic} should name it"))
     if _is_scoped(model, name):
         fixes.append(Fix("{scoped}"))
     join = proposed_frame(model, name.removeprefix("/"), [heard.type for heard in heards])
@@ -221,7 +231,6 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:is|are} published with a leading slash",
     detail="{edge}: {found}",
     consequence="harmless to tf2; tools that compare names see two frames",
-    fixes=(Fix("remove the slash in the publisher"),),
     causes=("a publisher written for tf 1",),
     because_of=(("anything", "slash-twins"),),
 )
@@ -243,7 +252,6 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
             topics=track.topics,
             count=track.slashed,
             severity=Severity.ERROR if twice else Severity.NOTE,
-            loud=True,
         )
 
 
@@ -381,12 +389,7 @@ def _shared(one: str, other: str) -> int:
     headline="{first} and {bare} look like one frame: some names have the prefix {prefix}",
     detail="{twins}",
     consequence="the frames with the prefix and those without are two trees",
-    fixes=(
-        Fix(
-            "if they are one frame, use one scheme: prefix all names (frame_prefix: {prefix}), or "
-            "none and remap /tf:=tf and /tf_static:=tf_static in every node"
-        ),
-    ),
+    fixes=(Fix("look which nodes send them: `{publishers} /tf`"),),
     causes=(
         "diff_drive_controller prefixes names with its namespace, robot_state_publisher does not",
         "frame_prefix without its trailing slash, or on names that have it already",
@@ -429,9 +432,8 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @check(
     "namespaced-topic",
-    Severity.WARNING,
-    rule="transforms are sent on a topic other than /tf and /tf_static; a note if /tf is "
-    "complete without it",
+    Severity.NOTE,
+    rule="transforms are sent on a topic other than /tf and /tf_static",
     headline="transforms are sent on {topics}",
     detail="{missing}",
     consequence="a listener with default topics does not receive them",
@@ -446,36 +448,26 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
     if not odd:
         return
     usual = [track for track in model.tracks if set(track.topics) & heard_on]
-    moving = [track for track in usual if not track.static]
-    severity = Severity.WARNING
-    if moving:
-        joined = _joined(track.edge for track in usual)
-        everything = _joined(track.edge for track in model.tracks)
-        tied: dict[str, set[str]] = defaultdict(set)
-        for frame, group in joined.items():
-            tied[everything[frame]].add(group)
-        if all(len(groups) == 1 for groups in tied.values()):
-            severity = Severity.NOTE
+    is_moving = not all(track.static for track in usual)
     kinds = {topic.name: last_part(topic.type) for topic in model.evidence.topics}
     whole = [topic for topic in odd if kinds.get(topic) != "TransformStamped"]
     first = (whole or odd)[0]
     prefix = first.rsplit("/", 1)[0]
     remap = Fix(
-        "let listeners and rviz hear them:",
+        "a listener hears them with:",
         model.words["remap"].format(moving=first, static=f"{prefix}/tf_static"),
     )
     if not whole:
-        remap = Fix("tf2 reads tf2_msgs/TFMessage only: let the node send them on /tf")
+        remap = Fix("tf2 reads tf2_msgs/TFMessage only, and this topic has another type")
     heard = {name for track in usual for name in track.edge}
     yield Hit(
         frames=tuple(sorted(model.frames - heard)),
         topics=tuple(odd),
-        severity=severity,
         count=sum(len(t.stamps) for t in model.tracks if not set(t.topics) & heard_on),
         facts={
             "topics": odd,
             "prefix": prefix,
-            "missing": "nothing moves on /tf" if not moving else "/tf has transforms too",
+            "missing": "/tf has transforms too" if is_moving else "nothing moves on /tf",
         },
         fixes=(
             remap,
@@ -483,21 +475,6 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
         ),
         alone=True,
     )
-
-
-def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Return a key for each frame; frames that edges connect have the same key."""
-    above: dict[str, str] = {}
-
-    def top(name: str) -> str:
-        while above.setdefault(name, name) != name:
-            above[name] = above[above[name]]
-            name = above[name]
-        return name
-
-    for parent, child in edges:
-        above[top(child)] = top(parent)
-    return {name: top(name) for name in list(above)}
 
 
 @check(
@@ -508,7 +485,6 @@ def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
     headline="{where}: {concerned:a name|names} that many tools misread",
     detail="{frame} {reason}",
     consequence="tools that print or parse the name show or read another one",
-    fixes=(Fix("give the frame a plain name: letters, digits, underscores"),),
     limits={"letters": 100},
 )
 def awkward_name(model: Model, limits: Limits) -> Iterator[Hit]:

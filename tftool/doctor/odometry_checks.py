@@ -17,10 +17,10 @@ check = checks_of(Area.VALUES)
 
 @check(
     "odometry-tf-mismatch",
-    Severity.WARNING,
+    Severity.NOTE,
     rule="an Odometry message and the transform of the same two frames and the same stamp "
     "differ by more than {metres:g} m or {degrees:g}°, in a share above {share:g} of "
-    "such pairs; a note if they come from two nodes or if tf has no transform of these frames. Or "
+    "such pairs, or tf has no transform of these frames. A warning if "
     "positions within {near:g} s, of any source, differ by more than {far:g} m and more than the "
     "robot moved",
     headline="{topic} {differs} {edge}",
@@ -87,8 +87,6 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
         since=None,
         frames=told.edge,
         topics=told.topics,
-        severity=Severity.NOTE,
-        fixes=(Fix("compare the child_frame_id of the messages with the base frame of tf"),),
         alone=True,
     )
 
@@ -130,7 +128,6 @@ def _disagreement(
     count = int(np.count_nonzero(wrong))
     if count <= limits["share"] * len(wrong) or not told.child:
         return None
-    is_other = track.nodes and told.nodes and not set(track.nodes) & set(told.nodes)
     return Hit(
         edges=(track.edge,),
         topics=told.topics,
@@ -146,7 +143,6 @@ def _disagreement(
             "found": f"{count:,} of {len(wrong):,} pairs of one stamp, usually "
             f"{metres(float(np.median(apart)))} and {np.degrees(np.median(turned)):.3g}° apart",
         },
-        severity=Severity.NOTE if is_other else None,
         fixes=(Fix("look which nodes publish the two: `{publishers} /tf`"),),
         alone=True,
     )
@@ -185,6 +181,7 @@ def _far_apart(track: Track, told: Track, topic: str, limits: Limits) -> Hit | N
             "found": f"{metres(float(np.median(apart)))} apart (median of {len(others):,}); "
             f"{'xyz'[axis]} is first {metres(float(mine))} in tf, {metres(float(theirs))} there",
         },
+        severity=Severity.WARNING,
         fixes=(Fix(f"look at what the publisher of {track.name} uses for {'xyz'[axis]}"),),
         alone=True,
     )

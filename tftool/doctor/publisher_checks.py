@@ -98,7 +98,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "(a sample belongs to a track within {reach:g} m + {speed:g} m/s, a radian counting"
     " as half a metre). Each track needs {samples:g} samples and a share of {share:g}, "
     "the track must change {changes:g} times or more, and motion at constant velocity "
-    "must explain all samples {worse:g} times worse than each track alone. A warning if the "
+    "must explain all samples {worse:g} times worse than each track alone. A note for a frame "
+    "that only turns, unless one value comes again and again. A warning if the "
     "publishers are unknown, if "
     "nothing is below the frame and no message is in it, or for a mount with two values "
     "less than {slight:g} m and {slight_degrees:g}° apart",
@@ -146,18 +147,23 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         hit = hit or values_at_one_stamp(track, limits)
         if hit is None and not is_corrected(track, limits):
             hit = unnamed_conflict(track, limits)
-            if is_revolute(track) and _has_one_source(model):
-                hit = None  # a fast wheel, whose samples are more than a turn apart
         if hit is None:
             continue
-        hit = fed_twice(track, hit, limits) or hit
+        fed = fed_twice(track, hit, limits)
+        if fed is None and is_revolute(track) and hit.confidence is not Confidence.CERTAIN:
+            # A fast wheel looks the same if it turns more than once between two samples.
+            hit = None if _has_one_source(model) else replace(hit, confidence=Confidence.POSSIBLE)
+        hit = fed or hit
+        if hit is None:
+            continue
         hit = replace(hit, severity=severity_of(model, track, hit, limits))
         # What shares messages shares the nodes that send them.
         like = (t for t in apart if np.isin(track.messages, t.messages).mean() > 0.5)
         sent_with = next(like, track)
         if sent_with is track:
             apart.append(track)
-        told_of[track.edge] = replace(hit, alone=f"{sent_with.name} {hit.facts['first']}")
+        group = f"{sent_with.name} {hit.facts['first']}"
+        told_of[track.edge] = replace(hit, alone=False, group=group)
     told_of = _folded(told_of)
     odometry = model.evidence.odometry
     for told in () if odometry is None else [Track(edge, odometry) for edge in odometry.edges]:
@@ -264,7 +270,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
     detail="{edge}: {values} values, up to {moved:m} and {turned:deg} apart",
     consequence="statics have no history: every lookup in the past returns the newest value, "
     "without an error",
-    fixes=(Fix("publish moving frames with a TransformBroadcaster, on /tf"),),
+    fixes=(Fix("find its publisher: `{publishers} /tf_static`"),),
     causes=("a calibration or a detector publishes its result with a static broadcaster",),
     limits={"values": 4, "metres": 1e-6, "radians": 1e-4},
     why="a recalibration happens once or twice",
@@ -356,7 +362,6 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
     consequence="if it is a mount, {so}",
-    fixes=(Fix("if {where} cannot move, send {concerned:it|each} once on /tf_static"),),
     causes=("the static publisher of the old tf package",),
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},
@@ -387,7 +392,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
         if not any(above.moves for above in model.above(track.parent)):
             continue  # it may have stood still because the robot did
         so = "it is sent again and again for nothing; its stamps are ahead, and no message waited"
-        if waits := _is_waited_for(model, track):
+        if _is_waited_for(model, track):
             so = "lookups through it wait needlessly for its next sample, up to one period"
         yield hit_of(
             track,
@@ -399,8 +404,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             },
             since=None,
             confidence=Confidence.POSSIBLE,
-            alone="waits" if waits else "",
-            loud=waits and not any(part in track.child.lower() for part in ("wheel", "caster")),
+            group=so,
         )
 
 

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from tftool.doctor.evidence import Evidence
 
 _ROS2 = {
-    "now": "self.get_clock().now().to_msg()",
     "publishers": "ros2 topic info --verbose",
     "sim_time": "set use_sim_time: {setting} for the nodes that publish them; `ros2 param get NODE "
     "use_sim_time` prints a node's setting",
@@ -18,15 +17,12 @@ _ROS2 = {
     "data as old (TF_OLD_DATA) until the old time is reached again",
     "record": "record /tf and /tf_static",
     "buffer": "Buffer(cache_time=Duration(seconds={needed}))",
-    "cache": "keep more",
     "remap": "--ros-args -r /tf:={moving} -r /tf_static:={static}",
     "scoped": "in Gazebo, give the sensor the name in tf: <gz_frame_id>NAME</gz_frame_id>",
-    "states": "start joint_state_publisher or the joint state broadcaster",
     "latched": "with durability transient_local",
     "volatile": "volatile",
 }
 _ROS1 = {
-    "now": "rospy.Time.now() (C++: ros::Time::now())",
     "publishers": "rostopic info",
     "which_clock": "`rosparam get use_sim_time` and `date` on its computer show which",
     "sim_time": "`rosparam set use_sim_time {setting}`, then start the nodes that publish them "
@@ -39,10 +35,8 @@ _ROS1 = {
     "old (TF_OLD_DATA) until the old time is reached again",
     "record": "record /tf and /tf_static (split recordings: rosbag record --repeat-latched)",
     "buffer": "tf2_ros.Buffer(rospy.Duration({needed}))",
-    "cache": "keep more (Python ignores the argument if it is named cache_time: ros_comm#2270)",
     "remap": "/tf:={moving} /tf_static:={static}",
     "scoped": "in Gazebo, give the sensor the name in tf: <frameName>NAME</frameName>",
-    "states": "start joint_state_publisher or joint_state_controller",
     "latched": "latched",
     "volatile": "without latching",
 }

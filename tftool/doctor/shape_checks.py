@@ -3,6 +3,7 @@
 from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
 
+from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import base_of, proposed_join
@@ -34,7 +35,7 @@ JUDGED_EMPTY = frozenset(
     headline="the frames form a loop: {circle}",
     consequence='lookups that follow the parents to the root fail: "The tf tree is invalid because '
     'it contains a loop."',
-    fixes=(Fix("publish one direction only: `{publishers} /tf` lists the publishers"),),
+    fixes=(Fix("find the publishers: `{publishers} /tf`"),),
     causes=("odom above body and body above odom at once",),
     links=threads("rai-opensource/spot_ros2#374"),
 )
@@ -103,8 +104,9 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     "split-tree",
     Severity.ERROR,
     rule="there is more than one root. An error if scans, point clouds or ranges are in a frame of "
-    "a smaller tree; a note if each tree is a whole robot, or if no message is in one of two "
-    "trees that hold one frame in two conventions (odom, odom_ned)",
+    "a smaller tree, beside a tree with a base frame; a note if each tree is a whole robot, if no "
+    "message is in one of two trees that hold one frame in two conventions (odom, odom_ned), or in "
+    "a recording of less than {seconds:g} s",
     headline="{named} {many:is|are} not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
     consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
@@ -119,6 +121,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
         "hku-mars/FAST_LIO#130",
         "kinglintianxia/autolabor_pro1#2",
     ),
+    limits={"seconds": 1.0},
     because_of=(
         ("child", "publisher-conflict two-parents static-and-dynamic"),
         ("anything", "static-missing"),
@@ -140,8 +143,11 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         topics = _messages_in(model, tree)
         is_placed = any(last_part(h.type) in PLACED and h.frame in tree.frames for h in model.heard)
-        severity = Severity.ERROR if is_placed else Severity.WARNING
-        if (_is_complete(main) and _is_complete(tree)) or _is_convention(tree, topics):
+        severity = Severity.ERROR if is_placed and base_of(main) else Severity.WARNING
+        is_short = model.evidence.recorded and (
+            model.end - model.start < limits["seconds"] * NANOSECONDS
+        )
+        if is_short or (_is_complete(main) and _is_complete(tree)) or _is_convention(tree, topics):
             severity = Severity.NOTE
         join = proposed_join(model, main, tree)
         fix = nothing_says(model, "{named}") if join is None else join.fix
@@ -163,7 +169,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
                 else {"parent": join.edge[0], "child": join.edge[1], "guess": join.guess},
             },
             fixes=(fix,),
-            alone="nothing says where" if join is None else True,
+            alone=join is not None,
         )
 
 
@@ -171,10 +177,7 @@ def nothing_says(model: Model, root: str) -> Fix:
     """Return the remedy if no data shows where to connect a root: the nodes to check."""
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
-    return Fix(
-        f"nothing in the data says where to join {root}: find the node that should publish "
-        f"that{static}"
-    )
+    return Fix(f"nothing in the data says where to join {root}{static}")
 
 
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
@@ -235,7 +238,7 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{what} has no frame name",
     detail="{what}: {detail}, {count:times}",
     consequence="{so}",
-    fixes=(Fix("set frame_id in the node that publishes it"),),
+    fixes=(Fix("find its publisher: `{publishers} {topic}`"),),
     causes=(
         "a message that was never filled",
         "a camera whose frame id was never set",
@@ -254,6 +257,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 track,
                 {
                     "what": f"a transform on {', '.join(track.topics)}",
+                    "topic": track.topics[0],
                     "detail": f"its {which} is empty; the other is {track.parent or track.child!r}",
                     "count": len(track.stamps),
                     "so": "tf2 drops such a transform",
@@ -276,6 +280,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             severity=Severity.WARNING,
             facts={
                 "what": f"a message on {heard.topic}",
+                "topic": heard.topic,
                 "detail": f"{heard.type} with an empty frame_id",
                 "count": len(heard.stamps),
                 "so": "such a message cannot be placed",
@@ -285,7 +290,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @check(
     "rep105-shape",
-    Severity.WARNING,
+    Severity.NOTE,
     rule="map and odom exist, and base is a child of map beside odom; or odom is a child of "
     "a base below map; or map is below odom; or base_footprint and base_link are both "
     "children of odom",
@@ -315,13 +320,12 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
             above = parent_of.get(base, "")
             chain = [track.parent for track in model.above(base)]
             if above in named["map"] and not set(named["odom"]) & set(chain):
-                found, dummy = f"{base} hangs from {above}, beside odom", ""
+                found = f"{base} hangs from {above}, beside odom"
                 for odom in named["odom"]:
                     track = model.parents.get(odom)
                     if track is not None and not track.moves and len(model.below(odom)) == 1:
                         found += f"; {track.name} never moves, and nothing hangs from {odom}"
-                        dummy = f"to put {odom} between the two, first stop its constant publisher"
-                yield _shape(model, (above, base), found, dummy=dummy)
+                yield _shape(model, (above, base), found)
             for odom in named["odom"]:
                 if parent_of.get(odom) == base and set(chain) & set(named["map"]):
                     yield _shape(model, (base, odom), f"{odom} hangs from {base}, below map")
@@ -337,14 +341,12 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
                 yield _shape(model, (above, link), text, (above, foot))
 
 
-def _shape(
-    model: Model, edge: tuple[str, str], found: str, *more: tuple[str, str], dummy: str = ""
-) -> Hit:
+def _shape(model: Model, edge: tuple[str, str], found: str, *more: tuple[str, str]) -> Hit:
     nodes = ", ".join(model.parents[edge[1]].nodes) or "its publisher (`{publishers} /tf`)"
     return Hit(
         edges=(edge, *more),
         frames=tuple(dict.fromkeys(name for one in (edge, *more) for name in one)),
         confidence=Confidence.LIKELY,
         facts={"found": found},
-        fixes=(Fix(dummy or f"look at the frame names in the settings of {nodes}"),),
+        fixes=(Fix(f"look at the frame names in the settings of {nodes}"),),
     )

@@ -23,7 +23,7 @@ check = checks_of(Area.CLOCKS)
     headline="{where} {concerned:has|have} stamp 0",
     detail="{edge}: {count} of {of} samples",
     consequence="lookups at any other time refuse; in a query, 0 means the latest time",
-    fixes=(Fix("stamp it: t.header.stamp = {now}, inside the loop"),),
+    fixes=(Fix("look at its publisher: `{publishers} /tf`"),),
     causes=(
         "the stamp is never set",
         "use_sim_time without /clock",
@@ -46,13 +46,14 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     "frozen-stamp",
     Severity.WARNING,
     rule="one stamp is sent {times:g} times or more, while the clock of the stamps goes on by "
-    "more than {seconds:g} s; messages only if a moving transform places them",
+    "more than {seconds:g} s; messages only if a moving transform places them. A note for messages "
+    "that are not a sensor's",
     headline="{where} {concerned:repeats|repeat} one stamp",
     detail="{what}: {stamp:moment} {count:times}, for {lasted:span}",
     consequence="{so}",
     causes=(
-        "the stamp is set once, before the loop: set it inside",
-        "a localiser that has had no scan since: find out why, and do not stamp it anew",
+        "the stamp is set once, before the loop",
+        "a localiser that has had no scan since",
     ),
     limits={"times": 10, "seconds": 1.0},
     needs=("log times",),
@@ -82,24 +83,17 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 "each is placed where its frame was at that time, and refused once the cache has "
                 "forgotten it"
             )
-        # A localiser has another remedy.
-        alone = isinstance(one, Heard) or one.is_localisation
-        # A marker is only drawn.
-        severity = Severity.NOTE if isinstance(one, Heard) and "Marker" in one.type else None
-        fixes = (_unfreeze(model, one),)
-        yield hit_of(one, facts, count=count, alone=alone, severity=severity, fixes=fixes)
-
-
-def _unfreeze(model: Model, stream: Track | Heard) -> Fix:
-    """Return the remedy for a stamp that does not change."""
-    if isinstance(stream, Track) and stream.is_localisation:
-        # A localiser's stamp is that of its last scan: a newer stamp would be wrong.
-        return Fix(
-            "compare the stamp with those of the scans: a localiser without new scans repeats the "
-            "last one"
+        # A result that is sent again is old on purpose, and a marker is only drawn.
+        is_sensor = isinstance(one, Track) or one.type.startswith("sensor_msgs/")
+        topic = "/tf" if isinstance(one, Track) else one.topic
+        yield hit_of(
+            one,
+            facts,
+            count=count,
+            alone=isinstance(one, Heard) or one.is_localisation,
+            severity=None if is_sensor else Severity.NOTE,
+            fixes=(Fix(f"look at what its publisher waits for: `{{publishers}} {topic}`"),),
         )
-    name = "t" if isinstance(stream, Track) else "message"
-    return Fix(f"set the stamp inside the loop: {name}.header.stamp = {{now}}")
 
 
 def stands_still(stream: Track | Heard) -> bool:
@@ -208,10 +202,11 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @check(
     "sent-twice",
-    Severity.NOTE,
+    Severity.WARNING,
     rule="the messages of a sensor or of odometry have {share:g} times as many stamps as they have "
     "different stamps, or more, of {samples:g} messages or more in one frame; or a transform "
-    "has one stamp and value three times or more at once",
+    "has one stamp and value three times or more at once. A note for messages other than laser "
+    "scans, whose stamps may be those of a simulator's step or of a slower source",
     headline="{where} {concerned:sends|send} each message several times",
     detail="{topic}: {count} messages have {different} different stamps",
     consequence="programs that use the topic do the work of each message again",
@@ -234,7 +229,7 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
             yield hit_of(
                 heard,
                 {"count": len(stamps), "different": different},
-                loud=True,
+                severity=None if "LaserScan" in heard.type else Severity.NOTE,
                 fixes=(Fix(f"count its publishers: `{{publishers}} {heard.topic}`"),),
             )
     for track in model.dynamic:
@@ -255,7 +250,7 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
             "different": different,
         }
         fix = Fix("count its publishers: `{publishers} /tf`")
-        yield hit_of(track, facts, loud=True, fixes=(fix,))
+        yield hit_of(track, facts, fixes=(fix,))
 
 
 @check(
@@ -282,9 +277,7 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
         return
     first = model.laps[0]
     is_loop = _is_played_again(model)
-    text = (
-        "find what stepped: a simulation that was reset, a recording played twice, a clock set back"
-    )
+    text = "look at what stepped at that time: a simulation, a player, or a clock"
     if is_loop:
         text = "play it once ({loop_option}), or restart the listeners at each lap"
     yield Hit(
@@ -324,11 +317,13 @@ _NOETIC = seconds(1_590_000_000)
 @check(
     "old-data",
     Severity.WARNING,
-    rule="a sample is older than the newest of its frame by more than the cache (--cache-time)",
+    rule="a sample is older than the newest of its frame by more than the cache (--cache-time). A "
+    "note in a share below {share:g}",
     headline="{where} {concerned:sends|send} samples that are too old to be kept",
     detail="{edge}: {count:times}, up to {behind:span} behind",
     consequence="tf2 drops them and warns TF_OLD_DATA",
     fixes=(Fix("find where these stamps come from: `{publishers} /tf` lists the publishers"),),
+    limits={"share": 0.01},
     causes=(
         "a restarted publisher or simulation",
         "a replayed recording beside the live robot",
@@ -360,6 +355,7 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
                 since=int(logs[np.flatnonzero(old)[0]]),
                 count=count,
                 facts={"edge": tracks[0].name, "count": count, "behind": behind},
+                severity=Severity.NOTE if count < limits["share"] * len(old) else None,
             )
 
 

@@ -71,7 +71,7 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:has|have} rotations that are none",
     detail="{edge}: {count} of {of} samples, first {numbers} (length {length:.4g}); {fate}",
     consequence="the frame exists for one listener and not for another",
-    fixes=(Fix("fill the rotation (w = 1 for none), and normalise it before sending"),),
+    fixes=(Fix("look at how its publisher computes the rotation: `{publishers} /tf`"),),
     causes=(
         "a message that was never filled (w = 0)",
         "decimals typed by hand",
@@ -231,10 +231,7 @@ def _look_at_jumps(track: Track, topic: str) -> Fix:
             "list the jumps, and compare them with the sensors at these times:",
             f"tftool doctor RECORDING --steps --pair {quoted(':'.join(track.edge))}",
         )
-    return Fix(
-        f"look at how the publisher of {track.name} uses {topic}: a position that jumps belongs "
-        "in a filter for odom in map (REP-105)"
-    )
+    return Fix(f"look at how the publisher of {track.name} uses {topic}")
 
 
 def _trigger(model: Model, jumps: Stamps) -> tuple[str, int]:
@@ -276,11 +273,11 @@ def _jumps(
     "optical-convention",
     Severity.WARNING,
     rule="the rotation of an optical frame in its body frame is more than {degrees:g}° off "
-    "optical axes (z forward, x right), if both share a name or are within {metres:g} m",
+    "optical axes (z forward, x right), if both share a name or are within {metres:g} m. A note if "
+    "no message of a sensor is in the optical frame",
     headline="{where} {concerned:does|do} not have optical axes",
     detail="{edge}: {off:.3g}° off",
-    consequence="images and clouds in it are rotated",
-    fixes=(Fix('if images are in it, make it a fixed joint with rpy="-1.5708 0 -1.5708"'),),
+    consequence="images and clouds in it are rotated, if the name is right",
     causes=("the optical frame was given the axes of the body",),
     links=(
         REP103,
@@ -312,6 +309,9 @@ def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
                 frames=(track.child,),
                 confidence=Confidence.LIKELY,
                 count=1,
+                severity=None
+                if any(h.is_spatial and h.frame == track.child for h in model.heard)
+                else Severity.NOTE,
             )
 
 
@@ -351,7 +351,6 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
         if axes is not None and axes[0][2] < -_UPRIGHT:
             continue  # its y axis points down: an optical frame with another name
         is_body = axes is not None and axes[1][2] > _UPRIGHT
-        joint = 'add a fixed joint with rpy="-1.5708 0 -1.5708", and name its frame in the driver'
         yield hit_of(
             heard,
             {
@@ -360,13 +359,7 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
             },
             since=None,
             confidence=Confidence.CERTAIN if is_body else Confidence.POSSIBLE,
-            fixes=(
-                Fix(
-                    joint
-                    if is_body
-                    else f"check whether its z axis points out of the lens; if not, {joint}"
-                ),
-            ),
+            fixes=(Fix("check whether its z axis points out of the lens"),),
         )
 
 
@@ -423,7 +416,6 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:is|are} turned over: (1, 0, 0, 0)",
     detail="{edge}: a half turn about x, or no turn written w first",
     consequence="if no rotation was meant, the frame is upside down",
-    fixes=(Fix("write quaternions as x y z w: no rotation is 0 0 0 1"),),
     causes=("a quaternion written w first",),
 )
 def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:
