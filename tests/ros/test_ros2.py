@@ -62,6 +62,48 @@ def test_ros2_run_in_a_launch_file_starts_a_node(tmp_path):
     assert "mine" in done.nodes
 
 
+OTHER_LAUNCH = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    name = LaunchConfiguration("called")
+    return LaunchDescription([
+        DeclareLaunchArgument("called"),
+        Node(package="turtlesim", executable="turtlesim_node", name=name),
+    ])
+"""
+
+
+def test_ros2_launch_in_a_launch_file_runs_the_other_file_with_its_arguments(tmp_path):
+    other = tmp_path / "other.launch.py"
+    other.write_text(OTHER_LAUNCH)
+    done = described(
+        tmp_path, f"ExecuteProcess(cmd=['ros2', 'launch', {str(other)!r}, 'called:=inner'])"
+    )
+
+    assert "inner" in done.nodes
+    assert done.failed == []
+
+
+def test_a_handler_sees_that_ros2_launch_in_a_launch_file_has_ended(tmp_path, capfd):
+    other = tmp_path / "other.launch.py"
+    other.write_text(
+        "from launch import LaunchDescription\nfrom launch.actions import LogInfo\n"
+        "def generate_launch_description():\n    return LaunchDescription([LogInfo(msg='hi')])\n"
+    )
+    done = described(
+        tmp_path,
+        "RegisterEventHandler(OnProcessExit(on_exit=LogInfo(msg='one has ended')))",
+        f"ExecuteProcess(cmd=['ros2', 'launch', {str(other)!r}])",
+    )
+
+    assert "one has ended" in done.said("launch")
+    assert "[INFO] [launch]: hi" in capfd.readouterr().err
+
+
 def test_a_wrong_command_in_a_launch_file_is_named_with_its_line(tmp_path):
     with pytest.raises(NodeFailed, match=r"some\.launch\.py:\d+: ros2 service: .*invalid choice"):
         described(tmp_path, "ExecuteProcess(cmd=['ros2', 'service', 'cal', '/spawn'])")

@@ -588,7 +588,8 @@ class Launch(Node):
 
     def _label(self, name: str) -> str:
         self._count += 1
-        return f"{name}-{self._count}"
+        # A launch inside this one may have a program of the same name and number.
+        return self.world.free_name(f"{name}-{self._count}")
 
     def label_of(self, record: LogRecord) -> str:
         """Return the label (name in log lines) of the program that wrote a log record."""

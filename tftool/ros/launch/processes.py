@@ -5,6 +5,7 @@ import re
 import shlex
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -231,9 +232,12 @@ class ExecuteProcess(Startable):
             context.launch.start_node(self, started, self.respawn_after(context))
             return None
         if words[:1] == ["launch"] and len(words) > 1:
-            raise UsageError(
-                "use IncludeLaunchDescription to start another launch file, not 'ros2 launch'"
-            )
+            # Imported here, because the service needs this module.
+            from tftool.ros.launch.service import run_launch_file
+
+            body = partial(run_launch_file, context.workspace, words[1:])
+            context.launch.start_body(self, ["ros2", *words], body, self.respawn_after(context))
+            return None
         context.launch.start_ros2(self, words, self.respawn_after(context))
         return None
 

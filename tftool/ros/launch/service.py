@@ -3,12 +3,15 @@
 import asyncio
 import sys
 import threading
-from collections.abc import Coroutine
+from collections.abc import Coroutine, Sequence
 from typing import Any
 
 from tftool.base.stamps import as_seconds
 from tftool.ros.host import program
 from tftool.ros.host.shims import SLICE
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch.actions import IncludeLaunchDescription
+from tftool.ros.launch.arguments import arguments_of, find_launch_file
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.engine import Launch
@@ -54,7 +57,11 @@ class LaunchService:
         launch = self._launch
         if launch is None:
             return 0
-        program.current().ask(launch.ended.wait)
+        try:
+            program.current().ask(launch.ended.wait)
+        except KeyboardInterrupt:
+            self._end(launch)
+            raise
         return int(bool(launch.failed))
 
     def begin(self, *, keep_alive: bool = False) -> Launch:
@@ -133,6 +140,22 @@ class LaunchService:
         # Functions of a launch file run on the event loop's thread, which belongs to no program.
         if self._owner is not None:
             self._owner.ask(lambda: launch.shut_down("the program asked for it"))
+
+
+def run_launch_file(workspace: Workspace, words: Sequence[str]) -> None:
+    """Run `ros2 launch WORDS` inside the calling program, until the launch has ended.
+
+    Raises:
+        UsageError: If there is no such launch file, or the arguments are malformed.
+        SystemExit: If the launch failed.
+    """
+    path, rest = find_launch_file(workspace, words)
+    arguments = arguments_of(rest).items()
+    service = LaunchService()
+    included = IncludeLaunchDescription(str(path), launch_arguments=arguments)
+    service.include_launch_description(LaunchDescription([included]))
+    if service.run():
+        raise SystemExit(1)
 
 
 async def _nothing() -> None:
