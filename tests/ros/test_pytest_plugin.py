@@ -166,6 +166,19 @@ def test_a_tests_event_loop_sleeps_in_the_nodes_time_with_ros_free(pytester):
     result.assert_outcomes(passed=2)
 
 
+def test_a_test_file_with_a_second_dot_sleeps_in_the_nodes_time(pytester):
+    file = pytester.path / "talker.test.py"
+    file.write_text(
+        "import time\nimport rclpy\n\ndef test_time():\n    rclpy.init()\n"
+        "    clock = rclpy.create_node('talker').get_clock()\n    before = clock.now()\n"
+        "    time.sleep(100_000)\n"
+        "    assert (clock.now() - before).nanoseconds == 100_000_000_000_000\n"
+    )
+
+    words = ("--ros-free", "-p", "tftool.ros.pytest_plugin", "--import-mode=importlib")
+    pytester.runpytest(*words, file).assert_outcomes(passed=1)
+
+
 def test_two_packages_have_test_files_of_one_name(pytester):
     for name in ("one", "other"):
         (pytester.path / name).mkdir()

@@ -6,6 +6,7 @@ tftool`.
 
 import importlib
 import importlib.machinery
+import importlib.util
 import os
 import sys
 import threading
@@ -231,7 +232,21 @@ class _Finder(MetaPathFinder):
             if inside and spec.loader is not None and not ours:
                 spec.loader = _TestedLoader(spec.loader)
             return spec
-        return None
+        return _dotted_test(fullname, path or ())
+
+
+def _dotted_test(fullname: str, path: Sequence[str]) -> importlib.machinery.ModuleSpec | None:
+    """Return the spec of a test file such as `x.test.py`, which pytest imports as `x_test`.
+
+    pytest does so with `--import-mode=importlib`. Return None if there is no such file.
+    """
+    name = fullname.rpartition(".")[2]
+    files = (file for folder in path for file in Path(folder).glob("*.*.py"))
+    for file in files if "_" in name else ():
+        if file.stem.replace(".", "_") == name:
+            loader = _UserLoader(fullname, str(file))
+            return importlib.util.spec_from_file_location(fullname, file, loader=loader)
+    return None
 
 
 def _spec(name: str) -> importlib.machinery.ModuleSpec:
