@@ -37,6 +37,12 @@ REQUESTS = 10_000
 TICK = seconds(0.001)
 """Nanoseconds by which time advances at such a limit, so that a loop that polls can end."""
 
+TICKS = 16
+"""Ticks without a wait between them after which the next ticks are twice as long."""
+
+LONGEST_TICK = 64 * TICK
+"""Longest step of a loop that polls."""
+
 
 _living: "set[Program]" = set()
 """Programs that are running, in all worlds of this process."""
@@ -122,7 +128,7 @@ class Program(Node):
         self._asked_at: Stamp = 0
         self._asked = 0.0
         self._polled_until: Stamp = 0
-        self._polls_since = 0
+        self._polls_since = self._ticks = 0
         self._is_polling_named = False
         if body is None:
             self.fiber = Fiber.adopt(name)
@@ -261,7 +267,9 @@ class Program(Node):
         return self.clock.now()
 
     def looked_in_vain(self) -> None:
-        """Count a transform lookup that failed at once, to recognise a loop that only polls."""
+        """Count a query that failed at once, to recognise a loop that only polls."""
+        # The loop may execute callbacks and use transforms, so its ticks stay short.
+        self._ticks = 0
         self._count(1.0 / POLLS)
 
     def sleep(self, duration: Duration) -> None:
@@ -308,7 +316,9 @@ class Program(Node):
         self._asked += share
         if self._asked > 1.0 and not self.interrupted:
             self._asked = 0.0
-            fiber.ask(partial(self.clock.sleep, TICK, self.turn, self.rank))
+            self._ticks = self._ticks + 1 if now == self._polled_until else 0
+            tick = min(TICK << self._ticks // TICKS, LONGEST_TICK)
+            fiber.ask(partial(self.clock.sleep, tick, self.turn, self.rank))
             self._note_polling(now)
 
     def _note_polling(self, start: Stamp) -> None:
@@ -333,8 +343,8 @@ class Program(Node):
             "WARN",
             self.name,
             f"'{self.name}' has polled for {fibers.GIVE_UP:g} s, which makes simulated time slow, "
-            f"with steps of only {TICK / NANOSECONDS:g} s: wait with time.sleep or a timer "
-            f"instead, at {where}",
+            f"with steps of {TICK / NANOSECONDS:g} to {LONGEST_TICK / NANOSECONDS:g} s: wait with "
+            f"time.sleep or a timer instead, at {where}",
         )
 
 
