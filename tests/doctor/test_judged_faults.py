@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 
+import pytest
+
 from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.doctor.findings import Severity
@@ -211,3 +213,122 @@ def test_a_filter_that_jumps_at_ten_metres_per_second_is_told():
         lambda t: (0.05 * t + step * (t < 2.4), 0.0, 0.0, *NO_TURN),
     )
     assert ids(made) == ["teleport"]
+
+
+def test_odometry_that_stalls_and_comes_in_a_burst_is_a_note():
+    made = robot()
+    for tick in range(400):
+        at = 0.02 * tick
+        held = max(0.0, 5.5 - at) if at > 3.0 else 0.0
+        made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", begin=at, end=at + 0.02,
+                   latency=max(0.01, held))  # fmt: skip
+    finding = found(made, "stall")
+    assert (finding.severity, finding.topics, finding.count) == (Severity.NOTE, ("/odom",), 1)
+    assert finding.facts["length"] == 2_490_000_000
+    assert finding.facts["period"] == 20_000_000
+    # A pause in the stamps is no stall: nothing was held up.
+    paused = robot()
+    paused.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", end=3.0)
+    paused.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", begin=5.5)
+    assert "stall" not in ids(paused, notes=True)
+
+
+def test_odometry_that_misses_a_turn_between_two_samples_is_a_note():
+    for hz, told in ((3.0, True), (8.0, False)):
+        made = robot(odometry=False)
+        made.moving("odom", "base_link", hz, lambda t: (0.0, 0.0, 0.0, *turned(2.0 * t)))
+        assert ("coarse-odometry" in ids(made, notes=True)) is told
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", 3.0, lambda t: (0.0, 0.0, 0.0, *turned(2.0 * t)))
+    finding = found(made, "coarse-odometry")
+    assert finding.severity is Severity.NOTE
+    assert finding.facts["turn"] == pytest.approx(2.0 / 3.0)
+
+
+def test_stamps_repeated_with_the_noise_of_numbers_are_not_told():
+    for noise, told in ((1e-5, []), (0.01, ["repeated-stamp"])):
+        made = robot(odometry=False)
+        for tick in range(160):
+            at = 0.1 * (tick // 2)
+            pose = (0.5 * at + noise * (tick % 2), 0.0, 0.0, *NO_TURN)
+            made.sent("odom", "base_link", at, pose, latency=0.005 + 0.05 * (tick % 2))
+        assert ids(made) == told
+
+
+def test_a_frame_without_sensor_data_that_ends_is_no_error():
+    for topic, severity in (("", Severity.WARNING), ("/scan", Severity.ERROR)):
+        made = robot(scans=bool(topic), odometry=False)
+        made.moving("odom", "base_link", end=4.0)
+        made.moving("base_link", "arm")
+        assert found(made, "edge-stopped").severity is severity
+
+
+def test_scans_in_an_unknown_frame_are_an_error_on_a_robot_only():
+    for child, severity in (("base_link", Severity.ERROR), ("odom", Severity.WARNING)):
+        made = Robot()
+        made.moving("map", child)
+        made.static(child, "camera")
+        made.hears("/scan", "lidar")
+        assert found(made, "unknown-frame").severity is severity
+
+
+def test_results_in_an_unknown_frame_are_a_note():
+    for kind, severity in (
+        ("geometry_msgs/PoseStamped", Severity.NOTE),
+        ("sensor_msgs/Imu", Severity.WARNING),
+    ):
+        made = robot()
+        made.hears("/thing", "thing", kind=kind)
+        assert found(made, "unknown-frame").severity is severity
+
+
+def test_poses_that_wait_for_odometry_are_a_note_and_scans_a_warning():
+    for kind, severity in (
+        ("geometry_msgs/PoseStamped", Severity.NOTE),
+        ("sensor_msgs/LaserScan", Severity.WARNING),
+    ):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", 2.0)
+        made.hears("/seen", "laser", kind=kind)
+        assert found(made, "sensor-outruns-tf").severity is severity
+
+
+def test_a_recording_without_transforms_and_sensors_is_no_error():
+    made = Robot()
+    made.hears("/cmd_vel", "", kind="sensor_msgs/JointState")
+    assert found(made, "no-transforms").severity is Severity.WARNING
+    made.hears("/scan", "laser")
+    assert found(made, "no-transforms").severity is Severity.ERROR
+
+
+def test_a_small_offset_of_a_sensor_is_a_note():
+    for latency, told in ((-0.04, []), (-0.2, ["clock-offset"])):
+        made = robot(scans=False)
+        made.hears("/imu", "laser", 100.0, "sensor_msgs/Imu", latency=latency)
+        assert ids(made) == told
+        assert "clock-offset" in ids(made, notes=True)
+
+
+def test_trees_of_a_very_short_recording_are_a_note():
+    for end, told in ((0.5, []), (8.0, ["split-tree"])):
+        made = Robot()
+        made.moving("odom", "base_link", end=end)
+        made.moving("world", "beacon", end=end)
+        assert ids(made) == told
+
+
+def test_optical_axes_matter_if_data_is_in_the_frame():
+    made = robot()
+    made.static("base_link", "camera_link")
+    made.static("camera_link", "camera_optical_frame")
+    assert found(made, "optical-convention").severity is Severity.NOTE
+    made.hears("/image", "camera_optical_frame", kind="sensor_msgs/Image")
+    assert found(made, "optical-convention").severity is Severity.WARNING
+
+
+def test_a_few_old_samples_are_a_note():
+    for times, severity in ((1, Severity.NOTE), (20, Severity.WARNING)):
+        made = robot()
+        for number in range(times):
+            made.sent("odom", "base_link", 5.0, stamp=made.log(-30.0 + 0.1 * number))
+        assert found(made, "old-data").severity is severity

@@ -79,12 +79,9 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     so, severity = "no lookup across the two clocks can succeed", None
     apart = own_trees(model, odd, others)
     if apart:
-        so = "none within each tree; no data shows that the two trees belong together"
+        so = "none for lookups within each tree; nothing of one can be placed in the other"
         severity = Severity.WARNING
-        fix = Fix(
-            "a real device beside a simulated robot is right as it is; if it is meant to be on the "
-            f"robot: {fix.text}"
-        )
+        fix = Fix("a real device beside a simulated robot is right as it is")
     yield Hit(
         frames=apart,
         severity=severity,

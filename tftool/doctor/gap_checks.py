@@ -8,9 +8,9 @@ import numpy as np
 from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
-from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
+from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part
+from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part, rate
 from tftool.doctor.wording import several
 
 check = checks_of(Area.COVERAGE)
@@ -296,6 +296,90 @@ def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
     near = int(delay[0]) if len(delay) else 0
     wide = (steps > least) & (stamps[1:] > begin + near) & (stamps[:-1] < end + near)
     return bool(wide.any())
+
+
+@check(
+    "stall",
+    Severity.NOTE,
+    rule="a regular transform or Odometry topic pauses for {seconds:g} s and {periods:g} periods "
+    "or more, and what comes next is older than usual by half of the pause; of {samples:g} samples "
+    "or more",
+    headline="{where} {concerned:stalls|stall} for {length:span}",
+    detail="{what}: {stalls:times}, the longest from {begin:moment} on (log time); usually every "
+    "{period:span}",
+    consequence="what was held up comes late, and at once",
+    causes=("load", "a network that drops", "a node that waits for another"),
+    limits={"seconds": 0.5, "periods": 10, "samples": 50},
+    needs=("log times",),
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("stream", "outage clock-mixture clock-offset"),
+    ),
+)
+def stall(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A regular stream pauses, and then comes in a burst."""
+    odometry = (h for h in model.heard if h.type == "nav_msgs/Odometry")
+    streams: list[Track | Heard] = [*model.dynamic, *odometry]
+    for stream in streams:
+        steps = np.diff(stream.logs)
+        if len(steps) < limits["samples"] or stream.families[0]:
+            continue
+        period, usual = int(np.median(np.diff(np.sort(stream.stamps)))), stream.median_latency
+        least = max(limits["periods"] * period, limits["seconds"] * NANOSECONDS)
+        held = stream.latency[1:] - usual > 0.5 * steps
+        places = np.flatnonzero((steps > least) & held)
+        if len(places):
+            place = int(places[steps[places].argmax()])
+            facts: dict[str, Fact] = {
+                "what": stream.name,
+                "length": int(steps[place]),
+                "begin": int(stream.logs[place]),
+                "period": period,
+                "stalls": len(places),
+            }
+            yield hit_of(stream, facts, since=int(stream.logs[place]), count=len(places))
+
+
+@check(
+    "coarse-odometry",
+    Severity.NOTE,
+    rule="the robot turns by more than {degrees:g}° between two samples of its odometry, of "
+    "{samples:g} samples or more, and scans or point clouds come {times:g} times as often",
+    headline="{where} {concerned:turns|turn} by up to {turn:deg} between two samples",
+    detail="{edge}: {count:times} by more than {least:deg}; {hz:.3g} Hz, {topic} {often:.3g} Hz",
+    consequence="a lookup interpolates between two samples, and misses the motion between them",
+    causes=("odometry at a low rate",),
+    limits={"degrees": 20.0, "times": 2.0, "samples": 20},
+    needs=("headers",),
+    because_of=(
+        ("child", "publisher-conflict two-parents static-and-dynamic"),
+        ("edge", "gap edge-stopped teleport clock-offset frozen-stamp"),
+    ),
+)
+def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Odometry is slower than the scans, and the robot turns far between two samples."""
+    scans = [heard for heard in model.heard if last_part(heard.type) in PLACED]
+    fastest = max(scans, key=rate, default=None)
+    for track in model.dynamic:
+        places = track.by_stamp
+        is_base = last_part(track.parent).startswith("odom") and last_part(track.child) in BASES
+        if fastest is None or not is_base or len(places) < limits["samples"]:
+            continue
+        if rate(fastest) < limits["times"] * rate(track):
+            continue
+        turned = track.turned(places[1:], places[:-1])
+        least = float(np.radians(limits["degrees"]))
+        far = int(np.count_nonzero(turned > least))
+        if far > 1:
+            facts = {
+                "turn": float(turned.max()),
+                "count": far,
+                "least": least,
+                "hz": rate(track),
+                "topic": fastest.topic,
+                "often": rate(fastest),
+            }
+            yield hit_of(track, facts, topics=(fastest.topic,), count=far)
 
 
 @check(

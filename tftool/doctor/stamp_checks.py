@@ -135,9 +135,9 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     "repeated-stamp",
     Severity.WARNING,
     rule="more than {samples:g} samples, and a share above {share:g}, repeat a stamp with "
-    "another value; in noetic, which prints a warning for each, with any value. A note if all "
-    "values are equal in a share below {flood:g}. In ROS 2 no transform from map to "
-    "odometry is reported",
+    "another value, by {metres:g} m or {radians:g} rad; in noetic, which prints a warning for "
+    "each, with any value. A note if all values are equal in a share below {flood:g}. In ROS 2 no "
+    "transform from map to odometry is reported",
     headline="{where} {concerned:repeats|repeat} stamps",
     detail="{edge}: {count} of {of} samples repeat a stamp, {different} of them with another value"
     "{by}",
@@ -149,7 +149,7 @@ _FROZEN = {"times": 10, "seconds": 1.0}
         "two nodes with one frame",
     ),
     links=threads("at-wat/neonavigation#612", "uf-mil/mil#1097"),
-    limits={"samples": 2, "share": 0.05, "flood": 0.25},
+    limits={"samples": 2, "share": 0.05, "flood": 0.25, "metres": 1e-3, "radians": 1e-3},
     because_of=(
         ("anything", "time-jump-back"),
         ("child", "publisher-conflict two-parents"),
@@ -167,7 +167,8 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         if len(again) <= limits["samples"] or stands_still(track):
             continue
         some, others = places[again], places[again + 1]
-        differ = (track.apart(some, others) > 1e-6) | (track.turned(some, others) > 1e-4)
+        differ = track.apart(some, others) > limits["metres"]
+        differ |= track.turned(some, others) > limits["radians"]
         told = differ | warns  # tf2 is silent about equal ones before noetic and in ROS 2
         different = int(np.count_nonzero(differ))
         is_silent = (
