@@ -33,6 +33,9 @@ _PLAIN = {
 }
 """ASCII replacement of each of tftool's symbols, for encodings that lack the symbol."""
 
+RUNS_PROGRAMS = frozenset({"run", "launch", "ros2", "check"})
+"""Commands that run users' programs, whose numpy may use all processors."""
+
 DESCRIPTORS = 32
 """Most files and sockets that a command may need open at the same time."""
 
@@ -148,6 +151,10 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
         rest = _own_options(argv)
         if rest is None:
             return ExitStatus.DONE
+        if rest[:1] and rest[0] not in RUNS_PROGRAMS:
+            # numpy's BLAS would start a thread for each processor, each of which waits busily
+            # for a tenth of a second. The matrices of tftool's own commands are too small to share.
+            os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         from tftool.app.command_line import run_command
 
         return run_command(rest, providers)
