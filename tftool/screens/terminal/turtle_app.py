@@ -31,7 +31,7 @@ from tftool.screens.terminal.text_style import wrapped
 from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 
-LOOKS_PER_SECOND = 20
+LOOKS_PER_SECOND = 15
 PANELS_EVERY = 3
 """Number of pictures after which the text beside the field is drawn again."""
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Coroutine, Iterable
 from typing import Any, ClassVar
 
 from rich.segment import Segment
+from rich.style import Style
 from rich.text import Text
 from textual import events
 from textual.app import App
@@ -76,6 +77,7 @@ class Panel(Widget):
         self._title = title
         self._lines: list[Text] | list[list[Segment]] = []
         self._strips: list[Strip] = []
+        self._drawn_for: tuple[int, Style] | None = None
 
     def on_mount(self) -> None:
         """Set the panel's title."""
@@ -84,18 +86,30 @@ class Panel(Widget):
 
     def show(self, lines: list[Text] | list[list[Segment]]) -> None:
         """Show these lines in place of the panel's present lines."""
-        self._lines = lines
         width, height = self.size
-        strips = [
-            Strip(line.render(self.app.console, end="") if isinstance(line, Text) else line)
-            for line in lines[:height]
-        ]
         ground = self.rich_style
-        strips = [strip.adjust_cell_length(width).apply_style(ground) for strip in strips]
-        before, self._strips = self._strips, strips
-        for y in range(max(len(before), len(strips))):
-            if y >= len(before) or y >= len(strips) or before[y] != strips[y]:
+        kept: dict[int, Strip] = {}
+        if (width, ground) == self._drawn_for:
+            # Making a strip costs more than comparing lines, and most lines stay as they were.
+            kept = {
+                y: self._strips[y]
+                for y in range(min(len(lines), len(self._strips)))
+                if _looks_alike(lines[y], self._lines[y])
+            }
+        before, self._lines, self._drawn_for = self._strips, lines, (width, ground)
+        self._strips = [
+            kept[y] if y in kept else self._strip(lines[y], width, ground)
+            for y in range(min(len(lines), height))
+        ]
+        for y in range(max(len(before), len(self._strips))):
+            if y in kept:
+                continue
+            if y >= len(before) or y >= len(self._strips) or before[y] != self._strips[y]:
                 self.refresh(Region(0, y, width, 1))
+
+    def _strip(self, line: Text | list[Segment], width: int, ground: Style) -> Strip:
+        parts = line.render(self.app.console, end="") if isinstance(line, Text) else line
+        return Strip(parts).adjust_cell_length(width).apply_style(ground)
 
     def on_resize(self) -> None:
         """Cut the lines to the panel's new size; lines may be set before a panel has a size."""
@@ -106,6 +120,12 @@ class Panel(Widget):
         if y < len(self._strips):
             return self._strips[y]
         return Strip.blank(self.size.width, self.rich_style)
+
+
+def _looks_alike(new: Text | list[Segment], old: Text | list[Segment]) -> bool:
+    # rich compares texts without their own style.
+    same_style = not isinstance(new, Text) or not isinstance(old, Text) or new.style == old.style
+    return same_style and new == old
 
 
 def themes() -> list[Theme]:
