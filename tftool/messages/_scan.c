@@ -333,7 +333,7 @@ static int is_aimed(Pairs *self, PyObject *ask, uint32_t pair, int32_t message, 
         if (state[MOVED] == target->moved && state[COUNT] >= 0 && state[COUNT] < target->room)
             return 1;
     }
-    PyErr_SetString(PyExc_ValueError, "no room was made for a transform");
+    PyErr_SetString(PyExc_ValueError, "the arrays of the edge are full");
     return 0;
 }
 
@@ -344,7 +344,7 @@ static PyObject *take(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE};
     Py_buffer views[4];
     if (count != 6) {
-        PyErr_SetString(PyExc_TypeError, "take takes a buffer, three arrays, whether it is CDR, and whom to ask");
+        PyErr_SetString(PyExc_TypeError, "take needs 6 arguments: a buffer, three arrays, is_cdr, and a function");
         return NULL;
     }
     const int is_cdr = PyObject_IsTrue(arguments[4]);
@@ -362,15 +362,15 @@ static PyObject *take(PyObject *object, PyObject *const *arguments, Py_ssize_t c
             && (uint64_t)length <= size - (uint64_t)start;
     }
     if (!fits) {
-        PyErr_SetString(PyExc_ValueError, "a message lies outside of the buffer");
+        PyErr_SetString(PyExc_ValueError, "a message extends beyond the buffer");
         goto done;
     }
     if (self->busy) {
-        PyErr_SetString(PyExc_RuntimeError, "another thread scans with these pairs");
+        PyErr_SetString(PyExc_RuntimeError, "another thread uses these pairs");
         goto done;
     }
     if (self->count && self->is_cdr != is_cdr) {
-        PyErr_SetString(PyExc_ValueError, "the pairs are those of messages in the other layout");
+        PyErr_SetString(PyExc_ValueError, "these pairs were read from messages in another layout");
         goto done;
     }
     self->is_cdr = is_cdr;
@@ -439,7 +439,7 @@ static PyObject *aim(PyObject *object, PyObject *const *arguments, Py_ssize_t co
     static const int flags[] = {PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
     Py_buffer views[3];
     if (count != 4) {
-        PyErr_SetString(PyExc_TypeError, "aim takes an edge's number and three arrays");
+        PyErr_SetString(PyExc_TypeError, "aim needs 4 arguments: the number of an edge, and three arrays");
         return NULL;
     }
     const Py_ssize_t number = PyLong_AsSsize_t(arguments[0]);
@@ -447,7 +447,7 @@ static PyObject *aim(PyObject *object, PyObject *const *arguments, Py_ssize_t co
         return NULL;
     if (self->busy == 1 || number < 0 || number > self->targeted || number >= MOST_PAIRS
         || views[2].len < STATE * 8 || (uintptr_t)views[2].buf % 8) {
-        PyErr_SetString(PyExc_ValueError, "there is no such edge, or it lacks its state");
+        PyErr_SetString(PyExc_ValueError, "no such edge, or the state array of the edge is too short");
         goto failed;
     }
     if (number == self->targeted) {
@@ -475,7 +475,7 @@ PyDoc_STRVAR(lead_doc, "Set the edge of a pair's transforms; see `_scan.pyi`.");
 static PyObject *lead(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
     Pairs *self = (Pairs *)object;
     if (count != 3) {
-        PyErr_SetString(PyExc_TypeError, "lead takes a pair, an edge's number, and whether it is slashed");
+        PyErr_SetString(PyExc_TypeError, "lead needs 3 arguments: a pair, the number of an edge, and is_slashed");
         return NULL;
     }
     const Py_ssize_t pair = PyLong_AsSsize_t(arguments[0]), number = PyLong_AsSsize_t(arguments[1]);
@@ -483,7 +483,7 @@ static PyObject *lead(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     if (PyErr_Occurred())
         return NULL;
     if (self->busy == 1 || pair < 0 || pair >= (Py_ssize_t)self->count || number < NOWHERE || number >= self->targeted) {
-        PyErr_SetString(PyExc_IndexError, "there is no such pair, or no such edge");
+        PyErr_SetString(PyExc_IndexError, "no such pair, or no such edge");
         return NULL;
     }
     self->pairs[pair].target = (int32_t)number;
@@ -499,7 +499,7 @@ static PyObject *names(PyObject *object, PyObject *argument) {
     if (number == -1 && PyErr_Occurred())
         return NULL;
     if (self->busy == 1 || number < 0 || number >= self->count) {
-        PyErr_SetString(PyExc_IndexError, "there is no such pair");
+        PyErr_SetString(PyExc_IndexError, "no such pair");
         return NULL;
     }
     const Pair *pair = &self->pairs[number];
@@ -551,7 +551,7 @@ static PyObject *indexed(PyObject *module, PyObject *const *arguments, Py_ssize_
     static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
     Py_buffer views[5];
     if (count != 6) {
-        PyErr_SetString(PyExc_TypeError, "indexed takes a chunk, an index, three arrays, and a channel");
+        PyErr_SetString(PyExc_TypeError, "indexed needs 6 arguments: a chunk, an index, three arrays, and a channel");
         return NULL;
     }
     const long channel = PyLong_AsLong(arguments[5]);
@@ -589,7 +589,7 @@ static PyObject *pointed(PyObject *module, PyObject *const *arguments, Py_ssize_
     static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
     Py_buffer views[5];
     if (count != 8) {
-        PyErr_SetString(PyExc_TypeError, "pointed takes a chunk, an index, three arrays, and three numbers");
+        PyErr_SetString(PyExc_TypeError, "pointed needs 8 arguments: a chunk, an index, three arrays, and three numbers");
         return NULL;
     }
     const unsigned long connection = PyLong_AsUnsignedLong(arguments[5]), code = PyLong_AsUnsignedLong(arguments[6]),
@@ -677,7 +677,7 @@ static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t c
                                 PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
     Py_buffer views[VIEWS];
     if (count != VIEWS + 3) {
-        PyErr_SetString(PyExc_TypeError, "rows takes pages, their places, streams, four arrays, and three numbers");
+        PyErr_SetString(PyExc_TypeError, "rows needs 10 arguments: pages, their offsets, streams, four arrays, and three numbers");
         return NULL;
     }
     const long size = PyLong_AsLong(arguments[VIEWS]), usable = PyLong_AsLong(arguments[VIEWS + 1]);

@@ -462,8 +462,8 @@ class _Job:
             channel = output.channels[number]
             wanted[channel.topic, channel.type] += count
         if tape.damage or counts != wanted or found != output.digests:
-            what = tape.damage[0] if tape.damage else "its messages differ from the written ones"
-            raise InputError(f"'{self._path}' was written wrongly: {what}.")
+            what = tape.damage[0] if tape.damage else "some messages differ from those written"
+            raise InputError(f"'{self._path}' was read again to check it: {what}.")
         self.report.messages += sum(counts.values())
         self.report.copied += len(output.copied)
 

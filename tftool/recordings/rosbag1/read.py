@@ -211,7 +211,7 @@ class Rosbag1(ChunkedReader):
     def _look_at(self, chunk: Chunk, header: Mapping[bytes, bytes], data: int, length: int) -> None:
         """Parse the header of a chunk record, and set the fields of `chunk`."""
         if header.get(b"op") != CHUNK:
-            raise InputError(f"no chunk is at byte {chunk.position}")
+            raise InputError(f"the record at byte {chunk.position} is not a chunk")
         (chunk.size,) = U32.unpack(header[b"size"])
         chunk.method = header[b"compression"].decode("ascii", "replace")
         is_open = not length and not chunk.size and not self._infos
