@@ -377,3 +377,32 @@ def test_axes_of_many_frames_are_shorter_so_that_they_overlap_less():
         return inks(lines, theme.hexadecimal(theme.paper(theme.DARK).z_axis)) / count
 
     assert blue(80) < 0.7 * blue(8)
+
+
+MESHES_ONLY = """<robot name="arm">
+  <link name="base"><visual><geometry><mesh filename="package://gone/a.stl"/></geometry></visual>
+    <collision><geometry><box size="0.4 0.4 0.1"/></geometry></collision></link>
+  <link name="arm"><visual><geometry><mesh filename="package://gone/b.stl"/></geometry></visual></link>
+  <link name="tip"/>
+  <joint name="one" type="fixed"><parent link="base"/><child link="arm"/></joint>
+  <joint name="two" type="fixed"><parent link="arm"/><child link="tip"/>
+    <origin xyz="0 0 0.5"/></joint>
+</robot>"""
+
+
+def test_links_whose_meshes_are_missing_are_collision_shapes_or_rods_to_their_joints():
+    robot = parse_description(MESHES_ONLY)
+
+    solids, refused = solids_of(robot.links.values(), MeshFolders(), joints=robot.joints.values())
+
+    bounds, first = {}, 0
+    for frame, (end, _) in zip(solids.frames, solids.ends, strict=True):
+        part = solids.points[first:end]
+        bounds[frame] = (part.min(0).tolist(), part.max(0).tolist()) if len(part) else None
+        first = end
+    assert len(refused) == 2
+    assert bounds["base"][1] == pytest.approx([0.2, 0.2, 0.05])
+    # A thin rod from the origin to the tip, half a metre above it.
+    assert bounds["arm"][1][2] == pytest.approx(0.5)
+    assert max(bounds["arm"][1][:2]) < 0.1
+    assert bounds["tip"] is None

@@ -1,6 +1,6 @@
 """Triangles of a robot's links, from boxes, cylinders, spheres, and simplified meshes."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
@@ -15,6 +15,7 @@ from tftool.robots.description import (
     CylinderShape,
     LinkShape,
     MeshShape,
+    RobotJoint,
     RobotLink,
     SphereShape,
 )
@@ -29,6 +30,10 @@ MOST_TRIANGLES: Final = 12_000
 
 PLAIN: Final[Rgb] = (0.78, 0.80, 0.84)
 """Colour of shapes that have none."""
+
+ROD_TO_LENGTH: Final = 0.06
+ROD_TO_LONGEST: Final = 0.03
+"""Smallest radius of a rod, relative to its own length and to that of the longest rod."""
 
 _AROUND: Final = 20
 """Number of corners of a polygon that replaces a circle."""
@@ -75,6 +80,7 @@ def solids_of(
     folders: MeshFolders,
     prefix: str = "",
     most: int = MOST_TRIANGLES,
+    joints: Iterable[RobotJoint] = (),
 ) -> tuple[Solids, list[str]]:
     """Convert the visual shapes of links to triangles.
 
@@ -83,19 +89,30 @@ def solids_of(
         folders: Folders from which meshes may be read.
         prefix: Prefix of a frame's name before the link's name.
         most: Approximate limit on the number of triangles.
+        joints: Joints of the robot. A link whose meshes are not found is drawn as rods to its
+            joints, and so are all links of a robot without any shape.
 
     Returns:
         The triangles, and sentences about meshes that are not shown.
     """
     refused: list[str] = []
+    bare: set[str] = set()
     by_frame: dict[str, list[Mesh]] = {}
     for link in links:
         meshes = by_frame.setdefault(prefix + link.name, [])
-        for shape in link.visuals or link.collisions:
-            try:
-                meshes += _shape(shape, folders)
-            except MeshRefused as refusal:
-                refused.append(str(refusal))
+        for shapes in (link.visuals, link.collisions):
+            for shape in shapes if not meshes else ():
+                try:
+                    meshes += _shape(shape, folders)
+                except MeshRefused as refusal:
+                    bare.add(link.name)
+                    if shapes is link.visuals or not link.visuals:
+                        refused.append(str(refusal))
+    if not any(by_frame.values()):
+        bare.update(name.removeprefix(prefix) for name in by_frame)
+    for name, rods in _rods(joints, bare).items():
+        meshes = by_frame.get(prefix + name, [])
+        meshes += [] if meshes else rods
     everything = [one for meshes in by_frame.values() for one in meshes]
     if sum(len(one.triangles) for one in everything) > most:
         # A grid of that width has about so many corners on these surfaces, and twice as
@@ -104,6 +121,28 @@ def solids_of(
         for meshes in by_frame.values():
             meshes[:] = [coarse(one, width) for one in meshes]
     return _joined(by_frame), list(dict.fromkeys(refused))
+
+
+def _rods(joints: Iterable[RobotJoint], links: Collection[str]) -> dict[str, list[Mesh]]:
+    """Return, for each of some links, rods from its origin to its joints, and a ball as origin."""
+    origins = [(one.parent, one.child, np.array(one.origin.translation)) for one in joints]
+    longest = max((float(np.linalg.norm(end)) for _, _, end in origins), default=0.0)
+    rods: dict[str, list[Mesh]] = {}
+    for parent, child, end in origins:
+        length = float(np.linalg.norm(end))
+        radius = max(ROD_TO_LENGTH * length, ROD_TO_LONGEST * longest)
+        if parent in links and length > radius:
+            along = end / length
+            aside = np.cross(along, np.eye(3)[int(np.abs(along).argmin())])
+            aside /= np.linalg.norm(aside)
+            axes = np.stack([aside, np.cross(along, aside), along])
+            rod = _turned(np.array([[radius, 0.0], [radius, length]]))
+            rods.setdefault(parent, []).append(Mesh(rod.points @ axes, rod.triangles))
+        if child in links:
+            angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, _AROUND // 2 + 1)
+            ball = 1.5 * radius * np.stack([np.cos(angles), np.sin(angles)], 1)
+            rods.setdefault(child, []).append(_turned(ball))
+    return rods
 
 
 def coarse(mesh: Mesh, width: float) -> Mesh:

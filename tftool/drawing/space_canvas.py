@@ -503,15 +503,19 @@ class SpaceCanvas:
         costs[-1, : len(hint) + 24] = TAKEN
         palette = self._palette
         found = self._placer.placed(labels, costs)
-        leaders = Dots(self.columns, self.rows)
-        ends = [_leader(placed) for placed in found if placed.is_far]
-        leaders.draw(np.array(ends, float).reshape(-1, 2, 2), packed(palette.dim))
-        leaders.masks[marked | solid] = 0
-        sheet.lay(leaders, ascii_only=self._ascii)
+        inks = []
         for placed in found:
             one, _ = named[placed.label.name]
             color = theme.readable(theme.of_name(one.name), palette)
-            ink = packed(theme.of_age(color, one.age, palette))
+            inks.append(packed(theme.of_age(color, one.age, palette)))
+        # In the colour of its name, up to the origin: a line cut short would point elsewhere.
+        leaders = Dots(self.columns, self.rows)
+        far = np.array([placed.is_far for placed in found], bool)
+        ends = np.array([_leader(placed) for placed in found], float).reshape(-1, 2, 2)
+        leaders.draw(ends[far], np.array(inks, np.int64)[far])
+        sheet.lay(leaders, ascii_only=self._ascii)
+        for placed, ink in zip(found, inks, strict=True):
+            one, _ = named[placed.label.name]
             text, is_chosen = placed.label.text, one.name == chosen
             sheet.write(placed.column, placed.row, text, ink, bold=is_chosen, clears=True)
         told = sum(named[placed.label.name][1] for placed in found)

@@ -148,7 +148,9 @@ def _show_recording(connection: Connection, options: DemoOptions, word: str) -> 
     if frames.robot is not None:
         robot = frames.robot
         prefix = prefix_of(robot, frames.buffer.frames())
-        scene.solids, missing = solids_of(robot.links.values(), MeshFolders(), prefix)
+        scene.solids, missing = solids_of(
+            robot.links.values(), MeshFolders(), prefix, joints=robot.joints.values()
+        )
         if missing:
             shown.log.warn("screen", f"{len(missing)} shapes are not drawn: {missing[0]}")
     run_app(scene, life(), None, setting)

@@ -154,7 +154,12 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
 
     folders = MeshFolders(found.paths[0], options.meshes or [])
     if options.output is not None:
-        shapes = solids_of(described.links.values(), folders, most=IN_A_FILE)
+        shapes = solids_of(
+            described.links.values(),
+            folders,
+            most=IN_A_FILE,
+            joints=described.joints.values(),
+        )
         return _draw(
             described,
             connection.robot.joints,
@@ -185,7 +190,12 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
         return ExitStatus.DONE
 
     setting = Setting(title="tftool robot", ascii_only=options.ascii_only, light=options.light)
-    shapes = solids_of(described.links.values(), folders, options.frame_prefix)
+    shapes = solids_of(
+        described.links.values(),
+        folders,
+        options.frame_prefix,
+        joints=described.joints.values(),
+    )
     _tell_missing(shapes[1])
     _show(
         session,

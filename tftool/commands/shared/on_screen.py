@@ -102,7 +102,9 @@ def take_solids(
         except InputError as error:
             tell(f"the description on /{DESCRIPTION} is not drawn: {error}")
             return
-        solids, missing = solids_of(robot.links.values(), MeshFolders())
+        solids, missing = solids_of(
+            robot.links.values(), MeshFolders(), joints=robot.joints.values()
+        )
         take(solids)
         if missing:
             tell(f"{len(missing)} shapes are not drawn: {missing[0]}")
