@@ -32,10 +32,14 @@ def test_rate_and_delay_are_counted_from_look_to_look(room, cells):
 
     rate, delay = history.columns(["base", "map"], room)
 
-    assert rate.cells[0][0].strip().endswith("▁")
-    assert "▇" in rate.cells[0][0]
-    assert set(delay.cells[0][0].strip()) == {"▇"}
+    # The maximum of the curve is written after the curve: 20 Hz, and 100 ms.
+    curve, most = rate.cells[0][0].split()
+    assert curve.endswith("▁")
+    assert "▇" in curve
+    assert float(most) == pytest.approx(20.0, abs=0.5)
+    curve, most = delay.cells[0][0].split()
+    assert (set(curve), most) == ({"▇"}, "100")
     assert rate.cells[1][0] == delay.cells[1][0] == ""
     assert rate.width == delay.width == cells
-    assert [one.heading for one in history.columns(["base"], 20)] == ["rate, lately"]
+    assert [one.heading for one in history.columns(["base"], 20)] == ["rate, max Hz"]
     assert history.columns(["base"], 12) == []

@@ -127,6 +127,11 @@ def short_duration(duration: Duration) -> str:
     return f"{number / 86400:.1f} d"
 
 
+def three_digits(value: float) -> str:
+    """Format a number with three significant digits, or as a whole number from 1000 on."""
+    return f"{value:.3g}" if abs(value) < 999.5 else f"{value:.0f}"
+
+
 def short_rate(rate: float) -> str:
     """Format a rate in hertz as "0.50 Hz", "62.7 Hz" or "1000 Hz"."""
     if rate < 0.995:

@@ -96,7 +96,7 @@ def _headline(found: Explanation) -> Text:
 def _later(found: Explanation) -> str:
     """Return the end of a sentence: when the lookup would succeed instead; "" if unknown."""
     if found.answerable_from is None:
-        return ", and would be at any later time"
+        return ", and waiting would not help"
     late = found.answerable_from - found.asked
     if late > 0:
         return f", would answer {span(late)} later"

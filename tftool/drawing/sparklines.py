@@ -4,6 +4,7 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple
 
+from tftool.base.plain_text import three_digits
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.traffic import Traffic
 from tftool.drawing.table_columns import GAP, TableColumn
@@ -14,6 +15,9 @@ LOOKS: Final = 240
 CELLS: Final = 60
 LEAST_CELLS: Final = 13
 """Cells of the longest curve beside a tree, and of the shortest, which has room for its heading."""
+
+NUMBER: Final = 6
+"""Cells of the maximum of a curve."""
 
 # The full block is not used, because curves of neighbouring rows would merge.
 _SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇"}
@@ -42,6 +46,13 @@ def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = 
         " " if one is None else signs[round(max(0.0, one) / (highest or 1.0) * (len(signs) - 1))]
         for one in shown
     )
+
+
+def _scaled(values: Sequence[float | None], width: int, factor: float, ascii_only: bool) -> str:
+    """Draw values in `width` cells, with the maximum times a factor at the right."""
+    curve = sparkline(values, width - NUMBER, ascii_only=ascii_only)
+    highest = max((one for one in values if one is not None), default=0.0)
+    return curve and f"{curve}{three_digits(factor * highest):>{NUMBER}}"
 
 
 class TrafficLook(NamedTuple):
@@ -103,15 +114,15 @@ class TrafficHistory:
             TableColumn(
                 heading,
                 [
-                    (sparkline([one[part] for one in looks], cells, ascii_only=ascii_only), style)
+                    (_scaled([one[part] for one in looks], cells, factor, ascii_only), style)
                     for looks in kept
                 ],
                 # The heading stands above the newest value.
                 stands_right=True,
             )
-            for heading, part, style in (
-                ("rate, lately", 1, "green"),
-                ("delay, lately", 2, "yellow"),
+            for heading, part, factor, style in (
+                ("rate, max Hz", 1, 1.0, "green"),
+                ("delay, max ms", 2, 1e3, "yellow"),
             )[:count]
         ]
 

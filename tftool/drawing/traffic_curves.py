@@ -11,7 +11,7 @@ from rich.style import Style
 from rich.text import Text
 
 from tftool.base.color import Color
-from tftool.base.plain_text import short_duration, visible
+from tftool.base.plain_text import short_duration, three_digits, visible
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.buffer.traffic import FrameTraffic, Series, Traffic
 from tftool.drawing import theme
@@ -353,4 +353,4 @@ def _above(value: float) -> float:
 
 
 def _short(value: float, unit: str = "") -> str:
-    return f"{value:.3g}{unit}"[: GUTTER - 1]
+    return f"{three_digits(value)}{unit}"[: GUTTER - 1]
