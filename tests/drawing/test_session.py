@@ -95,3 +95,14 @@ def test_a_small_terminal_has_all_topics_in_a_line_each():
     assert "  spawn, turtle1/set_pen" in told
     assert told[-1] == "  and 1 topics, 1 services of parameters and actions (--verbose)"
     assert len(session.lines(found, width=80, height=60)) > 24
+
+
+def test_the_arrow_between_long_lists_of_nodes_is_never_cut():
+    long = [f"a_node_with_a_long_name_{n}" for n in range(3)]
+    topic = {"type": "a/msg/B", "publishers": long, "subscribers": long, "rate": 5.0}
+    found = FOUND | {"topics": {f"topic_{n}": topic for n in range(12)}}
+
+    told = [line.plain for line in session.lines(found, width=80, height=24)]
+
+    assert sum(" → " in line for line in told) == 12
+    assert max(map(cell_len, told)) <= 80

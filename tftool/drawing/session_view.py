@@ -105,12 +105,11 @@ def _brief(
     """Return topics in one line each, and services in few lines, for a small terminal."""
     shown = {name: one for name, one in topics.items() if "/_action/" not in name}
     arrow = "->" if ascii_only else "→"
+    most = max(16, (writer.width or 80) // 2)
     ways = [
-        (f"{_names(one['publishers'], '-')} {arrow} {_names(one['subscribers'], '-')}", "dim")
+        (_way(_names(one["publishers"], "-"), _names(one["subscribers"], "-"), arrow, most), "dim")
         for one in shown.values()
     ]
-    # A long list is cut in its middle, so that both ends are visible.
-    most = max(16, (writer.width or 80) // 2)
     told = writer.heading("Topics", len(topics)) + writer.rows(
         [visible(name) for name in shown],
         [
@@ -131,6 +130,15 @@ def _brief(
         words = f"and {folded[0]} topics, {folded[1]} services of parameters and actions"
         told.append(Text(f"{INDENT}{words} (--verbose)", style="dim"))
     return told
+
+
+def _way(senders: str, receivers: str, arrow: str, width: int) -> str:
+    """Return an arrow from senders to receivers; each side is cut, so that the arrow stays."""
+    room = width - len(arrow) - 2
+    left = min(cell_len(senders), max(room // 2, room - cell_len(receivers)))
+    more = "~" if arrow.isascii() else "…"
+    cut = middle_cut(senders, left, more=more), middle_cut(receivers, room - left, more=more)
+    return f" {arrow} ".join(cut)
 
 
 class _Writer:
