@@ -53,7 +53,8 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
             because = folded.pop(finding.id, [])
             if because:
                 parts.append(Text(f"       with it: {', '.join(because)}", "dim"))
-    parts += [Text(""), Text(visible(areas(diagnosis)))]
+    is_clean = not any(finding.is_shown for finding in diagnosis.findings)
+    parts += [Text(""), _clean(diagnosis) if is_clean else Text(visible(areas(diagnosis)))]
     if verbose:
         parts += [
             Text(visible(f"skipped: {one.id}: {one.reason}"), "dim") for one in diagnosis.skipped
@@ -136,6 +137,39 @@ def _last_arrival(model: Model) -> Stamp:
 
 def areas(diagnosis: Diagnosis) -> str:
     """Return a line with the areas (groups of checks) that have no finding."""
+    return " · ".join(
+        f"{area.value}: {reason}" if reason else f"{area.value} fine{_latencies(model, area)}"
+        for model in [diagnosis.model]
+        for area, reason in _fine(diagnosis)
+    )
+
+
+def _clean(diagnosis: Diagnosis) -> Table:
+    """Return a table of the areas without a finding: a tick, the area, and a measured fact."""
+    model = diagnosis.model
+    evidence = model.evidence
+    heard = len({one.topic for one in model.heard if len(one.stamps)})
+    facts = {
+        Area.PUBLISHERS: f"{count(len(evidence.transforms.publishers), 'publisher')} of transforms",
+        Area.SHAPE: f"{count(len(model.frames), 'frame')} in {count(len(model.trees), 'tree')}",
+        Area.NAMES: count(len(model.frames), "name"),
+        Area.CLOCKS: _latencies(model, Area.CLOCKS).strip(" ()"),
+        Area.COVERAGE: f"{count(heard, 'topic')} with headers",
+        Area.VALUES: count(len(evidence.transforms), "transform"),
+    }
+    table = Table.grid(padding=(0, 2), pad_edge=False)
+    table.add_column(no_wrap=True)
+    table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    for area, reason in _fine(diagnosis):
+        tick, style = ("-", "dim") if reason else ("✓", "green")
+        fact = reason or facts.get(area, "")
+        table.add_row(Text(tick, style), Text(area.value, style), Text(visible(fact), "dim"))
+    return table
+
+
+def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
+    """Return the areas that have no finding, and why they were skipped; "" if they were not."""
     wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -145,10 +179,10 @@ def areas(diagnosis: Diagnosis) -> str:
             continue
         reasons = {skipped[check.id] for check in checks if check.id in skipped}
         if len(reasons) == 1 and all(check.id in skipped for check in checks):
-            told.append(f"{area.value}: skipped, {reasons.pop()}")
+            told.append((area, f"skipped, {reasons.pop()}"))
         else:
-            told.append(f"{area.value} fine{_latencies(diagnosis.model, area)}")
-    return " · ".join(told)
+            told.append((area, ""))
+    return told
 
 
 def _latencies(model: Model, area: Area) -> str:
