@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from tests.doctor.judged import found, ids
+from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
@@ -25,7 +25,7 @@ def test_an_edge_that_stops_explains_why_scans_cannot_be_placed():
     assert outran.because_of == "edge-stopped"
 
 
-@pytest.mark.parametrize(("goes_on", "told"), [(5.02, []), (5.5, []), (7.0, ["edge-stopped"])])
+@pytest.mark.parametrize(("goes_on", "told"), [(5.02, []), (5.5, []), (7.5, ["edge-stopped"])])
 def test_links_that_stop_together_before_the_end_are_no_fault_of_the_first_of_them(goes_on, told):
     """Check edges that stop together, as in a session whose host has left."""
     made = robot(odometry=False, scans=False)
@@ -458,3 +458,45 @@ def test_a_single_transform_on_a_topic_of_its_own_is_not_read_by_tf2():
         one for one in judge(replace(evidence, topics=topics)).findings if one.id == "empty-frame"
     ]
     assert empty.severity is Severity.NOTE
+
+
+def test_odometry_that_stalls_and_comes_in_a_burst_is_a_note():
+    made = robot()
+    for tick in range(400):
+        at = 0.02 * tick
+        held = max(0.0, 5.5 - at) if at > 3.0 else 0.0
+        made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", begin=at, end=at + 0.02,
+                   latency=max(0.01, held))  # fmt: skip
+    finding = found(made, "stall")
+    assert (finding.severity, finding.topics, finding.count) == (Severity.NOTE, ("/odom",), 1)
+    assert finding.facts["length"] == 2_490_000_000
+    assert finding.facts["period"] == 20_000_000
+    # A pause in the stamps is no stall: nothing was held up.
+    paused = robot()
+    paused.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", end=3.0)
+    paused.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", begin=5.5)
+    assert "stall" not in ids(paused, notes=True)
+
+
+def test_odometry_that_misses_a_turn_between_two_samples_is_a_note():
+    for hz, told in ((3.0, True), (8.0, False)):
+        made = robot(odometry=False)
+        made.moving("odom", "base_link", hz, lambda t: (0.0, 0.0, 0.0, *turned(2.0 * t)))
+        assert ("coarse-odometry" in ids(made, notes=True)) is told
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", 3.0, lambda t: (0.0, 0.0, 0.0, *turned(2.0 * t)))
+    finding = found(made, "coarse-odometry")
+    assert finding.severity is Severity.NOTE
+    assert finding.facts["turn"] == pytest.approx(2.0 / 3.0)
+
+
+def test_a_player_that_pauses_is_no_outage():
+    made = robot()
+    made.hears("/points", "laser", 5.0, "sensor_msgs/PointCloud2")
+    pause = seconds(3.0)
+    later = made.log(4.0)
+    made.messages = [(log + pause * (log > later), who) for log, who in made.messages]
+    for topic, (kind, rows) in made.heard.items():
+        moved = [(stamp, log + pause * (log > later), frame) for stamp, log, frame in rows]
+        made.heard[topic] = (kind, moved)
+    assert "outage" not in ids(made, notes=True)

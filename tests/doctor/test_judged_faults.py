@@ -3,8 +3,6 @@
 import math
 from dataclasses import replace
 
-import pytest
-
 from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.doctor.findings import Severity
@@ -215,36 +213,6 @@ def test_a_filter_that_jumps_at_ten_metres_per_second_is_told():
     assert ids(made) == ["teleport"]
 
 
-def test_odometry_that_stalls_and_comes_in_a_burst_is_a_note():
-    made = robot()
-    for tick in range(400):
-        at = 0.02 * tick
-        held = max(0.0, 5.5 - at) if at > 3.0 else 0.0
-        made.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", begin=at, end=at + 0.02,
-                   latency=max(0.01, held))  # fmt: skip
-    finding = found(made, "stall")
-    assert (finding.severity, finding.topics, finding.count) == (Severity.NOTE, ("/odom",), 1)
-    assert finding.facts["length"] == 2_490_000_000
-    assert finding.facts["period"] == 20_000_000
-    # A pause in the stamps is no stall: nothing was held up.
-    paused = robot()
-    paused.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", end=3.0)
-    paused.hears("/odom", "odom", 50.0, "nav_msgs/Odometry", begin=5.5)
-    assert "stall" not in ids(paused, notes=True)
-
-
-def test_odometry_that_misses_a_turn_between_two_samples_is_a_note():
-    for hz, told in ((3.0, True), (8.0, False)):
-        made = robot(odometry=False)
-        made.moving("odom", "base_link", hz, lambda t: (0.0, 0.0, 0.0, *turned(2.0 * t)))
-        assert ("coarse-odometry" in ids(made, notes=True)) is told
-    made = robot(odometry=False)
-    made.moving("odom", "base_link", 3.0, lambda t: (0.0, 0.0, 0.0, *turned(2.0 * t)))
-    finding = found(made, "coarse-odometry")
-    assert finding.severity is Severity.NOTE
-    assert finding.facts["turn"] == pytest.approx(2.0 / 3.0)
-
-
 def test_stamps_repeated_with_the_noise_of_numbers_are_not_told():
     for noise, told in ((1e-5, []), (0.01, ["repeated-stamp"])):
         made = robot(odometry=False)
@@ -332,3 +300,24 @@ def test_a_few_old_samples_are_a_note():
         for number in range(times):
             made.sent("odom", "base_link", 5.0, stamp=made.log(-30.0 + 0.1 * number))
         assert found(made, "old-data").severity is severity
+
+
+def test_a_robot_of_its_own_is_no_lost_tree():
+    made = robot()
+    made.moving("r2/odom", "r2/base_link")
+    made.hears("/r2/scan", "r2/base_link")
+    assert found(made, "split-tree").severity is Severity.NOTE
+
+
+def test_one_mount_with_two_roundings_was_not_changed():
+    for shift, told in ((1e-5, []), (0.002, ["static-changed"])):
+        made = robot()
+        made.static("base_link", "laser", (0.1 + shift, 0.0, 0.2, *NO_TURN), at=1.0)
+        assert ids(made) == told
+
+
+def test_nodes_that_end_just_before_the_recorder_did_not_stop():
+    for end, told in ((6.5, []), (5.0, ["edge-stopped"])):
+        made = robot(odometry=False)
+        made.moving("odom", "base_link", end=end)
+        assert [one for one in ids(made) if one == "edge-stopped"] == told

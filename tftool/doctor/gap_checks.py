@@ -8,7 +8,7 @@ import numpy as np
 from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
-from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fact, Fix, Hit, Severity
+from tftool.doctor.findings import STOPPED_PERIODS, Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part, rate
 from tftool.doctor.wording import several
@@ -51,7 +51,7 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
         "a node that crashed",
         "a lost sensor",
     ),
-    limits={"periods": STOPPED_PERIODS, "seconds": STOPPED_AFTER, "share": 0.05, "samples": 5},
+    limits={"periods": STOPPED_PERIODS, "seconds": 2.0, "share": 0.05, "samples": 5},
     needs=("log times",),
     because_of=(
         ("stream", "clock-mixture"),
@@ -226,7 +226,7 @@ def _is_silent(heard: Heard, begin: int, end: int) -> bool:
     Severity.WARNING,
     rule="nothing arrives for more than {seconds:g} s and {periods:g} periods on half or more of "
     "the streams that come at {hz:g} Hz or more, a topic of messages and a transform among them, "
-    "and they go on afterwards",
+    "and they go on afterwards, with a gap in their stamps or with data that was held up",
     headline="nothing arrived for {length:span} on {streams} of {of} streams",
     detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
     consequence="whatever was stamped then came late, in a burst, or never",
@@ -259,6 +259,9 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
     missed = sum(
         _is_hole(stream, begin, end, limits["seconds"] * NANOSECONDS) for stream, _, _ in silent
     )
+    held = [one.latency[one.logs >= end][0] - one.median_latency for one, _, _ in silent]
+    if not missed and 2 * max(held) < end - begin:
+        return  # a player or a simulation paused
     lost = "all of it came afterwards"
     if missed:
         lost = f"on {missed} of them data of that time never came"

@@ -295,7 +295,7 @@ def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
         "two launch files",
         "a recalibration while recording",
     ),
-    limits={"values": 3, "metres": 1e-6, "radians": 1e-4},
+    limits={"values": 3, "metres": 5e-4, "radians": 1e-3},
 )
 def static_changed(model: Model, limits: Limits) -> Iterator[Hit]:
     """A static was published again with another value."""

@@ -8,7 +8,7 @@ from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import base_of, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
-from tftool.doctor.stamp_stream import BASES, PLACED, Track, last_part, overlap
+from tftool.doctor.stamp_stream import PLACED, Track, last_part, overlap
 from tftool.doctor.wording import several
 
 check = checks_of(Area.SHAPE)
@@ -142,14 +142,15 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         if tree.is_circle:
             continue
         topics = _messages_in(model, tree)
+        join = proposed_join(model, main, tree)
         is_placed = any(last_part(h.type) in PLACED and h.frame in tree.frames for h in model.heard)
         severity = Severity.ERROR if is_placed and base_of(main) else Severity.WARNING
         is_short = model.evidence.recorded and (
             model.end - model.start < limits["seconds"] * NANOSECONDS
         )
-        if is_short or (_is_complete(main) and _is_complete(tree)) or _is_convention(tree, topics):
+        is_robot = join is not None and join.edge is None
+        if is_short or is_robot or _is_convention(tree, topics):
             severity = Severity.NOTE
-        join = proposed_join(model, main, tree)
         fix = nothing_says(model, "{named}") if join is None else join.fix
         used = [f"{topic} ({count} messages)" for topic, count in topics.items()]
         yield Hit(
@@ -196,12 +197,6 @@ def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
         if heard.is_spatial and heard.frame in tree.frames:
             counts[heard.topic] += len(heard.stamps)
     return dict(sorted(counts.items()))
-
-
-def _is_complete(tree: Tree) -> bool:
-    """Whether a tree is a complete robot: it has an odometry frame and a base frame."""
-    parts = {last_part(frame) for frame in tree.frames}
-    return any(part.startswith("odom") for part in parts) and not parts.isdisjoint(BASES)
 
 
 @check(
