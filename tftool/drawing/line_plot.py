@@ -318,6 +318,9 @@ LOWEST_SCALED: Final = 3
 SCALED_FROM: Final = 5
 """Smallest number of lines of a plot whose curves have scales."""
 
+LABELLED_FROM: Final = 5
+"""Smallest number of lines of a curve whose scale has a label in the middle."""
+
 TITLED_FROM: Final = 3
 """Smallest number of lines of a curve with a title line of its own."""
 
@@ -388,7 +391,7 @@ def pair_plot(
         title_line.truncate(width)
     first, last = (f"{as_seconds(t - span.start):.1f}" for t in (span.first, span.last))
     if is_low and not with_axis:
-        over = f"{first}{'-' if ascii_only else '–'}{last} s"
+        over = f"{float(first):.0f}{'-' if ascii_only else '–'}{float(last):.0f} s"
         room = width - lines[0].cell_len
         if room > len(over):
             lines[0].append(f"{over:>{room}}", theme.ink(palette.dim))
@@ -431,6 +434,8 @@ def _curve(
     low, high = _scale(title, curve.values)
     if lines and rows > 1:
         labels = [f"{high:g}", *[""] * (rows - 2), f"{low:g}"]
+        if rows >= LABELLED_FROM and rows % 2:
+            labels[rows // 2] = f"{0.5 * (low + high):g}"
     elif lines:
         dash, both = ("-", "+-") if ascii_only else ("–", "±")
         labels = [f"{both}{high:g}" if low == -high else f"{low:g}{dash}{high:g}"]

@@ -473,7 +473,7 @@ def hints(
     other = [Hint("o", "scenarios")] if chooses else []
     if not drives:
         return [*always, *look, *other, end]
-    turn = [Hint("g r d v", "turn east, north, west, south"), Hint("f", "cancel")]
+    turn = [Hint("g r d v", "turn, f cancels")]
     return [Hint(arrows, "drive"), *always, *look, *other, *turn, end]
 
 
