@@ -468,7 +468,6 @@ def test_what_handlers_do_knows_their_event(tmp_path):
         ),
         ("LogInfo(msg=Command('false'))", r"the command \['false'\] failed"),
         ("TimerAction(period='soon', actions=[])", "period must be seconds from 0 .*, not 'soon'"),
-        ("ExecuteProcess(cmd=['no-such-command'])", "cannot run 'no-such-command'"),
         (
             "Node(package='turtlesim', executable='turtlesim_node', parameters=["
             "{'a': ParameterValue(TextSubstitution(text='x'), value_type=int)}])",
@@ -643,6 +642,41 @@ def test_the_tutorial_runs_live_too():
     # This is the tutorial's first command, for the turtles' initial poses.
     assert first.linear.x == pytest.approx(1.933157795, abs=1e-6)
     assert first.angular.z == pytest.approx(1.159866862, abs=1e-4)
+
+
+def test_a_command_that_cannot_be_run_does_not_end_the_launch(tmp_path):
+    done = described(
+        tmp_path, "ExecuteProcess(cmd=['no-such-command'])", "ExecuteProcess(cmd=['echo', 'hi'])"
+    )
+
+    assert done.failed == ["no-such-command-1"]
+    (died,) = done.said("no-such-command-1")[-1:]
+    assert "cannot run 'no-such-command': No such file or directory" in died
+    assert "hi" in done.said("echo-2")
+
+
+def test_a_command_that_ends_soon_takes_no_simulated_time(tmp_path):
+    done = described(
+        tmp_path,
+        "ExecuteProcess(cmd=['sleep', '0.2'], on_exit=[Shutdown(reason='over')])",
+        seconds=60.0,
+    )
+
+    assert done.elapsed == 0.0
+
+
+def test_a_command_that_goes_on_lets_simulated_time_pass_after_a_while(tmp_path, monkeypatch):
+    monkeypatch.setattr("tftool.ros.launch.commands.LONGEST_HOLD", 0.1)
+    done = described(
+        tmp_path,
+        "ExecuteProcess(cmd=['sleep', '1000'])",
+        "TimerAction(period=0.2, actions=[Shutdown(reason='over')])",
+        seconds=60.0,
+    )
+
+    assert any("sleep-1 has not ended after 0.1 s" in text for text in done.said("launch"))
+    assert "shutting down: over" in done.said("launch")
+    assert done.elapsed < 60.0
 
 
 def test_a_command_for_a_text_has_a_time_limit(tmp_path, monkeypatch):

@@ -160,6 +160,7 @@ class SimClock(Clock):
         alarms: Number of timers of real time that are set.
         paced: Number of real processes that run beside the world. While there are any, simulated
             time passes no faster than real time, so that these processes keep up.
+        held: Number of real processes for whose end simulated time waits.
     """
 
     def __init__(self, epoch: Stamp = seconds(1000)) -> None:
@@ -173,6 +174,7 @@ class SimClock(Clock):
         super().__init__(epoch, math.inf)
         self.alarms = 0
         self.paced = 0
+        self.held = 0
         self._now = epoch
 
     def now(self) -> Stamp:
@@ -273,6 +275,18 @@ def paced(clock: Clock) -> Iterator[None]:
     finally:
         if isinstance(clock, SimClock):
             clock.paced -= 1
+
+
+@contextlib.contextmanager
+def held(clock: Clock) -> Iterator[None]:
+    """Let no simulated time pass inside this block, in which a real process runs."""
+    if isinstance(clock, SimClock):
+        clock.held += 1
+    try:
+        yield
+    finally:
+        if isinstance(clock, SimClock):
+            clock.held -= 1
 
 
 class WallClock(Clock):
@@ -643,6 +657,8 @@ class _VirtualSelector(selectors.DefaultSelector):
         if timeout is not None and timeout <= 0:
             return []
         clock = self._loop.clock
+        if clock.held:
+            return super().select(None)
         if clock.paced and (events := clock.wait_really(timeout, super().select)):
             return events
         # Every task sleeps, so time jumps to the next timer, which is then due.

@@ -4,21 +4,26 @@ import asyncio
 import contextlib
 import errno
 import os
-import shlex
 import signal
 import sys
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 from tftool.base.errors import UsageError
+from tftool.ros.host.fibers import finish
+from tftool.world.clock import held, paced
+from tftool.world.node import Node
 
 LONGEST_LINE: Final = 1 << 20
 """Bytes of an output line that has not ended, after which its beginning counts as a line."""
 
 LONGEST_RUN: Final = 60.0
-"""Real seconds for which simulated time, or a launch file, waits for a command to end."""
+"""Real seconds for which a launch file waits for the output of a command."""
+
+LONGEST_HOLD: Final = 10.0
+"""Real seconds for which simulated time waits for a command to end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,58 +47,8 @@ Streams = Sequence[tuple[asyncio.StreamReader, bool]]
 """Streams of a command's output, each with whether it is the standard output."""
 
 
-def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> tuple[int, str]:
-    """Run a command to its end, or kill it after `LONGEST_RUN` seconds.
-
-    Args:
-        command: Command to run.
-        say: Function called with each output line, and whether it is from standard output.
-
-    Returns:
-        Exit status, and the reason if the command was killed ("" if not).
-
-    Raises:
-        UsageError: If the command cannot be started.
-    """
-    # The command needs a separate event loop, because the world's loop waits meanwhile.
-    with ThreadPoolExecutor(1) as pool:
-        lines, status, is_killed = pool.submit(asyncio.run, _run_to_end(command)).result()
-    for line, is_stdout in lines:
-        say(line, is_stdout)
-    reason = (
-        f"'{shlex.join(command.words)}' had not ended after {LONGEST_RUN:g} s, and simulated "
-        "time waits for a command's end; start one that goes on running by itself"
-    )
-    return status, reason if is_killed else ""
-
-
-async def _run_to_end(command: SystemCommand) -> tuple[list[tuple[str, bool]], int, bool]:
-    """Run a command; return its output lines, its exit status and whether it was killed."""
-    # The command is in tftool's process group, so that Ctrl-C ends the command too.
-    process, streams = await begin(command, leads_group=False)
-    lines: list[tuple[str, bool]] = []
-
-    async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
-        async for line in lines_of(stream):
-            # One list for both streams has the lines in the order of their arrival.
-            lines.append((line, is_stdout))  # noqa: PERF401
-
-    _, late = await asyncio.wait(
-        [asyncio.ensure_future(read(*one)) for one in streams], timeout=LONGEST_RUN
-    )
-    if late:
-        process.kill()
-    return lines, await process.wait(), bool(late)
-
-
-async def begin(
-    command: SystemCommand, *, leads_group: bool = True
-) -> tuple[asyncio.subprocess.Process, Streams]:
-    """Start a command; return the process and its output streams.
-
-    Args:
-        command: Command to start.
-        leads_group: Whether the process begins a process group of its own.
+async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
+    """Start a command in its own process group; return the process and its output streams.
 
     Raises:
         UsageError: If the command cannot be run.
@@ -106,7 +61,7 @@ async def begin(
             cwd=command.cwd,
             stdout=output,
             stderr=output,
-            start_new_session=leads_group,
+            start_new_session=True,
         )
     except OSError as error:
         if ours is not None:
@@ -179,3 +134,99 @@ def _send(process: asyncio.subprocess.Process, number: int) -> None:
             # The command has its own process group: a shell would not pass the signal to its
             # children.
             os.killpg(process.pid, number)
+
+
+class CommandRunner:
+    """Runner of the system commands of one launch."""
+
+    def __init__(self, node: Node, warn: Callable[[str], object], *, waits: bool) -> None:
+        """Create a runner for the launch `node`.
+
+        Args:
+            node: The launch, whose clock the commands use.
+            warn: Function called with warnings.
+            waits: Whether simulated time waits for the end of each command, at most for
+                `LONGEST_HOLD` seconds; else it passes no faster than real time.
+        """
+        self._node = node
+        self._warn = warn
+        self._waits = waits
+        self._turns = asyncio.Lock()
+
+    async def run(
+        self,
+        command: SystemCommand,
+        label: str,
+        on_start: Callable[[asyncio.subprocess.Process], object],
+        on_line: Callable[[str, bool], object],
+    ) -> int:
+        """Run a command to its end; return its exit status.
+
+        Args:
+            command: Command to run.
+            label: Name of the command for warnings.
+            on_start: Function called with the process.
+            on_line: Function called with each output line, and whether it is from standard output.
+
+        Raises:
+            UsageError: If the command cannot be started.
+        """
+        if self._waits:
+            # One command after the other, so that every run gives the same lines.
+            async with self._turns:
+                running = await self._run_held(command, label, on_start, on_line)
+        else:
+            running = asyncio.ensure_future(_run(command, on_start, on_line))
+        with paced(self._node.clock):
+            return await running
+
+    async def _run_held(
+        self,
+        command: SystemCommand,
+        label: str,
+        on_start: Callable[[asyncio.subprocess.Process], object],
+        on_line: Callable[[str, bool], object],
+    ) -> "asyncio.Task[int]":
+        """Start a command, and wait while simulated time waits; return the command's task."""
+        clock = self._node.clock
+        early: list[tuple[str, bool]] = []
+        is_held = True
+
+        def take(line: str, is_stdout: bool) -> None:
+            if is_held:
+                early.append((line, is_stdout))
+            else:
+                on_line(line, is_stdout)
+
+        with held(clock):
+            running = asyncio.ensure_future(_run(command, on_start, take))
+            limit = clock.real_timer(LONGEST_HOLD)
+            running.add_done_callback(partial(finish, limit))
+            await limit
+        # After this instant's programs, whose steps would else mix with the lines by chance.
+        await clock.timer(clock.now(), self._node.phase, self._node.rank)
+        is_held = False
+        for line, is_stdout in early:
+            on_line(line, is_stdout)
+        if not running.done():
+            self._warn(
+                f"{label} has not ended after {LONGEST_HOLD:g} s: from now on simulated time "
+                "passes no faster than real time"
+            )
+        return running
+
+
+async def _run(
+    command: SystemCommand,
+    on_start: Callable[[asyncio.subprocess.Process], object],
+    on_line: Callable[[str, bool], object],
+) -> int:
+    process, streams = await begin(command)
+    on_start(process)
+
+    async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
+        async for line in lines_of(stream):
+            on_line(line, is_stdout)
+
+    await asyncio.gather(*(read(*one) for one in streams))
+    return await process.wait()

@@ -15,8 +15,9 @@ from tftool.ros.host import executables, importing, program, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.program import Program, ProgramNode, exit_status
 from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch import commands
 from tftool.ros.launch.arguments import declared, refuse_unknown
-from tftool.ros.launch.commands import SystemCommand, begin, interrupt, lines_of, run_at_once
+from tftool.ros.launch.commands import SystemCommand
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.events import (
@@ -33,7 +34,7 @@ from tftool.ros.launch.frontend import load_file
 from tftool.ros.launch.processes import Executable
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.ros2 import ros2_program
-from tftool.world.clock import SimClock, paced
+from tftool.world.clock import SimClock
 from tftool.world.log import LogRecord
 from tftool.world.node import Node
 from tftool.world.world import World
@@ -86,7 +87,7 @@ class Launch(Node):
             name: Name of the launch's own node.
             contained: Whether an error in the description ends only the launch, not the world.
                 For such a launch, simulated time advances with real time while a system command
-                runs; otherwise a system command takes no simulated time.
+                runs; otherwise a system command takes no simulated time, unless it is a long one.
             keep_alive: Whether the launch goes on after its last process has ended.
 
         Raises:
@@ -120,6 +121,8 @@ class Launch(Node):
         self._over: asyncio.Future[None] | None = None
         self._actions: dict[str, Any] = {}  # by label
         super().__init__(world, name)
+        waits = isinstance(self.clock, SimClock) and not contained
+        self._commands = commands.CommandRunner(self, self.warn, waits=waits)
         world.log.listen(self._logged, name)
 
     async def run(self) -> None:
@@ -404,7 +407,10 @@ class Launch(Node):
     def start_process(
         self, action: Any, name: str, command: SystemCommand, respawn: float | None
     ) -> None:
-        """Start a system command; on simulated time, it takes no time unless `contained`.
+        """Start a system command.
+
+        Simulated time waits for the command's end, at most for `LONGEST_HOLD` seconds, unless the
+        launch is `contained`.
 
         Args:
             action: Action that starts the command, for events.
@@ -418,13 +424,7 @@ class Launch(Node):
         def start() -> None:
             env, cwd = dict(command.environment), command.cwd
             self._note_start(action, label, command.words, cwd=cwd, env=env)
-            if isinstance(self.clock, SimClock) and not self._contained:
-                status, reason = run_at_once(command, partial(self._line, label))
-                # Not at once, because the handler of the command's end may come later in the launch
-                # file.
-                self._start_task(self._end_soon(action, label, status, reason), self._watches)
-            else:
-                self._start_task(self._watch(action, label, command), self._watches)
+            self._start_task(self._watch(action, label, command), self._watches)
 
         self._start(label, start, respawn)
 
@@ -484,28 +484,19 @@ class Launch(Node):
             self._respawns[label] = (max(respawn, SOONEST), start)
         start()
 
-    async def _end_soon(self, action: Any, label: str, status: int, reason: str) -> None:
-        self._ended(action, label, status, reason)
-
     async def _watch(self, action: Any, label: str, command: SystemCommand) -> None:
+        def on_start(process: asyncio.subprocess.Process) -> None:
+            action.process_details["pid"] = process.pid
+            self._running[label] = partial(commands.interrupt, process)
+            if self._closing:
+                commands.interrupt(process)
+
+        status, reason = 127, ""
         try:
-            process, streams = await begin(command)
+            status = await self._commands.run(command, label, on_start, partial(self._line, label))
         except UsageError as error:
-            self._ended(action, label, 127, str(error))
-            return
-        action.process_details["pid"] = process.pid
-        self._running[label] = partial(interrupt, process)
-        if self._closing:
-            interrupt(process)
-
-        async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
-            async for line in lines_of(stream):
-                self._line(label, line, is_stdout)
-
-        with paced(self.clock):
-            await asyncio.gather(*(read(*one) for one in streams))
-            status = await process.wait()
-        self._ended(action, label, status, "")
+            reason = str(error)
+        self._ended(action, label, status, reason)
 
     # Ends of programs
 
