@@ -130,7 +130,9 @@ def test_a_launched_node_that_dies_is_named_by_its_label(tftool, tmp_path, monke
     assert "bad.py-1: process has died, exit status 1: ZeroDivisionError" in result.out
 
 
-def test_a_launched_command_that_does_not_end_is_ended_with_the_scenario(tftool, tmp_path, monkeypatch):
+def test_a_launched_command_that_does_not_end_is_ended_with_the_scenario(
+    tftool, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("tftool.ros.launch.commands.LONGEST_HOLD", 0.1)
     Path("a.launch.yaml").write_text("launch:\n- executable: {cmd: sleep 1000}\n")

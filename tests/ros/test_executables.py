@@ -276,6 +276,25 @@ def test_a_nodes_file_imports_its_own_package_by_name(ros_runtime, tmp_path):
     assert ros_runtime.log("speaker") == ["from beside"]
 
 
+def test_a_nodes_file_finds_its_package_beside_a_file_of_the_same_name(ros_runtime, tmp_path):
+    package = tmp_path / "garden"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "words.py").write_text("WORD = 'from the package'\n")
+    (package / "garden.py").write_text("from .words import WORD\n")
+    (package / "speaker.py").write_text(
+        "import rclpy\n"
+        "from .garden import WORD\n"
+        "rclpy.init()\n"
+        "rclpy.create_node('speaker').get_logger().info(WORD)\n"
+    )
+
+    ros_runtime.start(package / "speaker.py")
+    ros_runtime.sleep(1.0)
+
+    assert ros_runtime.log("speaker") == ["from the package"]
+
+
 def test_a_file_with_zero_bytes_is_no_python_text(tmp_path):
     from tftool.base.errors import InputError
     from tftool.ros.host.user_code import compile_file

@@ -254,27 +254,40 @@ def test_a_loop_that_only_polls_sees_time_pass(node, ros_runtime):
     assert ros_runtime.elapsed() < 0.2
 
 
-def test_a_loop_that_only_reads_the_clock_ends_after_seconds_too(node, ros_runtime):
+def test_a_loop_that_only_reads_the_clock_ends_after_a_second_too(node, ros_runtime):
     from rclpy.duration import Duration
 
     start = node.get_clock().now()
     readings = 0
-    while node.get_clock().now() - start < Duration(seconds=5):
+    while node.get_clock().now() - start < Duration(seconds=1):
         readings += 1
 
+    assert ros_runtime.elapsed() == pytest.approx(1.0, abs=0.1)
+    assert readings < 500_000
+
+
+def test_a_loop_that_waits_for_a_subscription_sees_seconds_pass(node, ros_runtime):
+    import rclpy
+    from std_msgs.msg import String
+
+    publisher = node.create_publisher(String, "said", 10)
+    end = node.get_clock().now() + rclpy.duration.Duration(seconds=5)
+    while publisher.get_subscription_count() + node.count_publishers("heard") == 0:
+        if node.get_clock().now() > end:
+            break
+
     assert ros_runtime.elapsed() == pytest.approx(5.0, abs=0.1)
-    assert readings < 1_000_000
 
 
 def test_a_loop_that_spins_without_waiting_executes_its_timers_on_time(node, ros_runtime):
     import rclpy
 
     fired = []
-    node.create_timer(0.5, lambda: fired.append(ros_runtime.elapsed()))
-    while len(fired) < 4:
+    node.create_timer(0.1, lambda: fired.append(ros_runtime.elapsed()))
+    while len(fired) < 2:
         rclpy.spin_once(node, timeout_sec=0)
 
-    assert fired == pytest.approx([0.5, 1.0, 1.5, 2.0], abs=0.002)
+    assert fired == pytest.approx([0.1, 0.2], abs=0.0011)
 
 
 def test_a_task_can_be_given_up(ros_runtime):

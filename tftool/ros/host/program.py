@@ -266,10 +266,15 @@ class Program(Node):
         self._count(1.0 / READINGS)
         return self.clock.now()
 
-    def looked_in_vain(self) -> None:
-        """Count a query that failed at once, to recognise a loop that only polls."""
-        # The loop may execute callbacks and use transforms, so its ticks stay short.
-        self._ticks = 0
+    def looked_in_vain(self, *, must_keep_pace: bool = True) -> None:
+        """Count a query that failed at once, to recognise a loop that only polls.
+
+        Args:
+            must_keep_pace: Whether the loop may execute callbacks or use transforms, so that ticks
+                must stay short.
+        """
+        if must_keep_pace:
+            self._ticks = 0
         self._count(1.0 / POLLS)
 
     def sleep(self, duration: Duration) -> None:

@@ -56,12 +56,17 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
     code = compile_file(path) if code is None else code
     folder = path.resolve().parent
     module = ModuleType(name or path.stem)
+    folders = [folder]
     if (folder / "__init__.py").is_file():
         # As if installed, a node's file in a package can import the package by name, and
         # neighbouring files with a leading dot.
-        importing.look_in(folder.parent)
+        folders.insert(0, folder.parent)
         module.__package__ = folder.name
-    importing.look_in(folder)
+        if (folder / f"{folder.name}.py").is_file():
+            # The name is the package's, not that of the file in it.
+            folders.reverse()
+    for root in folders:
+        importing.look_in(root)
     module.__file__ = str(path)
     module.__dict__["__builtins__"] = builtins_for_users()
     exec(code, module.__dict__)

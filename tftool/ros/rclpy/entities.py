@@ -124,7 +124,7 @@ class Requester(WorkQueue):
         """Return whether a server is available now."""
         ready = bool(self.seat.program.ask(self.is_served))
         if not ready:
-            self.seat.program.looked_in_vain()
+            self.seat.program.looked_in_vain(must_keep_pace=False)
         return ready
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:

@@ -164,11 +164,17 @@ class NodeGraph:
 
     def count_publishers(self, topic_name: str) -> int:
         """Count the publishers of a topic."""
-        return len(self.__ends(topic_name, PUBLISHER))
+        return self.__count(topic_name, PUBLISHER)
 
     def count_subscribers(self, topic_name: str) -> int:
         """Count the subscriptions of a topic."""
-        return len(self.__ends(topic_name, SUBSCRIPTION))
+        return self.__count(topic_name, SUBSCRIPTION)
+
+    def __count(self, topic_name: str, role: Role) -> int:
+        count = len(self.__ends(topic_name, role))
+        if not count:
+            self._tftool.program.looked_in_vain(must_keep_pace=False)
+        return count
 
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False

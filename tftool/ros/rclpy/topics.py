@@ -143,7 +143,10 @@ class Publisher(TopicEnd):
 
     def get_subscription_count(self) -> int:
         """Return the number of subscriptions to the topic."""
-        return int(self.seat.program.ask(lambda: self._topic.subscribers))
+        count = int(self.seat.program.ask(lambda: self._topic.subscribers))
+        if not count:
+            self.seat.program.looked_in_vain(must_keep_pace=False)
+        return count
 
     def assert_liveliness(self) -> None:
         """Report that this publisher is alive, for subscribers that require such reports."""
