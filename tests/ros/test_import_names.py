@@ -33,6 +33,11 @@ from tftool.ros.host.importing import ros_free
         ("launch_ros.substitutions.find_package", "FindPackageShare"),
         ("launch.launch_description", "LaunchDescription DeclareLaunchArgument LaunchContext"),
         ("launch.actions.shutdown_action", "Shutdown"),
+        ("rclpy.node", "QoSProfile Publisher Timer ParameterDescriptor SetParametersResult"),
+        ("rclpy.action.server", "qos_profile_services_default GoalStatus"),
+        ("rclpy.executors", "Future Task"),
+        ("launch.actions.opaque_function", "LaunchContext Action"),
+        ("launch_ros.actions.node", "SomeSubstitutionsType perform_substitutions"),
         ("launch.events.matchers", "matches_action"),
         ("launch.some_entities_type", "SomeEntitiesType"),
         ("launch.substitutions.boolean_substitution", "AndSubstitution NotSubstitution"),
@@ -66,6 +71,15 @@ def test_names_that_are_re_exported_are_the_same_ones():
         assert tf2_ros.TransformStamped is geometry_msgs.msg.TransformStamped
         assert String is std_msgs.msg.String
         assert Trigger_Request is Trigger.Request
+
+
+@pytest.mark.parametrize(
+    ("module", "name"),
+    [("rclpy.qos", "Node"), ("launch.actions", "LaunchContext"), ("launch", "LogInfo")],
+)
+def test_a_module_that_does_not_import_a_name_in_ros_lacks_this_name(module, name):
+    with ros_free(), pytest.raises(AttributeError, match=f"'{name}' of {module} is not covered"):
+        getattr(importlib.import_module(module), name)
 
 
 @pytest.mark.parametrize(

@@ -644,6 +644,18 @@ def test_the_tutorial_runs_live_too():
     assert first.angular.z == pytest.approx(1.159866862, abs=1e-4)
 
 
+def test_a_parameter_file_that_does_not_exist_only_causes_a_warning(tmp_path):
+    done = described(
+        tmp_path,
+        "Node(package='turtlesim', executable='turtlesim_node', name='sim', "
+        "parameters=['none.yaml', {'background_r': 7}])",
+    )
+
+    assert done.failed == []
+    assert done.nodes["sim"].parameters.values()["background_r"] == 7
+    assert "Parameter file path is not a file: none.yaml" in done.said("launch")
+
+
 def test_a_command_that_cannot_be_run_does_not_end_the_launch(tmp_path):
     done = described(
         tmp_path, "ExecuteProcess(cmd=['no-such-command'])", "ExecuteProcess(cmd=['echo', 'hi'])"

@@ -274,6 +274,51 @@ ament_index_python ament_index_python.packages: launch.packages: get_package_sha
 """
 
 
+_IMPORTS = """
+rclpy.action.client rclpy.action.server: rclpy.qos rclpy.task rclpy.type_support action_msgs.msg
+    action_msgs.srv unique_identifier_msgs.msg
+rclpy.client rclpy.service: rclpy.callback_groups rclpy.clock rclpy.context rclpy.qos rclpy.task
+rclpy.clock rclpy.timer: rclpy.callback_groups rclpy.clock rclpy.clock_type rclpy.context
+    rclpy.exceptions rclpy.time rclpy.utilities
+rclpy.executors: rclpy.client rclpy.clock rclpy.clock_type rclpy.context rclpy.exceptions
+    rclpy.guard_condition rclpy.service rclpy.subscription rclpy.task rclpy.timer rclpy.utilities
+rclpy.guard_condition rclpy.signals: rclpy.callback_groups rclpy.context rclpy.exceptions
+    rclpy.guard_condition rclpy.utilities
+rclpy.lifecycle.node: rclpy.callback_groups rclpy.lifecycle.managed_entity
+    rclpy.lifecycle.publisher rclpy.node rclpy.qos rclpy.service rclpy.type_support
+rclpy.lifecycle.publisher: rclpy.callback_groups rclpy.event_handler
+    rclpy.lifecycle.managed_entity rclpy.publisher rclpy.qos
+rclpy.logging: rclpy.impl.rcutils_logger
+rclpy.node: rclpy.callback_groups rclpy.client rclpy.clock rclpy.constants rclpy.context
+    rclpy.event_handler rclpy.exceptions rclpy.executors rclpy.expand_topic_name
+    rclpy.guard_condition rclpy.impl.rcutils_logger rclpy.logging rclpy.parameter rclpy.publisher
+    rclpy.qos rclpy.qos_overriding_options rclpy.service rclpy.subscription rclpy.time_source
+    rclpy.timer rclpy.topic_endpoint_info rclpy.type_support rclpy.utilities
+    rclpy.validate_full_topic_name rclpy.validate_namespace rclpy.validate_node_name
+    rclpy.validate_parameter_name rclpy.validate_topic_name rcl_interfaces.msg rcl_interfaces.srv
+rclpy.parameter: rcl_interfaces.msg
+rclpy.parameter_client rclpy.parameter_event_handler: rclpy.callback_groups rclpy.event_handler
+    rclpy.node rclpy.parameter rclpy.qos rclpy.qos_overriding_options rclpy.subscription rclpy.task
+    rcl_interfaces.msg rcl_interfaces.srv
+rclpy.publisher rclpy.subscription rclpy.event_handler: rclpy.callback_groups rclpy.duration
+    rclpy.event_handler rclpy.logging rclpy.qos
+rclpy.qos: rclpy.duration
+rclpy.qos_overriding_options: rclpy.duration rclpy.exceptions rclpy.parameter rclpy.publisher
+    rclpy.qos rclpy.subscription rcl_interfaces.msg
+rclpy.time_source: rclpy.clock rclpy.clock_type rclpy.parameter rclpy.qos rclpy.time
+    rcl_interfaces.msg
+rclpy.utilities: rclpy.constants rclpy.context
+rclpy.wait_for_message: rclpy.node rclpy.qos rclpy.utilities
+launch launch_ros: launch.action launch.condition launch.event launch.event_handler
+    launch.frontend launch.frontend.expose launch.launch_context launch.launch_description
+    launch.launch_description_entity launch.some_entities_type launch.some_substitutions_type
+    launch.substitution launch.utilities
+"""
+"""Modules from which modules of ROS 2 import names, which can then be imported from these too.
+
+An entry for launch or launch_ros means each module in the package.
+"""
+
 _WITH_MODULES_OF_CLASSES = (
     "launch.actions",
     "launch.conditions",
@@ -343,6 +388,20 @@ def table() -> Mapping[str, Mapping[str, ImportedName]]:
             found.setdefault(parent, {})
             parent = parent.rpartition(".")[0]
     return found
+
+
+@cache
+def _imports() -> Mapping[str, Sequence[str]]:
+    entries = (entry.split(":") for entry in re.split(r"\n(?! )", _IMPORTS.strip()))
+    return {module: found.split() for modules, found in entries for module in modules.split()}
+
+
+def imported_by(module: str) -> Sequence[str]:
+    """Return the modules from which a module of ROS 2 imports names."""
+    if any(other.startswith(f"{module}.") for other in table()):
+        return ()  # A package, such as launch.actions, shows only its own names.
+    package = module.partition(".")[0]
+    return _imports().get(module) or _imports().get(package, ())
 
 
 @cache

@@ -77,6 +77,9 @@ class _StandInModule(ModuleType):
                 return vars(self).setdefault(name, load(entries[name]))
         if name.startswith("__") and name != "__all__":
             raise AttributeError(name)
+        for other in import_table.imported_by(self.__name__):
+            if name in (entries := _entries(other)):
+                return load(entries[name])
         known = [one for one in dir(self) if not one.startswith("_")]
         if name == "__all__":
             return known

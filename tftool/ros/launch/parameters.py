@@ -99,11 +99,16 @@ class ParameterFile:
     def read(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
         """Read the file; return (node, name, value) of each parameter.
 
+        As in ROS 2, a file that does not exist only causes a warning.
+
         Raises:
             InputError: If the file cannot be read, or is not a parameter file.
         """
         path = Path(perform(context, self._given))
         if not is_true(perform(context, self.allow_substs)):
+            if not path.is_file() and context.launch is not None:
+                context.launch.warn(f"Parameter file path is not a file: {path}")
+                return []
             return names.read_parameters(path)
         return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
 
