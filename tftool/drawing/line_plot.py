@@ -135,7 +135,7 @@ def over_time(
             for line in _drawn(panel, (low, high), shaded, rows, look, number):
                 text.append_text(line)
     columns = max(10, look.width - LABELS - 1)
-    text.append(f"{'':>{LABELS + 1}}{time_axis(low, high, columns)}\n")
+    text.append(f"{'':>{LABELS + 1}}{axis_labels(low, high, columns)}\n")
     for reason in told:
         text.append(f"{fitted(reason, look.width)}\n", style="dim")
     return text
@@ -179,12 +179,12 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
             f"{fitted(f'{visible(label)} {ends}', look.width)}\n",
             _style(colors[place % len(colors)]),
         )
-    labels = {0: axis_number(bottom + high), rows - 1: axis_number(bottom)}
+    ticks = round_ticks(bottom, bottom + high, max(2, rows // 4))
+    places = [math.floor((bottom + high - tick) / high * rows) for tick in ticks]
+    labels = dict(zip(places, tick_labels(ticks), strict=True))
     for row, cells in enumerate(dots.rows(ascii_only=look.ascii_only)):
         text.append_text(_row(labels.get(row, ""), cells, look))
-    edge = (
-        f"{axis_number(left):<{columns // 2}}{axis_number(left + wide):>{columns - columns // 2}}"
-    )
+    edge = axis_labels(left, left + wide, columns, "m")
     text.append(f"{'y, x in m':>{LABELS}} {edge}\n")
     return text
 
@@ -287,8 +287,8 @@ def draw_curve(dots: Dots, across: Floats, up: Floats, color: Color) -> None:
     dots.draw(np.stack([ends, points[-len(ends) :]], 1), packed(color))
 
 
-def time_axis(low: float, high: float, columns: int) -> str:
-    """Format the labels of a time axis: round numbers of seconds, and the unit "s"."""
+def axis_labels(low: float, high: float, columns: int, unit: str = "s") -> str:
+    """Format the labels of a horizontal axis: round numbers, and the unit at the end."""
     # A tick slightly outside the data is written at the edge.
     slack = 0.02 * (high - low)
     found = round_ticks(low, high, max(3, columns // 14))
@@ -301,7 +301,7 @@ def time_axis(low: float, high: float, columns: int) -> str:
         if place >= end:
             line[place : place + len(label)] = label
             end = place + len(label) + 1
-    line[-1] = "s"
+    line[-1] = unit
     return "".join(line)
 
 

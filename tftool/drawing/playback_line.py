@@ -11,7 +11,7 @@ from tftool.base.color import Color
 from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, as_seconds, seconds
 from tftool.drawing import theme
-from tftool.drawing.line_plot import time_axis
+from tftool.drawing.line_plot import axis_labels
 from tftool.drawing.sparklines import sparkline
 from tftool.drawing.table_columns import fitted, padded
 
@@ -131,7 +131,7 @@ def lines(
     counts, _ = np.histogram(moments, bins=width, range=(0, max(1, playback.total)))
     curve = Text(sparkline(counts.tolist(), width, ascii_only=ascii_only), dim)
     curve.stylize(color, 0, _place(playback.done, playback, width))
-    axis = time_axis(0.0, total, width) if total > 0 else ""
+    axis = axis_labels(0.0, total, width) if total > 0 else ""
     return [text, curve, _bar(playback, width, ascii_only, palette), Text(axis, dim)]
 
 

@@ -37,7 +37,7 @@ from tftool.frames.frames import Frames
 from tftool.opener import named
 from tftool.recordings.contract import Stamps
 from tftool.recordings.timeline import Due, Timeline
-from tftool.screens.terminal.panel_text import title_bar
+from tftool.screens.terminal.panel_text import bar, title_bar
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.text_style import Look
 from tftool.world.clock import Phase, pace_of
@@ -103,7 +103,9 @@ class TrafficReport:
         else:
             notice(f"Gathering data on {about}, a report every {as_seconds(period):g} s ...")
 
-    def table(self, console: Console, now: Stamp, began: Stamp) -> RenderableType:
+    def table(
+        self, console: Console, now: Stamp, began: Stamp, *, is_live: bool = False
+    ) -> RenderableType:
         """Return the report as a framed table that fits the terminal."""
         ascii_only = console.options.ascii_only
         # A small terminal has no room for a border; the last line is left for the cursor.
@@ -128,9 +130,11 @@ class TrafficReport:
             border_style=theme.ink(palette.dim),
             box=box.ASCII if ascii_only else box.ROUNDED,
         )
-        return Group(
-            title_bar("tftool monitor", as_seconds(now - began), console.width, look), frame
-        )
+        title, elapsed = "tftool monitor", as_seconds(now - began)
+        head = bar(title, f"{elapsed:.1f} s", ("report", palette.dim), console.width, look)
+        if is_live:
+            head = title_bar(title, elapsed, console.width, look)
+        return Group(head, frame)
 
     def write(self, now: Stamp) -> None:
         """Write the report to stdout, as lines or JSON."""
@@ -202,7 +206,9 @@ async def watch_session(
         if report.style is ReportStyle.TABLE:
             redrawing = stack.enter_context(Redrawing(clock))
             console = redrawing.console
-            writing = repeat(lambda: redrawing.show(report.table(console, clock.now(), began)))
+            writing = repeat(
+                lambda: redrawing.show(report.table(console, clock.now(), began, is_live=True))
+            )
         else:
             writing = repeat(lambda: report.write(clock.now()))
         await beside(writing, measure())
