@@ -59,6 +59,7 @@ class TrafficLayout:
         palette: Colours of the screen.
         ascii_only: Whether to draw with ASCII only.
         first: Index of the first row to show.
+        fills: Whether curves are filled; without colours, a filled curve would be a slab.
     """
 
     width: int
@@ -66,6 +67,7 @@ class TrafficLayout:
     palette: theme.Palette = theme.DARK
     ascii_only: bool = False
     first: int = 0
+    fills: bool = True
 
     @property
     def more(self) -> str:
@@ -295,7 +297,7 @@ def _curve(
     if rows >= WITH_MIDDLE and rows % 2:
         scale[rows // 2] = _short(0.5 * shown_top)
     lines = []
-    for row, cells in enumerate(_filled(heights, columns, rows, color, palette, layout.ascii_only)):
+    for row, cells in enumerate(_filled(heights, columns, rows, color, layout)):
         line = Text(f"{scale.get(row, ''):>{GUTTER - 1}} ", layout.ink(palette.dim))
         lines.append(line.append_text(Text.assemble(*cells)).append(" "))
     return lines
@@ -321,26 +323,25 @@ def _filled(
     columns: int,
     rows: int,
     color: Color,
-    palette: theme.Palette,
-    ascii_only: bool,
+    layout: TrafficLayout,
 ) -> list[list[tuple[str, str]]]:
     """Return the cells of a curve: bright dots above a fill that fades towards the bottom."""
     dots = Dots(columns, rows)
     last = 4 * rows - 1
     known = np.flatnonzero(np.isfinite(heights))
     tops = last - np.rint(np.clip(heights[known], 0.0, 1.0) * last).astype(np.int64)
-    if not ascii_only:
+    if layout.fills and not layout.ascii_only:
         counts = last + 1 - tops
         across = np.repeat(known, counts)
         down = last - (np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts))
         # A faint fill, so that the curve itself is what the eye follows.
         shares = 0.14 * (1.0 - down // 4 / max(1, rows)) + 0.06
-        ground = np.full(len(down), packed(palette.panel), np.int64)
+        ground = np.full(len(down), packed(layout.palette.panel), np.int64)
         dots.mark(across, down, blended(ground, color, shares))
     points = np.stack([known + 0.5, tops + 0.5], 1)
     near = np.flatnonzero(np.diff(known) == 1)
     dots.draw(np.stack([points[near], points[near + 1]], 1), packed(color))
-    return dots.rows(ascii_only=ascii_only)
+    return dots.rows(ascii_only=layout.ascii_only)
 
 
 def _above(value: float) -> float:

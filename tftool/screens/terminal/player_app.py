@@ -8,7 +8,7 @@ import numpy.typing as npt
 from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
-from textual.containers import Horizontal, Vertical
+from textual.containers import Horizontal
 
 from tftool.base.plain_text import count
 from tftool.base.stamps import Duration, seconds
@@ -96,6 +96,7 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
     #timeline {{ height: {TIMELINE}; }}
     #topics {{ width: {TOPICS}; height: 1fr; }}
     #rows, #space {{ height: 1fr; }}
+    #rows {{ width: 1fr; }}
     .tiny #rows, .tiny #timeline {{ border: none; }}
     """
 
@@ -122,11 +123,10 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         yield Panel("header", can_focus=False)
         yield Panel("timeline", "Timeline", can_focus=False)
         yield Panel("findings", "Findings of the doctor", can_focus=False)
-        with Horizontal(id="body"):
+        with Horizontal(id="lists"):
             yield Panel("topics", "Topics", can_focus=False)
-            with Vertical(id="side"):
-                yield Panel("rows", "Frames", can_focus=False)
-                yield SpacePanel("space", "In space", can_focus=False)
+            yield Panel("rows", "Frames", can_focus=False)
+        yield SpacePanel("space", "In space", can_focus=False)
         yield Panel("footer", can_focus=False)
         yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
@@ -146,6 +146,14 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         findings.styles.height = self._rows_above() - TIMELINE
         topics.display = bool(self._topics) and width >= WITH_TOPICS and height >= 12
         super()._arrange()
+        # Both lists are as high as the tree, and the picture takes the whole width below.
+        lists, rows = self.query_one("#lists"), self.panel("rows")
+        lists.display = rows.display
+        lists.styles.height = rows.styles.height
+        rows.styles.height = "1fr"
+
+    def _tree_needs(self) -> int:
+        return max(super()._tree_needs(), len(self._topics) + 2)
 
     def _playback(self) -> Playback:
         player = self._player

@@ -108,7 +108,8 @@ class TrafficWatch(PanelApp):
         self._first = max(0, min(self._first, len(links) - room + 1 if len(links) > room else 0))
 
         def layout(panel: Panel) -> TrafficLayout:
-            return TrafficLayout(*panel.size, look.palette, look.ascii_only, self._first)
+            fills = self.setting.colors
+            return TrafficLayout(*panel.size, look.palette, look.ascii_only, self._first, fills)
 
         frames.show(curves(now, links, self._history, layout(frames)))
         below.show(senders(now, self._traffic, layout(below)))

@@ -185,11 +185,15 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         """Show the tree, the picture, or both: the picture below a tree that leaves enough room."""
         rows, space = self.panel("rows"), self.space
         height = self.size.height - 2 - self._rows_above()
-        needs = 0 if self._seen is None else len(self._seen[0].frames) + HEADINGS + 2
+        needs = 0 if self._seen is None else self._tree_needs()
         has_room = 0 < needs <= height - LEAST_SPACE and self.size.width >= WITH_SPACE
         rows.display = not self._is_alone
         rows.styles.height = needs if has_room else "1fr"
         space.display = space.in_space = self._is_alone or has_room
+
+    def _tree_needs(self) -> int:
+        """Return the number of rows of the whole tree, with its border."""
+        return HEADINGS + 2 + (0 if self._seen is None else len(self._seen[0].frames))
 
     def _rows_above(self) -> int:
         """Return the number of rows between the title bar and the tree."""
