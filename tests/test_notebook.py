@@ -147,7 +147,7 @@ def test_what_holds_columns_and_facts_says_in_a_line_what_it_is(tmp_path):
         assert repr(samples) == r"<SampleColumns: 399 samples of 'a\x1b[2J'>"
         found = {one.id: repr(one) for one in tftool.diagnose(recording)}
     assert found["stale-stamp"].startswith(
-        r"<Finding: warning stale-stamp, 'a\x1b[2J in world is dated 2"
+        r"<Finding: note stale-stamp, 'a\x1b[2J in world is dated 2"
     )
     assert all(len(text) < 300 and text.isprintable() for text in found.values())
 

@@ -242,22 +242,6 @@ def test_a_constant_on_tf_for_a_minute_is_possibly_a_mount():
     assert ids(rests, notes=True) == []
 
 
-@pytest.mark.parametrize(
-    ("offset", "hears", "waits"),
-    [(0.0, True, True), (0.5, True, False), (0.5, False, False), (0.03, True, True)],
-)
-def test_a_constant_dated_ahead_that_nothing_waited_for_is_not_told_as_waited_for(
-    offset, hears, waits
-):
-    made = robot(odometry=False, scans=False)
-    made.moving("odom", "base_link", hz=10, end=61.0)
-    made.moving("base_link", "gps_link", hz=10, pose=stands, end=61.0, offset=offset)
-    if hears:
-        made.hears("/fix", "gps_link", 7.0, "sensor_msgs/NavSatFix", begin=1.0, end=60.0)
-    told = found(made, "static-on-tf").consequence
-    assert ("wait needlessly" in told) is waits
-
-
 def test_a_short_recording_does_not_tell_a_mount_from_what_rests():
     made = robot()
     made.moving("base_link", "camera", hz=10, pose=stands)

@@ -31,7 +31,6 @@ def test_jumps_after_each_message_of_a_satellite_receiver_name_its_topic():
     made.hears("/fix", "base_link", 1.0, "sensor_msgs/NavSatFix", latency=0.01)
     jump = found(made, "teleport")
     assert "after a message of /fix" in jump.evidence[0]
-    assert "uses /fix" in jump.fixes[0].text
 
     # One jump is no pattern, and messages at 100 Hz come before everything.
     often = robot(odometry=False)

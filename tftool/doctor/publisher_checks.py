@@ -361,7 +361,7 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     "move",
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
-    consequence="if it is a mount, {so}",
+    consequence="if it is a mount, lookups wait for its next sample, unless it is dated ahead",
     causes=("the static publisher of the old tf package",),
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},
@@ -391,35 +391,16 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         if not any(above.moves for above in model.above(track.parent)):
             continue  # it may have stood still because the robot did
-        so = "it is sent again and again for nothing; its stamps are ahead, and no message waited"
-        if _is_waited_for(model, track):
-            so = "lookups through it wait needlessly for its next sample, up to one period"
         yield hit_of(
             track,
             {
                 "rate": rate(track),
                 "period": track.period,
                 "lasts": int(track.sorted_stamps[-1] - track.sorted_stamps[0]),
-                "so": so,
             },
             since=None,
             confidence=Confidence.POSSIBLE,
-            group=so,
         )
-
-
-def _is_waited_for(model: Model, track: Track) -> bool:
-    """Whether messages below an edge often arrive before the edge's sample for their stamp."""
-    if track.median_latency >= 0:
-        return True
-    below = model.below(track.child)
-    waits = [
-        track.served_from(heard.stamps) > heard.arrivals
-        for heard in model.heard
-        if heard.is_spatial and heard.frame in below
-    ]
-    # The first and last messages may be outside of the samples.
-    return any(float(late.mean()) > 0.05 for late in waits)
 
 
 def _could_move(model: Model, track: Track) -> bool:

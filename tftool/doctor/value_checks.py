@@ -221,17 +221,13 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         until=int(track.logs[others[jumps[-1]]]),
         count=len(jumps),
         severity=Severity.NOTE if model.is_minor(track) else None,
-        fixes=(_look_at_jumps(track, topic),),
+        fixes=(
+            Fix(
+                "list the jumps, and compare them with the sensors at these times:",
+                f"tftool doctor RECORDING --steps --pair {quoted(':'.join(track.edge))}",
+            ),
+        ),
     )
-
-
-def _look_at_jumps(track: Track, topic: str) -> Fix:
-    if not topic:
-        return Fix(
-            "list the jumps, and compare them with the sensors at these times:",
-            f"tftool doctor RECORDING --steps --pair {quoted(':'.join(track.edge))}",
-        )
-    return Fix(f"look at how the publisher of {track.name} uses {topic}")
 
 
 def _trigger(model: Model, jumps: Stamps) -> tuple[str, int]:
