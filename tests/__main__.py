@@ -5,6 +5,7 @@ pytest: `python -m tests -k history` runs less. `python -m tests --coverage` jud
 the branch coverage of the whole as well, which takes twice as long.
 """
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -25,12 +26,15 @@ CHECKS = [
 
 def main(words: list[str]) -> int:
     """Run every check, the tests last; stop at the first check that fails."""
+    # Several workers share the processors. numpy's BLAS would start a thread for each processor in
+    # each process, and these threads wait busily at first.
+    environment = {"OPENBLAS_NUM_THREADS": "1", **os.environ}
     root = Path(__file__).resolve().parent.parent
     # A selection of tests covers only a part of the code, so coverage is judged for all tests.
     tests = [*PYTHON, "pytest", *(COVERAGE if words == ["--coverage"] else words or WHOLE)]
     for command in [*CHECKS, tests]:
         print("$", *command, flush=True)  # noqa: T201
-        status = subprocess.run(command, cwd=root, check=False).returncode
+        status = subprocess.run(command, cwd=root, env=environment, check=False).returncode
         if status:
             return status
     return 0
