@@ -165,7 +165,8 @@ class CommandRunner:
         Args:
             command: Command to run.
             label: Name of the command for warnings.
-            on_start: Function called with the process.
+            on_start: Function called with the process, which may then be interrupted; not called
+                for a command that ends while simulated time waits, so that all its lines arrive.
             on_line: Function called with each output line, and whether it is from standard output.
 
         Raises:
@@ -190,6 +191,7 @@ class CommandRunner:
         """Start a command, and wait while simulated time waits; return the command's task."""
         clock = self._node.clock
         early: list[tuple[str, bool]] = []
+        started: list[asyncio.subprocess.Process] = []
         is_held = True
 
         def take(line: str, is_stdout: bool) -> None:
@@ -199,7 +201,7 @@ class CommandRunner:
                 on_line(line, is_stdout)
 
         with held(clock):
-            running = asyncio.ensure_future(_run(command, on_start, take))
+            running = asyncio.ensure_future(_run(command, started.append, take))
             limit = clock.real_timer(LONGEST_HOLD)
             running.add_done_callback(partial(finish, limit))
             await limit
@@ -209,6 +211,8 @@ class CommandRunner:
         for line, is_stdout in early:
             on_line(line, is_stdout)
         if not running.done():
+            for process in started:
+                on_start(process)
             self._warn(
                 f"{label} has not ended after {LONGEST_HOLD:g} s: from now on simulated time "
                 "passes no faster than real time"
