@@ -295,6 +295,23 @@ def test_a_nodes_file_finds_its_package_beside_a_file_of_the_same_name(ros_runti
     assert ros_runtime.log("speaker") == ["from the package"]
 
 
+def test_a_nodes_file_imports_from_a_folder_without_init(ros_runtime, tmp_path):
+    for name in ("first", "second"):
+        (tmp_path / name / "parts").mkdir(parents=True)
+        (tmp_path / name / "parts" / "words.py").write_text(f"WORD = 'from the {name}'\n")
+        (tmp_path / name / f"{name}.py").write_text(
+            "import rclpy\n"
+            "from parts.words import WORD\n"
+            "rclpy.init()\n"
+            f"rclpy.create_node('{name}').get_logger().info(WORD)\n"
+        )
+        ros_runtime.start(tmp_path / name / f"{name}.py")
+        ros_runtime.sleep(1.0)
+
+    assert ros_runtime.log("first") == ["from the first"]
+    assert ros_runtime.log("second") == ["from the second"]
+
+
 def test_a_file_with_zero_bytes_is_no_python_text(tmp_path):
     from tftool.base.errors import InputError
     from tftool.ros.host.user_code import compile_file

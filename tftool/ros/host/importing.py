@@ -208,11 +208,16 @@ class _Finder(MetaPathFinder):
         if not self.roots:
             return None
         search = list(path) if path is not None else [str(root) for root in self.roots]
-        spec = importlib.machinery.PathFinder.find_spec(fullname, search, target)
-        if spec is None or spec.origin is None or not _is_users(Path(spec.origin), self.roots):
+        find = importlib.machinery.PathFinder.find_spec
+        spec = find(fullname, search, target)
+        if spec is None:
+            return None
+        if spec.origin is None and path is None and find(fullname) is not None:
+            return None  # A folder without __init__.py is a package only if there is no other.
+        if not _is_users(_place(spec.origin, spec.submodule_search_locations), self.roots):
             return None
         if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
-            spec.loader = _UserLoader(fullname, spec.origin)
+            spec.loader = _UserLoader(fullname, str(spec.origin))
         return spec
 
     def _tested(
@@ -419,7 +424,12 @@ def _is_theirs(name: str) -> bool:
 
 
 def _file_of(module: ModuleType) -> Path:
-    return Path(getattr(module, "__file__", None) or "")
+    return _place(getattr(module, "__file__", None), getattr(module, "__path__", None))
+
+
+def _place(file: str | None, folders: Iterable[str] | None) -> Path:
+    """Return the file of a module, or the first folder of a package without a file."""
+    return Path(file or next(iter(folders or ()), ""))
 
 
 def _is_users(file: Path, roots: Iterable[Path]) -> bool:
@@ -432,8 +442,20 @@ def _is_users(file: Path, roots: Iterable[Path]) -> bool:
 
 def look_in(root: Path) -> None:
     """Add a folder in which imports look for users' modules, before all other folders."""
-    if _finder is not None and root not in _finder.roots:
-        _finder.roots.insert(0, root)
+    if _finder is not None and _finder.roots[:1] != [root]:
+        _finder.roots = [root, *(one for one in _finder.roots if one != root)]
+
+
+def forget_in(folder: Path) -> None:
+    """Forget imported modules of users that have the name of a file or folder in `folder`.
+
+    The next import finds the one in `folder`: two programs may have modules of the same name.
+    """
+    names = {one.stem for one in folder.iterdir()}
+    roots = [] if _finder is None else _finder.roots
+    for name, module in list(sys.modules.items()):
+        if name.partition(".")[0] in names and _is_users(_file_of(module), roots):
+            del sys.modules[name]
 
 
 def look_behind(roots: Callable[[], Iterable[str]]) -> None:

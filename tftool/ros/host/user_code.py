@@ -67,6 +67,7 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
             folders.reverse()
     for root in folders:
         importing.look_in(root)
+    importing.forget_in(folder)
     module.__file__ = str(path)
     module.__dict__["__builtins__"] = builtins_for_users()
     exec(code, module.__dict__)
