@@ -103,32 +103,31 @@ class Placer:
                 of placed labels become `TAKEN`.
         """
         found = []
-        for label in labels:
+        spots = np.array([(one.column, one.row, one.reach) for one in labels]).reshape(-1, 3)
+        weights = np.where(spots[:, 2] > SMALL, 5.0, 2.0)
+        sums = np.pad(np.cumsum(costs, 1), ((0, 0), (1, 0)))
+        for place, label in enumerate(labels):
             width = cell_len(label.text)
             columns, rows, cost = self._places(label, width)
             if not len(cost):
                 continue
-            sums = np.pad(np.cumsum(costs, 1), ((0, 0), (1, 0)))
             cost = cost + sums[rows, columns + width] - sums[rows, columns]
             # Directly beside another label, the two would read as one word.
             beside = columns - 1
             is_joined = (beside >= 0) & (beside != label.column) & (costs[rows, beside] >= TAKEN)
             cost += 3.0 * is_joined
-            own = _apart(label, columns, rows, width)
-            closer = np.zeros(len(cost))
-            for other in labels:
-                if other is label or (other.column, other.row) == (label.column, label.row):
-                    continue
-                edge, centre = _apart(other, columns, rows, width)
-                is_closer = (edge < own[0]) | ((edge == own[0]) & (centre <= own[1]))
-                closer = np.maximum(closer, is_closer * (5.0 if other.reach > SMALL else 2.0))
-            cost += closer
+            edge, centre = _apart(spots, columns, rows, width)
+            own = edge[place], centre[place]
+            is_closer = (edge < own[0]) | ((edge == own[0]) & (centre <= own[1]))
+            is_same = (spots[:, 0] == label.column) & (spots[:, 1] == label.row)
+            cost += (is_closer * np.where(is_same, 0.0, weights)[:, None]).max(0)
             best = int(cost.argmin())
             if cost[best] >= (TAKEN if label is labels[0] else SOLID):
                 continue
             column, row = int(columns[best]), int(rows[best])
             self._before[label.name] = column - label.column, row - label.row
             costs[row, max(0, column - 1) : column + width + 1] = TAKEN
+            sums[row, 1:] = np.cumsum(costs[row])
             away = max(column - label.column, label.column - column - width)
             is_far = abs(row - label.row) > 2 or away > label.reach + 2
             found.append(PlacedLabel(label, column, row, is_far))
@@ -164,11 +163,25 @@ def _around(reach: int, width: int, asides: tuple[int, ...]) -> Floats:
 
 
 def _apart(
-    label: Label, columns: npt.NDArray[np.int64], rows: npt.NDArray[np.int64], width: int
+    spots: npt.NDArray[np.int64],
+    columns: npt.NDArray[np.int64],
+    rows: npt.NDArray[np.int64],
+    width: int,
 ) -> tuple[Floats, Floats]:
-    """Return the rows between texts and a frame's symbol, and between texts and its centre."""
-    nearest = np.clip(label.column, columns, columns + width - 1)
-    across, down = np.abs(nearest - label.column), np.abs(rows - label.row)
+    """Return the squared rows between texts and symbols, and between texts and symbols' centres.
+
+    Args:
+        spots: Column, row and reach of each symbol, shape (m, 3).
+        columns: First column of each text, shape (n,).
+        rows: Row of each text, shape (n,).
+        width: Width of the texts in cells.
+
+    Returns:
+        Two arrays of shape (m, n).
+    """
+    column, row, reach = spots.T[:, :, None]
+    across = np.abs(np.clip(column, columns, columns + width - 1) - column)
+    down = np.abs(rows - row)
     # A cell is twice as high as wide.
-    edge = np.maximum(0, across - label.reach), np.maximum(0.0, down - 0.5 * label.reach)
-    return np.hypot(0.5 * edge[0], edge[1]), np.hypot(0.5 * across, down)
+    edge = 0.5 * np.maximum(0, across - reach), np.maximum(0.0, down - 0.5 * reach)
+    return edge[0] ** 2 + edge[1] ** 2, 0.25 * across**2 + down**2
