@@ -447,14 +447,16 @@ def look_in(root: Path) -> None:
 
 
 def forget_in(folder: Path) -> None:
-    """Forget imported modules of users that have the name of a file or folder in `folder`.
+    """Forget users' modules from elsewhere that have the name of a file or folder in `folder`.
 
     The next import finds the one in `folder`: two programs may have modules of the same name.
     """
     names = {one.stem for one in folder.iterdir()}
     roots = [] if _finder is None else _finder.roots
     for name, module in list(sys.modules.items()):
-        if name.partition(".")[0] in names and _is_users(_file_of(module), roots):
+        file = _file_of(module)
+        is_elsewhere = name.partition(".")[0] in names and not file.is_relative_to(folder)
+        if is_elsewhere and _is_users(file, roots):
             del sys.modules[name]
 
 
