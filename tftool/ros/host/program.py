@@ -40,6 +40,9 @@ TICK = seconds(0.001)
 TICKS = 16
 """Ticks without a wait between them after which the next ticks are twice as long."""
 
+POLLING = 10
+"""Weight of requests after a tick without a wait."""
+
 LONGEST_TICK = 64 * TICK
 """Longest step of a loop that polls."""
 
@@ -318,7 +321,8 @@ class Program(Node):
         now = self.clock.now()
         if now != self._asked_at:
             self._asked_at, self._asked = now, 0.0
-        self._asked += share
+        # After a tick without a wait, the loop only polls, and needs fewer requests to be known.
+        self._asked += share * POLLING if now == self._polled_until else share
         if self._asked > 1.0 and not self.interrupted:
             self._asked = 0.0
             self._ticks = self._ticks + 1 if now == self._polled_until else 0
