@@ -524,15 +524,15 @@ def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool, 
 
 
 def test_a_loop_that_polls_simulated_time_is_named_with_its_line(tmp_path, tftool, monkeypatch):
-    monkeypatch.setattr("tftool.ros.host.fibers.GIVE_UP", 0.2)
+    monkeypatch.setattr("tftool.ros.host.fibers.GIVE_UP", 0.02)
     file = tmp_path / "polls.py"
     file.write_text(
         "import time\nimport rclpy\nrclpy.init()\nrclpy.create_node('polls')\n"
         "while time.time() < 1e9:\n    pass\n"
     )
 
-    run = tftool("run", "--simulated", "--for", "2", str(file))
-    assert run.err.count("has polled for 0.2 s") == 1
+    run = tftool("run", "--simulated", "--for", "60", str(file))
+    assert run.err.count("has polled for 0.02 s") == 1
     assert "polls.py:5, in <module>: while time.time() < 1e9:" in run.err
 
 

@@ -297,11 +297,11 @@ def test_a_nodes_file_finds_its_package_beside_a_file_of_the_same_name(ros_runti
 
 def test_a_nodes_file_imports_from_a_folder_without_init(ros_runtime, tmp_path):
     for name in ("first", "second"):
-        (tmp_path / name / "parts").mkdir(parents=True)
-        (tmp_path / name / "parts" / "words.py").write_text(f"WORD = 'from the {name}'\n")
+        (tmp_path / name / "parts" / "deep").mkdir(parents=True)
+        (tmp_path / name / "parts" / "deep" / "words.py").write_text(f"WORD = 'from the {name}'\n")
         (tmp_path / name / f"{name}.py").write_text(
             "import rclpy\n"
-            "from parts.words import WORD\n"
+            "from parts.deep.words import WORD\n"
             "rclpy.init()\n"
             f"rclpy.create_node('{name}').get_logger().info(WORD)\n"
         )

@@ -214,6 +214,9 @@ class _Finder(MetaPathFinder):
             return None
         if spec.origin is None and path is None and find(fullname) is not None:
             return None  # A folder without __init__.py is a package only if there is no other.
+        if spec.submodule_search_locations is not None:
+            # A list: Python's own object fails once the parent package is forgotten.
+            spec.submodule_search_locations = list(spec.submodule_search_locations)
         if not _is_users(_place(spec.origin, spec.submodule_search_locations), self.roots):
             return None
         if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
