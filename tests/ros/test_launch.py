@@ -667,6 +667,12 @@ def test_a_command_that_cannot_be_run_does_not_end_the_launch(tmp_path):
     assert "hi" in done.said("echo-2")
 
 
+def test_a_command_in_a_missing_folder_is_told_with_the_folder(tmp_path):
+    done = described(tmp_path, "ExecuteProcess(cmd=['env'], cwd='/nonexistent')")
+
+    assert "cannot run 'env': No such file or directory '/nonexistent'" in done.said("env-1")[-1]
+
+
 def test_a_command_that_ends_soon_takes_no_simulated_time(tmp_path):
     done = described(
         tmp_path,
