@@ -697,6 +697,25 @@ def test_a_command_that_goes_on_lets_simulated_time_pass_after_a_while(tmp_path,
     assert done.elapsed < 60.0
 
 
+def test_an_interrupted_launch_does_not_wait_for_its_command(tmp_path):
+    file = tmp_path / "some.launch.py"
+    file.write_text(
+        "import asyncio\nimport threading\n"
+        "from launch import LaunchDescription\n"
+        "from launch.actions import ExecuteProcess, OpaqueFunction\n"
+        "def interrupt(context):\n"
+        "    loop, end = asyncio.get_running_loop(), context.launch.interrupt\n"
+        "    threading.Timer(0.3, lambda: loop.call_soon_threadsafe(end)).start()\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([\n"
+        "        ExecuteProcess(cmd=['sleep', '1000']), OpaqueFunction(function=interrupt)])\n"
+    )
+    done = launch(file, seconds=60)
+
+    assert done.said("sleep-1")[-1] == "process has finished cleanly"
+    assert not any("has not ended" in text for text in done.said("launch"))
+
+
 def test_a_command_for_a_text_has_a_time_limit(tmp_path, monkeypatch):
     monkeypatch.setattr("tftool.ros.launch.commands.LONGEST_RUN", 0.3)
     with pytest.raises(NodeFailed, match=r"'sleep', '30'\] had not ended after 0.3 s"):

@@ -43,6 +43,9 @@ class SystemCommand:
     emulate_tty: bool = False
 
 
+OnStart = Callable[[asyncio.subprocess.Process], object]
+OnLine = Callable[[str, bool], object]
+
 Streams = Sequence[tuple[asyncio.StreamReader, bool]]
 """Streams of a command's output, each with whether it is the standard output."""
 
@@ -152,13 +155,17 @@ class CommandRunner:
         self._warn = warn
         self._waits = waits
         self._turns = asyncio.Lock()
+        self._limit: asyncio.Future[None] | None = None
+        self._is_ending = False
+
+    def end(self) -> None:
+        """Let simulated time wait no longer, because a person ends the launch."""
+        self._is_ending = True
+        if self._limit is not None:
+            finish(self._limit)
 
     async def run(
-        self,
-        command: SystemCommand,
-        label: str,
-        on_start: Callable[[asyncio.subprocess.Process], object],
-        on_line: Callable[[str, bool], object],
+        self, command: SystemCommand, label: str, on_start: OnStart, on_line: OnLine
     ) -> int:
         """Run a command to its end; return its exit status.
 
@@ -172,7 +179,7 @@ class CommandRunner:
         Raises:
             UsageError: If the command cannot be started.
         """
-        if self._waits:
+        if self._waits and not self._is_ending:
             # One command after the other, so that every run gives the same lines.
             async with self._turns:
                 running = await self._run_held(command, label, on_start, on_line)
@@ -182,11 +189,7 @@ class CommandRunner:
             return await running
 
     async def _run_held(
-        self,
-        command: SystemCommand,
-        label: str,
-        on_start: Callable[[asyncio.subprocess.Process], object],
-        on_line: Callable[[str, bool], object],
+        self, command: SystemCommand, label: str, on_start: OnStart, on_line: OnLine
     ) -> "asyncio.Task[int]":
         """Start a command, and wait while simulated time waits; return the command's task."""
         clock = self._node.clock
@@ -202,9 +205,9 @@ class CommandRunner:
 
         with held(clock):
             running = asyncio.ensure_future(_run(command, started.append, take))
-            limit = clock.real_timer(LONGEST_HOLD)
-            running.add_done_callback(partial(finish, limit))
-            await limit
+            self._limit = clock.real_timer(LONGEST_HOLD)
+            running.add_done_callback(partial(finish, self._limit))
+            await self._limit
         # After this instant's programs, whose steps would else mix with the lines by chance.
         await clock.timer(clock.now(), self._node.phase, self._node.rank)
         is_held = False
@@ -213,18 +216,15 @@ class CommandRunner:
         if not running.done():
             for process in started:
                 on_start(process)
-            self._warn(
-                f"{label} has not ended after {LONGEST_HOLD:g} s: from now on simulated time "
-                "passes no faster than real time"
-            )
+            if not self._is_ending:
+                self._warn(
+                    f"{label} has not ended after {LONGEST_HOLD:g} s: from now on simulated time "
+                    "passes no faster than real time"
+                )
         return running
 
 
-async def _run(
-    command: SystemCommand,
-    on_start: Callable[[asyncio.subprocess.Process], object],
-    on_line: Callable[[str, bool], object],
-) -> int:
+async def _run(command: SystemCommand, on_start: OnStart, on_line: OnLine) -> int:
     process, streams = await begin(command)
     on_start(process)
 

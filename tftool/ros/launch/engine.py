@@ -276,6 +276,7 @@ class Launch(Node):
         """Begin to shut the launch down, as the first Ctrl-C does."""
         self._closing = True
         self._say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
+        self._commands.end()
         event = Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True)
         self._guarded(lambda: self.emit(event))
 
