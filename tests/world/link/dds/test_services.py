@@ -8,7 +8,7 @@ from tests.world.link.conftest import until
 from tests.world.link.dds.test_session import Silent, joined
 from tftool.base.errors import LinkError
 from tftool.messages.classes import INTERFACES
-from tftool.world.endpoints import Quality
+from tftool.world.endpoints import CLIENT, Endpoint, Quality
 from tftool.world.link.graph import SERVER, GraphEntity
 
 SWITCH = INTERFACES.find("std_srvs", "srv", "SetBool")
@@ -31,6 +31,27 @@ def test_a_service_of_one_process_answers_another(domain):
     node, answers = asyncio.run(scene())
     assert answers == [(True, "switched"), (False, "switched")]
     assert node == "breaker"
+
+
+def test_a_client_is_listed_once_with_its_node_before_and_after_its_request(domain):
+    def named(world):
+        return [(one.node, one.interface) for one in world.clients.of("switch", CLIENT)]
+
+    async def scene():
+        async with joined(domain) as (robot, _), joined(domain) as (other, _):
+            Silent(other, "asker")
+            Silent(other, "second")
+            leave = other.clients.add(Endpoint(CLIENT, "asker", "switch", "std_srvs/srv/SetBool"))
+            await until(lambda: named(robot) == [("asker", "std_srvs/srv/SetBool")])
+            robot.serve("switch", switched, SWITCH)
+            await until(lambda: "switch" in other.services())
+            await other.call("switch", SWITCH.Request(data=True))
+            after = named(robot)
+            leave()
+            await until(lambda: not named(robot))
+            return after
+
+    assert asyncio.run(scene()) == [("asker", "std_srvs/srv/SetBool")]
 
 
 def test_a_service_on_cyclone_answers_us(peer, domain):

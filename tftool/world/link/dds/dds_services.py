@@ -127,7 +127,7 @@ class CycloneRequest:
 
 
 class CycloneClient:
-    """Client of one service, which joins the graph with its first request."""
+    """Client of one service, which joins the graph with its first request or announcement."""
 
     def __init__(self, part: ServicePart, name: str, ros_type: str) -> None:
         self._part = part
@@ -137,6 +137,8 @@ class CycloneClient:
         self._numbers = itertools.count(1)
         self._waiting: dict[int, asyncio.Future[bytes]] = {}
         self._close: list[Callable[[], None]] = []
+        self._gids = b"", b""
+        self._announced = 0
         self._is_matched: Callable[[], bool] = bool
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
@@ -164,8 +166,7 @@ class CycloneClient:
             del self._waiting[number]
 
     async def _send(self, number: int, payload: bytes) -> None:
-        if not self._close:
-            self._open()
+        self._open()
         clock = WallClock()
         # A request that is written before both sides are matched is lost.
         while not self._is_matched():
@@ -173,13 +174,27 @@ class CycloneClient:
         beside = struct.pack("<Qq", self._guid, number)
         self._put(payload[:_HEAD] + beside + payload[_HEAD:])
 
+    def announce(self) -> tuple[bytes, bytes]:
+        """Stay in the graph until `withdraw`; return the GUIDs of the reader and the writer."""
+        self._open()
+        self._announced += 1
+        return self._gids
+
+    def withdraw(self) -> None:
+        """End one announcement; with the last one, close the client."""
+        self._announced -= 1
+        self.close()
+
     def _open(self) -> None:
+        if self._close:
+            return
         request, reply = self._part.kinds(self._ros_type)
         take_part = self._part.participant
         # The reader first, so that it exists before any reply arrives.
         reader = take_part.reader(f"{names.REPLY}{self._name}Reply", reply, QUALITY, self._answered)
         writer = take_part.writer(f"{names.REQUEST}{self._name}Request", request, QUALITY, b"")
         self._close = [reader.close, writer.close]
+        self._gids = reader.gid, writer.gid
         self._put = writer.put
         self._is_matched = lambda: writer.readers > 0 and reader.writers > 0
 
@@ -194,7 +209,9 @@ class CycloneClient:
             answer.set_result(payload[:_HEAD] + payload[_HEAD + _NUMBER :])
 
     def close(self) -> None:
-        """Close the client's reader and writer."""
+        """Close the client's reader and writer, unless the client is announced."""
+        if self._announced:
+            return
         for close in self._close:
             close()
         self._close = []

@@ -31,7 +31,6 @@ from tftool.world.link.seam import (
     Arrived,
     Middleware,
     Watcher,
-    WireClient,
     WireRequest,
     nothing,
 )
@@ -68,6 +67,7 @@ class DdsMiddleware(Middleware):
             self.notices = self._network.told
             self._types = Types(INTERFACES)
             self._services = ServicePart(self._participant, self._types, self.graph, self.sender)
+            self._clients: dict[tuple[str, str], CycloneClient] = {}
             self._readers: dict[tuple[str, str], list[_Listening]] = {}
             self._claims: list[_Claim] = []
             self._look_around()
@@ -299,9 +299,31 @@ class DdsMiddleware(Middleware):
 
         return leave
 
-    def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Create a client of a service for a node of this process."""
-        return CycloneClient(self._services, name, ros_type)
+    def client(self, node: str, name: str, ros_type: str) -> CycloneClient:
+        """Return the client of a service for all nodes of this process."""
+        key = name, ros_type
+        if key not in self._clients:
+            self._clients[key] = CycloneClient(self._services, *key)
+        return self._clients[key]
+
+    def announce_client(self, node: str, name: str, ros_type: str) -> Callable[[], None]:
+        """Announce a node's client; return a function that ends the announcement."""
+        client = self.client(node, name, ros_type)
+        try:
+            reads, writes = client.announce()
+        except (LinkError, InputError) as error:
+            self.say_once(f"type {ros_type}", f"'{name}' cannot be called over DDS: {error}.")
+            return nothing
+        hide = [
+            self._discovery.show_endpoint(node_name(node), SUBSCRIPTION, reads),
+            self._discovery.show_endpoint(node_name(node), PUBLISHER, writes),
+        ]
+
+        def leave() -> None:
+            for one in (*hide, client.withdraw):
+                one()
+
+        return leave
 
     # What others show
 
