@@ -405,3 +405,15 @@ def test_a_file_that_needs_no_package_of_the_workspace_reads_none(ros_runtime, t
     ros_runtime.start(file)
     ros_runtime.sleep(1)
     assert (ros_runtime.log("talk"), asked) == (["up", "found"], [True])
+
+
+def test_of_packages_of_one_name_the_nearest_to_the_file_is_used(tmp_path):
+    xml = "<package><name>robot</name></package>"
+    first, second = (
+        package(tmp_path / chapter / "src" / "robot", package__xml=xml)
+        for chapter in ("chapter_1", "chapter_2")
+    )
+
+    for folder in (first, second):
+        near = folder.parent / "bringup" / "launch" / "a.launch.py"
+        assert Workspace(tmp_path, near).packages["robot"].path == folder

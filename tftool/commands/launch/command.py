@@ -24,7 +24,7 @@ def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
         raise UsageError("--simulated needs a duration: add --for SECONDS")
     if options.simulated:
         refuse_long_simulation(options.run_for)
-    workspace = workspace_here(verbose=options.verbose)
+    workspace = workspace_here(options.words[0], verbose=options.verbose)
     with ros_free(force=options.force):
         packages.use(workspace)
         path, rest = find_launch_file(workspace, options.words)

@@ -123,7 +123,7 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
     path, arguments = Path(words[0]), words[1:]
     user_code.compile_file(path)
     arguments_of(arguments)
-    workspace = workspace_here(verbose=False)
+    workspace = workspace_here(words[0], verbose=False)
     with ros_free():
         packages.use(workspace)
         session = open_empty_session(connection)

@@ -166,7 +166,7 @@ def run(connection: Connection, options: RunOptions) -> int:
     _refuse_misplaced(options.target, words)
     for word in misplaced(words, own):
         notice(word)
-    workspace = workspace_here(verbose=options.verbose)
+    workspace = workspace_here(options.target, verbose=options.verbose)
     is_of_nodes = options.place is not None or options.simulated or options.run_for is not None
     if not is_file(options.target) and options.target not in workspace.packages:
         status = _run_other(connection, options.target, words, refused=is_of_nodes)

@@ -13,13 +13,15 @@ if TYPE_CHECKING:
     from tftool.world.world import World
 
 
-def workspace_here(*, verbose: bool) -> Workspace:
+def workspace_here(target: str, *, verbose: bool) -> Workspace:
     """Return the packages below this folder, or of the workspace whose src folder contains it.
 
     Args:
+        target: File or package on the command line; packages near the file are preferred.
         verbose: Whether to print which folders are skipped, and why.
     """
-    workspace = Workspace(Path.cwd())
+    near = Path(target)
+    workspace = Workspace(Path.cwd(), near if near.exists() else None)
     for skipped in workspace.skipped if verbose else ():
         notice(visible_lines(skipped))
     return workspace

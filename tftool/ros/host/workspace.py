@@ -88,9 +88,15 @@ class Workspace:
         start: The folder, as an absolute path.
     """
 
-    def __init__(self, start: Path) -> None:
-        """Find packages from the folder `start`; unreadable packages are skipped."""
+    def __init__(self, start: Path, near: Path | None = None) -> None:
+        """Find packages from the folder `start`; unreadable packages are skipped.
+
+        Args:
+            start: The folder.
+            near: File or folder; of several packages of one name, the nearest to it is used.
+        """
         self.start = start.resolve()
+        around = (near or start).resolve().parents
         self._shares: dict[str, ShareFolder] = {}
         self._marked = [
             Path(folder)
@@ -98,6 +104,8 @@ class Workspace:
             for folder, is_marked in _folders(root, _DEPTH)
             if is_marked
         ]
+        # A repository may have several workspaces, with packages of the same names.
+        self._marked.sort(key=lambda folder: sum(map(folder.is_relative_to, around)), reverse=True)
         # Interfaces must be found before a program imports one, as they take precedence over
         # tftool's.
         if any((folder / kind).is_dir() for folder in self._marked for kind in _KINDS):
