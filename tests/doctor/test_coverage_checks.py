@@ -78,8 +78,14 @@ def test_samples_of_nan_are_told_and_explain_the_hole():
 def test_a_mount_sent_once_on_tf():
     made = robot()
     made.sent("base_link", "gps", 0.5)
+    assert ids(made) == ["single-sample"]
+
+
+def test_a_goal_sent_once_on_tf_is_a_note_until_messages_are_in_it():
+    made = robot()
+    made.sent("odom", "goal", 0.5)
     assert ids(made) == []
-    made.hears("/range", "gps", kind="sensor_msgs/Range")
+    made.hears("/range", "goal", kind="sensor_msgs/Range")
     assert ids(made) == ["single-sample"]
 
 
@@ -259,7 +265,7 @@ def test_messages_older_than_the_cache():
     made.moving("odom", "base_link", end=20.0)
     made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", end=5.0, latency=13.0)
     assert found(made, "cache-short").facts["needed"] == 14
-    assert ids(made) == []
+    assert ids(made) == ["cache-short"]
     assert "cache-short" not in [
         one.id for one in made.judged(Settings(cache_time=seconds(30))).findings
     ]

@@ -464,8 +464,9 @@ def _is_robot(link: Track) -> bool:
 
 @check(
     "cache-short",
-    Severity.NOTE,
-    rule="95 % of a topic's messages arrive later than the cache time (10 s; --cache-time)",
+    Severity.WARNING,
+    rule="95 % of a topic's messages arrive later than the cache time (10 s; --cache-time); a note "
+    "for messages other than scans, point clouds and ranges",
     headline="{topic} arrives later than the cache keeps its moment",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",
@@ -504,6 +505,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
                     "needed": math.ceil(worst / NANOSECONDS) + 1,
                 },
                 count=int(np.count_nonzero(latency > model.settings.cache_time)),
+                severity=None if last_part(heard.type) in PLACED else Severity.NOTE,
             )
 
 

@@ -9,6 +9,7 @@ from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import STOPPED_PERIODS, Area, Fact, Fix, Hit, Severity
+from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part, rate
 from tftool.doctor.wording import several
@@ -101,6 +102,14 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             count=1,
             severity=severity,
         )
+
+
+def _is_used(model: Model, track: Track) -> bool:
+    """Whether an edge is part of a robot, or messages with a position are in frames below it."""
+    below = model.below(track.child)
+    return not is_world(track.parent) or any(
+        heard.is_spatial and heard.frame.removeprefix("/") in below for heard in model.heard
+    )
 
 
 def _needed_in(model: Model, track: Track, begin: int, end: int) -> int:
@@ -388,8 +397,8 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "single-sample",
     Severity.WARNING,
-    rule="a transform on a dynamic topic was sent once; a note if no sensor message is in the "
-    "frame or below it",
+    rule="a transform on a dynamic topic was sent once; a note for a frame in map, odom or world "
+    "if no message with a position is in it or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}",
     consequence="one sample answers only for its own stamp, and only while the cache keeps it",
@@ -409,7 +418,7 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
                 {"stamp": int(track.stamps[0])},
                 topics=track.topics,
                 count=1,
-                severity=None if _needed_in(model, track, 0, model.end) else Severity.NOTE,
+                severity=None if _is_used(model, track) else Severity.NOTE,
             )
 
 
