@@ -265,7 +265,11 @@ def test_no_samples_change_nothing():
             ValueError,
             r"rotations for 2 stamps must have the shape \(2, 4\), not \(2, 3\)",
         ),
-        ({"translations": np.full((2, 3), "1")}, TypeError, "translations must be numbers"),
+        (
+            {"translations": np.full((2, 3), "1")},
+            TypeError,
+            "translations must be an array of real numbers",
+        ),
     ],
 )
 def test_what_does_not_fit_is_refused_and_named(change, kind, told):

@@ -641,7 +641,7 @@ class History(Fields):
 
         Args:
             other: An empty history.
-            origin: Number of parent and authority of the samples in the other history.
+            origin: Index of the samples' pair of parent and authority in the other history.
             until: The last stamp to share, nanoseconds.
 
         Returns:

@@ -534,7 +534,7 @@ def _solid(drawing: DrawnSpace, columns: int, rows: int) -> npt.NDArray[np.bool_
 
 
 def _leader(placed: PlacedLabel) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return both ends of the line from a label's nearer end to its frame, in dots."""
+    """Return the line from the letter of a label nearest to its frame to that frame, in dots."""
     label = placed.label
     last = placed.column + cell_len(label.text) - 1
     column = min(max(label.column, placed.column), last)

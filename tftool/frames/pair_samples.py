@@ -65,7 +65,7 @@ class Trajectory:
 
     @property
     def refused(self) -> int:
-        """Return the number of times without a pose."""
+        """Return the number of stamps at which no pose could be looked up."""
         return len(self.path) - int(np.count_nonzero(self.path.valid))
 
     def answered(self) -> TransformArray:

@@ -250,7 +250,8 @@ class Piece:
             again = os.preadv(file, [memoryview(_other)[:count]], place + done)
             if again != count or not _begin_alike(count):
                 raise InputError(
-                    f"the copied bytes at byte {place + done} differ from the original"
+                    f"the disk did not keep the copy: its bytes from byte {place + done} on differ "
+                    "from the original"
                 )
             if crc is not None:
                 crc = zlib.crc32(read[:count], crc)

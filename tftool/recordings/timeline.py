@@ -45,7 +45,7 @@ class PlayClock:
     """
 
     def __init__(self, transforms: Transforms, read: Stamps, received: Stamps) -> None:
-        """Compare stamps with log times, to choose the conversion.
+        """Compare stamps with log times, to choose how log times are converted to stamps.
 
         Args:
             transforms: All transforms of the recording.

@@ -127,7 +127,7 @@ class Subject(Declared):
 
 @declare(SUBJECTS, "lookup", form=POSE_FORM)
 class Lookup(Subject):
-    """Question for the pose of `source` in `target` at a time, or at two via a fixed frame."""
+    """Question for the pose of `source` in `target` at one or two times; two need a fixed frame."""
 
     target: str = reads(values.frame)
     source: str = reads(values.frame)

@@ -318,7 +318,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return a mask over `order`, false for a sample that repeats an earlier one of equal stamp."""
+    """Return a mask over `order`: false for a sample that equals an earlier one, stamp and pose."""
     # tf2 ignores a sample equal to a stored one with its stamp: check runs of equal stamps only.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]
@@ -351,7 +351,7 @@ def _shaped(numbers: npt.ArrayLike, name: str, shape: tuple[int, int]) -> Floats
             f"{name} for {shape[0]} stamps must have the shape {shape}, not {given.shape}"
         )
     if given.dtype.kind not in "fiub":
-        raise TypeError(f"{name} must be numbers (float64), not {given.dtype}")
+        raise TypeError(f"{name} must be an array of real numbers, not of {given.dtype}")
     return np.asarray(given, dtype=np.float64)
 
 

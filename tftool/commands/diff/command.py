@@ -163,8 +163,8 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
     """Open the frames of one source, A or B.
 
     Raises:
-        InputError: If the word names nothing, or the file cannot be read.
-        LinkError: If the word is "session", and no session runs.
+        InputError: If `word` is no source of frames, or the file cannot be read.
+        LinkError: If `word` is "session", and no session runs.
     """
     if word != SESSION:
         return side_of(open_from(connection, word, lasting, until=WHOLE, shares=True), word)

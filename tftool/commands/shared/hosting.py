@@ -217,12 +217,12 @@ def _refuse_files(word: str | None) -> None:
 def join_session(
     connection: Connection, *, needs_turtles: bool = False, cache_time: Duration | None = None
 ) -> Session | None:
-    """Return the world of the running session; None if there is none.
+    """Return the world of the running session; None if no session runs and none was requested.
 
-    This is for commands that host worlds on simulated time only, which no process can join.
+    This is for commands whose own worlds run on simulated time, which other processes cannot join.
 
     Raises:
-        LinkError: If a session was requested and there is none.
+        LinkError: If a session was requested (`--join`) and none runs.
     """
     if connection.hosts_alone:
         return None

@@ -168,7 +168,7 @@ def can_redraw() -> bool:
 class Redrawing:
     """Drawer that replaces its last picture on the terminal; lines on stderr go above the picture.
 
-    Before the first picture, nothing is drawn and the cursor is not moved.
+    Until the first picture is drawn, lines on stderr are written as usual.
     """
 
     def __init__(self, clock: Clock) -> None:

@@ -222,7 +222,7 @@ class EditedFile:
     def _convert(
         self, change: TableChange, which: Stamps, channel: Channel, conversion: Conversion
     ) -> None:
-        """Convert the messages of one channel; convert messages with the same frames in bulk."""
+        """Write messages of one channel in the encoding of the output, in bulk if possible."""
         if carries_transforms(channel):
             kinds = self._kinds.get(channel)
             if kinds is None:

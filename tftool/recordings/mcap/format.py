@@ -107,7 +107,7 @@ class SingleMessages:
         Args:
             places: Offset of each message's record, relative to `offset`.
             offset: Offset in the file that is added to `places`.
-            end: Offset before which all messages must end.
+            end: Offset in the file that no message may extend beyond.
 
         Raises:
             InputError: If there is no message at an offset. The collection is then unchanged.

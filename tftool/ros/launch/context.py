@@ -150,7 +150,7 @@ class LaunchContext:
 
     @contextmanager
     def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
-        """Restore the state that `kept` returned, inside this block only."""
+        """Restore the state that `kept` returned, until the end of the `with` block."""
         now = self.kept()
         self._restore(kept)
         try:

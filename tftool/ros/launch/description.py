@@ -89,7 +89,7 @@ class LaunchDescriptionSource:
         self.location = location
 
     def load(self, context: LaunchContext) -> tuple[LaunchDescription, Path | None]:
-        """Return the launch description, and its file's path; None if there is no file."""
+        """Return the launch description and the path of its file, None if it has no file."""
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))
@@ -135,7 +135,7 @@ class Action(LaunchDescriptionEntity):
         if kwargs:
             hint = near_keyword(next(iter(kwargs)), type(self))
             named = ", ".join(map(repr, kwargs))
-            raise TypeError(f"{type(self).__name__} takes no argument {named} here{hint}")
+            raise TypeError(f"{type(self).__name__} has no argument {named}{hint}")
 
     def visit(self, context: LaunchContext) -> Any:
         """Execute the action if its condition is true; return the actions to execute next."""

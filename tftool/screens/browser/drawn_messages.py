@@ -237,7 +237,7 @@ class LiveDisplays:
     """Subscriber to those topics of a world whose messages can be drawn, also to later topics."""
 
     def __init__(self, world: World, limits: Limits = Limits()) -> None:
-        """Subscribe to the topics of a world that can be drawn."""
+        """Subscribe to those topics of a world whose messages can be drawn."""
         self._world = world
         self._limits = limits
         self._heard: dict[str, _HeardTopic] = {}

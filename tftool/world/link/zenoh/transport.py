@@ -88,7 +88,7 @@ class Wire:
 
         Args:
             reach: Networks to use beyond this machine.
-            place: Meeting place of this machine's processes; None to leave these out.
+            place: Folder of the sockets of this machine's processes; None to connect to none.
 
         Raises:
             LinkError: If zenoh is missing, or an endpoint cannot be used.
@@ -359,7 +359,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
     Args:
         zenoh: The imported library.
         reach: Networks to use beyond this machine.
-        place: Meeting place of this machine's processes; None to leave these out.
+        place: Folder of the sockets of this machine's processes; None to connect to none.
 
     Raises:
         LinkError: If an endpoint or a file cannot be used.
