@@ -54,7 +54,10 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
             if because:
                 parts.append(Text(f"       with it: {', '.join(because)}", "dim"))
     is_clean = not any(finding.is_shown for finding in diagnosis.findings)
-    parts += [Text(""), _clean(diagnosis) if is_clean else Text(visible(areas(diagnosis)))]
+    if is_clean:
+        parts += [Text(""), _clean(diagnosis), Text("")]
+    else:
+        parts += [Text(""), Text(visible(areas(diagnosis)))]
     if verbose:
         parts += [
             Text(visible(f"skipped: {one.id}: {one.reason}"), "dim") for one in diagnosis.skipped
@@ -152,9 +155,9 @@ def _clean(diagnosis: Diagnosis) -> Table:
     facts = {
         Area.PUBLISHERS: f"{count(len(evidence.transforms.publishers), 'publisher')} of transforms",
         Area.SHAPE: f"{count(len(model.frames), 'frame')} in {count(len(model.trees), 'tree')}",
-        Area.NAMES: count(len(model.frames), "name"),
+        Area.NAMES: f"{count(len(model.frames), 'name')} of frames",
         Area.CLOCKS: _latencies(model, Area.CLOCKS).strip(" ()"),
-        Area.COVERAGE: f"{count(heard, 'topic')} with headers",
+        Area.COVERAGE: f"{count(heard, 'topic')} with headers" if heard else "no headers",
         Area.VALUES: count(len(evidence.transforms), "transform"),
     }
     table = Table.grid(padding=(0, 2), pad_edge=False)
@@ -164,7 +167,9 @@ def _clean(diagnosis: Diagnosis) -> Table:
     for area, reason in _fine(diagnosis):
         tick, style = ("-", "dim") if reason else ("✓", "green")
         fact = reason or facts.get(area, "")
-        table.add_row(Text(tick, style), Text(area.value, style), Text(visible(fact), "dim"))
+        table.add_row(
+            Text(tick, style), Text(area.value, style), Text(visible(fact), "dim" if reason else "")
+        )
     return table
 
 
