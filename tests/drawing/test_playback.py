@@ -105,6 +105,18 @@ def test_the_finding_at_the_position_is_lit_in_the_list(done, lit):
     assert finding_lines(Playback(0, seconds(20)), 80, 5) == []
 
 
+def test_a_finding_without_a_time_is_only_listed():
+    split = PlaybackMark(0, 0, "two trees", is_error=True, is_timed=False)
+    playing = Playback(seconds(0), seconds(20), marks=[split, STEP])
+
+    shown = [line.plain for line in finding_lines(playing, 80, 5)]
+
+    assert shown[0].split() == ["1/2", "error", "throughout", "two", "trees"]
+    assert "█" not in drawn(playing, 80)[2].plain
+    assert before([split, STEP], seconds(15)) is None
+    assert after([split, STEP], -1) == seconds(15)
+
+
 def test_a_long_list_of_findings_scrolls_with_the_position():
     marks = [PlaybackMark(seconds(n), seconds(n), f"fault {n}") for n in range(20)]
 

@@ -46,12 +46,14 @@ class PlaybackMark:
         until: End of the finding, nanoseconds from the recording's start.
         message: Text of the finding, one line.
         is_error: Whether the finding is an error, not a warning.
+        is_timed: Whether the finding has a time; without a time it is only listed.
     """
 
     since: Duration
     until: Duration
     message: str
     is_error: bool = False
+    is_timed: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +152,7 @@ def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette
     solid, empty = ("#", ".") if ascii_only else ("━", "─")
     played, dim = theme.hexadecimal(palette.accent), theme.hexadecimal(palette.dim)
     bar = [*[(solid, played)] * full, *[(empty, dim)] * (room - full)]
-    for mark in reversed(playback.marks):
+    for mark in reversed([one for one in playback.marks if one.is_timed]):
         first, last = (_place(moment, playback, room) for moment in (mark.since, mark.until))
         style = theme.hexadecimal(_color(mark, palette))
         bar[first : last + 1] = [("=" if ascii_only else "═", style)] * (last + 1 - first)
@@ -192,21 +194,21 @@ def finding_lines(
         return []
     head = playback.done
 
-    def distance(mark: PlaybackMark) -> tuple[Duration, Duration, bool]:
+    def distance(mark: PlaybackMark) -> tuple[bool, Duration, Duration, bool]:
         away = max(mark.since - head, head - max(mark.since, mark.until), 0)
-        return away, abs(head - mark.since), not mark.is_error
+        return not mark.is_timed, away, abs(head - mark.since), not mark.is_error
 
     nearest = marks.index(min(marks, key=distance))
     first = max(0, min(nearest - height // 2, len(marks) - height))
     shown = []
     for place, mark in enumerate(marks[first : first + height], first):
-        span = f"{as_seconds(mark.since):.2f}"
-        if mark.until > mark.since:
-            span += f"{'-' if ascii_only else '–'}{as_seconds(mark.until):.2f}"
-        is_lit = place == nearest and distance(mark)[0] <= NEAR
+        until = f"{'-' if ascii_only else '–'}{as_seconds(mark.until):.2f}"
+        span = f"{as_seconds(mark.since):.2f}{until if mark.until > mark.since else ''} s"
+        is_lit = place == nearest and mark.is_timed and distance(mark)[1] <= NEAR
         arrow = (">" if ascii_only else "▸") if is_lit else " "
         kind = "error" if mark.is_error else "warning"
-        words = f"{arrow}{place + 1:>{len(str(len(marks)))}}/{len(marks)} {kind:7}  {span:>13} s  "
+        number = f"{place + 1:>{len(str(len(marks)))}}/{len(marks)}"
+        words = f"{arrow}{number} {kind:7}  {span if mark.is_timed else 'throughout':>15}  "
         words = fitted(words + visible(mark.message), width, more="~" if ascii_only else "…")
         line = Text(words, theme.ink(palette.text if is_lit else palette.dim, bold=is_lit))
         sign = words.find(kind)
@@ -264,9 +266,9 @@ def topic_lines(
 
 def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
     """Return the begin of the next mark after a position; None if there is no such mark."""
-    return min((one.since for one in marks if one.since > now), default=None)
+    return min((one.since for one in marks if one.is_timed and one.since > now), default=None)
 
 
 def before(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
     """Return the begin of the last mark before a position; None if there is no such mark."""
-    return max((one.since for one in marks if one.since < now), default=None)
+    return max((one.since for one in marks if one.is_timed and one.since < now), default=None)

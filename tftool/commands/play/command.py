@@ -182,19 +182,21 @@ def _feed(recording: Recording, timeline: Timeline, link: Link | None) -> TopicF
 def _findings_and_topics(
     recording: Recording, timeline: Timeline, start: Stamp
 ) -> tuple[list[PlaybackMark], list[PlayedTopic]]:
-    """Return the doctor's findings that have a time, the worst first, and the topics."""
+    """Return the doctor's findings, the worst first, and the topics."""
     if len(recording.transforms) > MOST_JUDGED:
         return [], _topics(recording, timeline, None, start)
     evidence = evidence_of_recording(recording)
     marks = [
         PlaybackMark(
-            one.since - start,
-            (one.until or one.since) - start,
+            (one.since or start) - start,
+            (one.until or one.since or start) - start,
             one.message,
             one.severity is Severity.ERROR,
+            is_timed=one.since is not None,
         )
         for one in sorted(judge(evidence).findings, key=lambda one: one.severity.rank)
-        if one.since is not None
+        # A finding that a report omits is still worth a look at its place.
+        if one.is_shown or one.since is not None
     ]
     return marks[:MOST_MARKS], _topics(recording, timeline, evidence, start)
 

@@ -50,6 +50,9 @@ MOST_LISTED: Final = 8
 TOPICS: Final = 40
 """Width in cells of the list of topics, with its border."""
 
+WITH_LISTS: Final = 12
+"""Smallest number of rows of a screen with more than the timeline."""
+
 WITH_TOPICS: Final = 70
 """Smallest number of columns of a screen with the list of topics."""
 
@@ -144,11 +147,11 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         findings, topics = self.panel("findings"), self.panel("topics")
         findings.display = bool(self._findings) and height >= 18
         findings.styles.height = self._rows_above() - TIMELINE
-        topics.display = bool(self._topics) and width >= WITH_TOPICS and height >= 12
+        topics.display = bool(self._topics) and width >= WITH_TOPICS
         super()._arrange()
         # Both lists are as high as the tree, and the picture takes the whole width below.
         lists, rows = self.query_one("#lists"), self.panel("rows")
-        lists.display = rows.display
+        lists.display = rows.display and height >= WITH_LISTS
         lists.styles.height = rows.styles.height
         rows.styles.height = "1fr"
 
