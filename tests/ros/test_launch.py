@@ -673,6 +673,27 @@ def test_a_command_in_a_missing_folder_is_told_with_the_folder(tmp_path):
     assert "cannot run 'env': No such file or directory '/nonexistent'" in done.said("env-1")[-1]
 
 
+def test_a_command_is_started_again_at_most_as_often_as_allowed(tmp_path):
+    done = described(
+        tmp_path,
+        "ExecuteProcess(cmd=['echo', 'hi'], respawn=True, respawn_delay=0.5, "
+        "respawn_max_retries=2, on_exit=[LogInfo(msg='ended')])",
+        seconds=30.0,
+    )
+
+    assert done.said("echo-1").count("hi") == 3
+    assert done.said("launch").count("ended") == 3
+    assert done.elapsed == 1.0
+
+
+def test_a_command_does_not_read_the_input_of_the_launch(tmp_path, monkeypatch):
+    monkeypatch.setattr("tftool.ros.launch.commands.LONGEST_HOLD", 0.1)
+    done = described(tmp_path, "ExecuteProcess(cmd=['cat'])", seconds=0.1)
+
+    # Without an end of its input, the command waits until the launch ends it.
+    assert "cat-1 has not ended after 0.1 s" in " ".join(done.said("launch"))
+
+
 def test_a_command_that_ends_soon_takes_no_simulated_time(tmp_path):
     done = described(
         tmp_path,

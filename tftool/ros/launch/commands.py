@@ -62,6 +62,8 @@ async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Str
             *command.words,
             env=dict(command.environment),
             cwd=command.cwd,
+            # As in ROS 2, a command does not read tftool's own input.
+            stdin=asyncio.subprocess.PIPE,
             stdout=output,
             stderr=output,
             start_new_session=True,

@@ -113,7 +113,7 @@ class Launch(Node):
         self._running: dict[str, Callable[[], object]] = {}  # each ends a program
         self._timers: set[asyncio.Task[None]] = set()
         self._watches: set[asyncio.Task[None]] = set()
-        self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
+        self._respawns: dict[str, tuple[float, Callable[[], None], int]] = {}
         self._count = 0
         self._closing = False
         self._contained, self._keep_alive = contained, keep_alive
@@ -482,7 +482,8 @@ class Launch(Node):
             # The end of one program may start another one.
             return
         if respawn is not None:
-            self._respawns[label] = (max(respawn, SOONEST), start)
+            most = getattr(self._actions[label], "respawn_max_retries", -1)
+            self._respawns[label] = (max(respawn, SOONEST), start, most)
         start()
 
     async def _watch(self, action: Any, label: str, command: SystemCommand) -> None:
@@ -540,7 +541,10 @@ class Launch(Node):
     def _respawn(self, label: str) -> bool:
         if label not in self._respawns or self._closing:
             return False
-        delay, start = self._respawns[label]
+        delay, start, left = self._respawns[label]
+        if left == 0:
+            return False
+        self._respawns[label] = (delay, start, left - 1)  # a negative number never becomes 0
 
         async def wait() -> None:
             await self.clock.sleep(seconds(delay), self.phase, self.rank)

@@ -83,6 +83,7 @@ class Startable(Action):
         on_exit: Any = None,
         respawn: Any = False,
         respawn_delay: Any = None,
+        respawn_max_retries: int = -1,
         prefix: Any = None,
         output: Any = "log",
         **kwargs: Any,
@@ -98,6 +99,7 @@ class Startable(Action):
         self.output_lines: list[tuple[bool, str]] = []
         self.on_exit, self.prefix, self.output = on_exit, prefix, output
         self.respawn, self.respawn_delay = respawn, respawn_delay
+        self.respawn_max_retries = respawn_max_retries
 
     def get_stdout(self) -> str:
         """Return the standard output so far, if `cached_output` is set; else ""."""
@@ -112,10 +114,11 @@ class Startable(Action):
         return "".join(line for _, line in self.output_lines)
 
     def handle_exit(self, context: LaunchContext) -> None:
-        """Register a handler that executes the actions of `on_exit` when the process has ended."""
+        """Register a handler that executes the actions of `on_exit` at each end of the process."""
         if self.on_exit is not None:
+            once = self.respawn_after(context) is None
             context.launch.handlers.append(
-                OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
+                OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=once)
             )
 
     def respawn_after(self, context: LaunchContext) -> float | None:
