@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
+from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
 from tftool.recordings.contract import Publisher
@@ -321,3 +322,182 @@ def test_nodes_that_end_just_before_the_recorder_did_not_stop():
         made = robot(odometry=False)
         made.moving("odom", "base_link", end=end)
         assert [one for one in ids(made) if one == "edge-stopped"] == told
+
+
+def simulated(*, moves: bool, messages: int) -> Robot:
+    """Return a simulated robot with a map, and sonar ranges, by the wall clock."""
+    made = robot(start=136.0, log_from=START)
+    made.clock = [(seconds(136.0 + at), seconds(START + at)) for at in range(9)]
+    if not moves:
+        made.static("map", "odom")
+    made.start = START
+    frame = "laser" if moves else "map"
+    kind = "sensor_msgs/Range" if moves else "nav_msgs/OccupancyGrid"
+    made.hears("/told", frame, 1.0, kind, end=messages)
+    return made
+
+
+def test_a_latched_map_by_the_wall_clock_is_a_note():
+    finding = found(simulated(moves=False, messages=1), "clock-mixture")
+    assert finding.severity is Severity.NOTE
+    assert finding.message == (
+        "/told (latched, once) is stamped with the wall clock, all others with the simulation's "
+        "clock"
+    )
+    assert "no lookup" not in finding.consequence
+
+
+def test_a_sensor_that_moves_by_the_wall_clock_is_an_error_and_a_resting_map_is_none():
+    for moves, severity in ((True, Severity.ERROR), (False, Severity.NOTE)):
+        finding = found(simulated(moves=moves, messages=6), "clock-mixture")
+        assert finding.severity is severity
+        assert "latched" not in finding.message
+
+
+def test_another_static_by_the_wall_clock_is_not_among_all_others():
+    made = simulated(moves=True, messages=6)
+    made.static("base_link", "camera")
+    message = found(made, "clock-mixture").message
+    assert "other streams with the simulation's clock" in message
+
+
+def test_an_offset_that_transforms_share_says_that_the_robots_own_lookups_work():
+    for ahead, works in ((0.217, True), (0.0, False)):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", latency=-ahead + 0.001)
+        made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=-0.23)
+        finding = found(made, "clock-offset")
+        assert ("lookups among the robot's own data work" in finding.consequence) is works
+
+
+def test_an_offset_that_transforms_share_explains_no_waits():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 4.0, latency=-0.22)
+    made.hears("/scan", "laser", latency=-0.25)
+    made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=-0.25)
+    assert ids(made) == ["clock-offset", "sensor-outruns-tf"]
+
+
+def test_the_messages_of_a_start_do_not_outrun_the_transforms():
+    for end, told in ((2.8, []), (6.0, ["sensor-outruns-tf"])):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", 2.0)
+        made.hears("/scan", "laser", begin=0.5, end=end)
+        assert ids(made) == told
+
+
+def test_a_rotation_of_a_wrong_length_names_its_topic_and_its_effect():
+    made = robot(scans=False)
+    made.static("odom", "map", (1.0, 0.0, 0.0, 0.0, 0.0, 0.68, 0.72))
+    finding = found(made, "bad-quaternion")
+    assert finding.message == "map in odom has a rotation of length 0.9904 instead of 1"
+    # 2 atan(0.68 / 0.72) is 86.7°.
+    assert "ROS 2 normalises it to 86.7° about z" in finding.evidence[0]
+    assert "--verbose /tf_static" in finding.fixes[0].text
+    made.kind = "ROS 1 bag"
+    old = found(made, "bad-quaternion")
+    assert "ROS 1 does not know the frame" in old.consequence
+    assert "rostopic info /tf_static" in old.fixes[0].text
+
+
+def test_a_command_names_the_topic_on_which_the_transform_was_sent():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=4.0, topic="/robot/tf")
+    made.hears("/imu", "base_link", kind="sensor_msgs/Imu")
+    assert "--verbose /robot/tf`" in found(made, "edge-stopped").fixes[0].text
+
+
+def weaves(t: float) -> tuple[float, ...]:
+    """Return a pose that a robot has only once."""
+    return (0.5 * t, 0.2 * math.sin(t), 0.0, *turned(0.1 * t))
+
+
+def test_odometry_that_brings_the_poses_of_a_late_transform_in_time_names_its_node():
+    for seconds_between, told in ((0.3, ["stale-stamp"]), (0.1, [])):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", 4.0, weaves, latency=seconds_between)
+        late = next(rows for key, rows in made.records.items() if key[1] == "base_link")
+        made.odometry = Robot()
+        for (_, pose, _), at in zip(late, (tick / 4.0 for tick in range(32)), strict=True):
+            moment = at + seconds_between
+            made.odometry.sent("odom", "base_link", moment, pose, topic="/odom", latency=0.003)
+        assert ids(made) == told
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 4.0, weaves, latency=0.3)
+    assert ids(made) == []
+
+
+def test_a_late_transform_with_odometry_in_time_does_not_blame_the_clocks():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 4.0, weaves, latency=0.6)
+    made.odometry = Robot()
+    for tick in range(32):
+        at = 0.25 * tick
+        made.odometry.sent("odom", "base_link", at + 0.6, weaves(at), topic="/odom", latency=0.003)
+    cure = found(made, "stale-stamp").fixes[0].text
+    assert "/odom brings the same poses 3" in cure
+    assert "clocks" not in cure
+
+
+def test_a_robot_that_the_world_loses_for_seconds_is_a_warning():
+    for child, parent, severity in (
+        ("drone", "world", Severity.WARNING),
+        ("tag_4", "world", Severity.NOTE),
+        ("arm", "base_link", Severity.NOTE),
+    ):
+        made = Robot()
+        made.moving(parent, child, without=(3.0, 6.0))
+        finding = found(made, "gap")
+        assert finding.severity is severity
+        assert "went on" not in finding.fixes[0].text
+    made.moving("odom", "base_link")
+    assert "base_link in odom went on" in found(made, "gap").fixes[0].text
+
+
+def test_a_localiser_that_corrects_the_robot_again_and_again_is_told():
+    def localised(*jumps: float) -> Robot:
+        made = robot()
+        made.moving(
+            "map",
+            "odom",
+            pose=lambda t: (sum(0.8 for jump in jumps if jump < t), 0.0, 0.0, *NO_TURN),
+        )
+        return made
+
+    assert ids(localised(1.0)) == []
+    assert ids(localised(1.0, 3.0, 5.0)) == []
+    told = found(localised(1.0, 3.0, 5.0, 6.0), "teleport")
+    assert told.message.startswith("odom in map jumps by up to 0.80 m, 3 times by more than 0.5 m")
+    assert "--steps --pair map:odom" in told.fixes[0].command
+
+
+def test_a_turn_of_odom_about_the_robot_corrects_nothing():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", pose=lambda _: (9.0, 0.0, 0.0, *NO_TURN))
+    for tick in range(160):
+        # Odom turns about the robot, and the origin of odom moves by metres.
+        angle = 0.2 * (tick // 20 % 2)
+        x, y = 9.0 - 9.0 * math.cos(angle), -9.0 * math.sin(angle)
+        made.sent("map", "odom", 0.05 * tick, (x, y, 0.0, *turned(angle)))
+    assert ids(made) == []
+
+
+def test_a_fast_wheel_that_turns_one_way_has_one_source():
+    for step, told in ((-1.0, True), (1.0, False)):
+        made = robot()
+        angle = 0.0
+        for tick in range(160):
+            angle += 2.2 if tick % 2 else step
+            made.sent("base_link", "wheel", tick * 0.05, (0.0, 0.2, 0.0, *turned(angle, 1)))
+        assert ("publisher-conflict" in ids(made, notes=True)) is told
+
+
+def test_wheels_that_turned_and_then_stay_silent_for_minutes_are_a_warning():
+    for end, severity in ((80.0, Severity.WARNING), (20.0, Severity.NOTE)):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", 5.0, end=end)
+        made.hears("/scan", "laser", 5.0, end=end)
+        for tick in range(50):
+            pose = (0.0, 0.2, 0.0, *turned(0.1 * tick, 1))
+            made.sent("base_link", "wheel", tick * 0.1, pose)
+        assert found(made, "edge-stopped").severity is severity

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pytest
 from rich.console import Console
 
-from tests.doctor.robots import NO_TURN, Robot, robot
+from tests.doctor.robots import NO_TURN, START, Robot, robot
 from tftool.doctor import wording
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS
@@ -199,3 +199,13 @@ def test_nothing_is_told_in_units_too_small_to_read():
         "0 ms",
     ]
     assert [wording.metres(one) for one in (5.96e-9, 0.00031)] == ["0 mm", "0.31 mm"]
+
+
+def test_a_clean_report_counts_nodes_and_does_not_call_a_shifted_clock_fine():
+    made = robot(odometry=False, log_from=START + 1_800_000.0)
+    made.moving("odom", "base_link", node="/base")
+    made.moving("base_link", "wheel", node="/base")
+    told = shown(findings.render(made.judged()))
+    assert "1 publisher of transforms" in told
+    assert "20.8 days before their arrival" in told
+    assert "latency" not in told

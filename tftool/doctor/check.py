@@ -56,9 +56,10 @@ class Check:
             subject, ids of the checks separated by blanks). The first pair that fits is used. The
             subject is the thing that both findings must be about: "edge", "child" or "frame";
             "stream" (an edge or a topic); "path" (an edge on the path to the sensor, or the
-            topic); "gap" (like "path", but only if all late data is in gaps); "mixed" (like
-            "child", but only if data of several publishers is mixed); or "anything" (the findings
-            need not have anything in common).
+            topic); "gap" (like "path", but only if all late data is in gaps); "skew" (like "path",
+            but only if transforms and messages are on two clocks); "mixed" (like "child", but only
+            if data of several publishers is mixed); or "anything" (the findings need not have
+            anything in common).
     """
 
     id: str
@@ -126,7 +127,7 @@ def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hi
     """
     if isinstance(stream, Track):
         own = {"edges": (stream.edge,), "publishers": stream.nodes}
-        facts = {"edge": stream.name, **facts}
+        facts = {"edge": stream.name, "tf_topic": stream.topics[0], **facts}
     else:
         own = {"topics": (stream.topic,), "frames": (stream.frame,)}
         facts = {"topic": stream.topic, **facts}

@@ -7,18 +7,17 @@ import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
-from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
+from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.missing_joins import own_trees
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_checks import stands_still
-from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, last_part
+from tftool.doctor.stamp_checks import COMPARE_CLOCKS
+from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track
 from tftool.doctor.wording import several, span
 
 check = checks_of(Area.CLOCKS)
 
-_COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc tracking`)")
 _LOOKS_THE_SAME = Fix(
-    f"{_COMPARE_CLOCKS.text}; an older recording that is played again looks the same"
+    f"{COMPARE_CLOCKS.text}; an older recording that is played again looks the same"
 )
 _PLAY_AGAIN = Fix("a recording was played beside nodes that run on the present time: {play_again}")
 _BOTH = 0.05
@@ -36,8 +35,11 @@ CONSTANTS_AHEAD = seconds(1)
     Severity.ERROR,
     rule="stamps below and above 10⁸ s occur together in transforms, joint states and "
     "messages with a position; the wrong ones are those that differ from /clock, or "
-    "else the smaller group. A warning if each clock has a tree of its own",
-    headline="{where} {concerned:is|are} stamped with {odd_clock}, all others with {usual_clock}",
+    "else the smaller group. An error only if they are those of moving transforms, or of "
+    "sensors and odometry whose frames move; a warning for other messages, and if each clock has a "
+    "tree of its own. A note if they are single messages, or their frames are placed by statics",
+    headline="{where}{once} {concerned:is|are} stamped with {odd_clock}, {others} with "
+    "{usual_clock}",
     detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
     consequence="{so}",
     causes=(
@@ -77,8 +79,16 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
         )
     odd_clock, usual_clock = names if sim_is_odd else names[::-1]
     so, severity = "no lookup across the two clocks can succeed", None
+    harmless = [one for one in heards if _is_single(one) or model.rests(one.frame)]
+    if not any(_is_placed_by_stamp(model, one) for one in odd):
+        severity = Severity.WARNING
     apart = own_trees(model, odd, others)
-    if apart:
+    if len(harmless) == len(odd):
+        severity = Severity.NOTE
+        so = "none while programs place it by its frame alone, as for a map"
+        if all(model.rests(one.frame) for one in harmless):
+            so = "none while only static transforms, which hold at any time, place its frame"
+    elif apart:
         so = "none for lookups within each tree; nothing of one can be placed in the other"
         severity = Severity.WARNING
         fix = Fix("a real device beside a simulated robot is right as it is")
@@ -96,6 +106,8 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
             "usual_stamp": usual,
             "odd_clock": odd_clock,
             "usual_clock": usual_clock,
+            "others": _others(model, odd, 0 if sim_is_odd else 1),
+            "once": " (latched, once)" if all(_is_single(one) for one in odd) else "",
             "setting": setting,
             "so": so,
         },
@@ -113,6 +125,26 @@ def _placed(model: Model) -> list[Heard]:
     return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
 
 
+def _is_single(stream: "Track | Heard") -> bool:
+    """Whether a topic has one message, as a latched map does."""
+    return isinstance(stream, Heard) and len(stream.all_stamps) == 1
+
+
+def _is_placed_by_stamp(model: Model, stream: "Track | Heard") -> bool:
+    """Whether a wrong stamp makes lookups refuse: of a transform, or of a sensor that moves."""
+    if isinstance(stream, Track):
+        return True
+    is_sensor = stream.type.startswith("sensor_msgs/") or stream.type == "nav_msgs/Odometry"
+    return is_sensor and not _is_single(stream) and not model.rests(stream.frame)
+
+
+def _others(model: Model, odd: "list[Track | Heard]", family: int) -> str:
+    """Return "all others" if no other stream has stamps of the odd clock; else a weaker word."""
+    streams: list[Track | Heard] = [*model.tracks, *model.heard]
+    also = any(one.families[family] for one in streams if one not in odd)
+    return "other streams" if also else "all others"
+
+
 def _stamps(group: "list[Track | Heard]", family: int) -> int:
     return sum(one.families[family] for one in group)
 
@@ -127,14 +159,15 @@ def _example(group: "list[Track | Heard]", simulated: bool) -> int:
     "shifted-clock",
     Severity.NOTE,
     rule="more than half of all streams are stamped by one constant of more than 2 s before "
-    "or after their reception, to within 1 s",
+    "or after their reception, to within 1 s. A warning if they are after it, as an older "
+    "recording that is played cannot be",
     headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}",
     detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
     "stamps",
-    consequence="none for lookups within the recording; a live listener on the recorder's computer "
-    "refuses all of it",
+    consequence="none for lookups within the recording; {live}",
     causes=(
         "the robot's clock was never set: it has no battery and no network",
+        "the clock of the recorder's computer is wrong",
         "the recording was played again and recorded anew",
     ),
     needs=("log times",),
@@ -155,7 +188,12 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "streams": model.shift.streams,
             "of": model.shift.of,
             "most": "all" if model.shift.streams == model.shift.of else "most",
+            "live": "a live listener on the recorder's computer refuses all of it"
+            if model.shift.by > 0
+            else "a node on the recorder's computer that asks for its present time gets data of "
+            "another moment, or none",
         },
+        severity=Severity.WARNING if model.shift.by < 0 and not model.was_played else None,
         fixes=(cure_of_offset(model),),
         alone=True,
     )
@@ -171,7 +209,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     detail="{edge}: {ahead:span} ahead (median){clock}",
     consequence="the latest common time is in the future: a lookup of the latest transform combines"
     " different moments",
-    fixes=(_COMPARE_CLOCKS,),
+    fixes=(COMPARE_CLOCKS,),
     causes=(
         "an offset that the publisher adds to its stamps (transform_tolerance)",
         "the publisher's clock is ahead",
@@ -266,88 +304,6 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 @check(
-    "stale-stamp",
-    Severity.NOTE,
-    rule="the median latency is above {transforms:g} s for a transform or {messages:g} s for "
-    "messages. A warning if another topic shows where the delay arises: one with the same stamps, "
-    "or one from which the late topic is made, arrives in time",
-    headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
-    detail="{what}: {late:span} late (median){varies}",
-    consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
-    causes=(
-        "the stamp is copied from an old measurement",
-        "the publisher's clock is behind",
-        "a slow network",
-    ),
-    links=threads("cartographer-project/cartographer_ros#143"),
-    limits={"transforms": STALE_AFTER, "messages": 2.0},
-    needs=("log times",),
-    because_of=(
-        ("anything", "time-jump-back"),
-        ("stream", "clock-mixture"),
-        ("stream", "cache-short"),
-        ("stream", "clock-offset"),
-    ),
-)
-def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Transforms or messages are stamped long before they arrive."""
-    for track in model.dynamic:
-        least = limits["transforms"] * NANOSECONDS
-        if track.is_localisation:
-            least = max(least, track.period)
-        if len(track.stamps) > 1 and track.median_latency > least and not stands_still(track):
-            yield _late(model, track)
-    for heard in model.heard:
-        # A latched message may be old, and without motion an old message is as good as a new one.
-        if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
-            continue
-        if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
-            yield _late(model, heard)
-
-
-_STEADY = seconds(0.1)
-"""Maximum variation, from 10 % to 90 % quantile, of a delay that no queue causes."""
-
-
-def _late(model: Model, stream: "Track | Heard") -> Hit:
-    low, high = (int(one) for one in np.percentile(stream.latency, (10, 90)))
-    varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
-    shown = _relayed_late(model, stream)
-    for other in model.heard if isinstance(stream, Track) else ():
-        # Nobody dates a transform by a message that has not come.
-        soon = 4 * abs(other.median_latency) < stream.median_latency
-        if soon and not shown and np.isin(stream.stamps, other.stamps).mean() > 0.5:
-            shown = (
-                f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
-                "messages wait on their way, and no clock is wrong"
-            )
-    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies}
-    if not shown:
-        return hit_of(stream, facts, fixes=() if varies else (_COMPARE_CLOCKS,))
-    return hit_of(stream, facts, severity=Severity.WARNING, fixes=(Fix(shown),))
-
-
-def _relayed_late(model: Model, stream: "Track | Heard") -> str:
-    """Return a remedy if a node delays data that reaches it in time; else an empty string."""
-    for source in model.heard:
-        if not source.is_spatial or 4 * abs(source.median_latency) > stream.median_latency:
-            continue
-        part = last_part(source.topic)
-        for other in model.heard:
-            made = last_part(other.topic)
-            is_late = 2 * other.median_latency > stream.median_latency
-            is_same = (other.type, other.frame) == (source.type, source.frame)
-            is_made = made != part and made.endswith(part) and stream.name.endswith(made)
-            if is_late and is_same and is_made:
-                told = " and ".join(sorted({stream.name, other.topic}))
-                return (
-                    f"{source.topic} arrives {span(source.median_latency)} after its stamp, and "
-                    f"{told} late: look at the node that makes {other.topic} from it"
-                )
-    return ""
-
-
-@check(
     "clock-offset",
     Severity.WARNING,
     rule="the median latency of a sensor's messages is below -{seconds:g} s (for a laser "
@@ -408,6 +364,19 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         if model.shift is not None and len(heards) < len(streams):
             told = f": {model.shift.streams} of {model.shift.of} streams are not on the recorder's"
         sources = _on_both_clocks(model, streams)
+        so = "each lookup at these stamps asks for what is not there"
+        so += (
+            " yet, by the same amount for ever; a larger timeout does not help"
+            if ahead > 0
+            else " any more"
+        )
+        if told:
+            so = "no lookup across the two clocks can succeed"
+        elif _is_of_transforms(model, ahead):
+            so = (
+                "lookups among the robot's own data work; a node on the recorder's computer that "
+                "asks for its present time gets another moment"
+            )
         yield Hit(
             edges=tuple(one.edge for one in streams if isinstance(one, Track)),
             topics=tuple(dict.fromkeys(heard.topic for heard in heards)),
@@ -421,14 +390,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "sources": sources,
                 "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} off {other}"
                 + told,
-                "so": "no lookup across the two clocks can succeed"
-                if told
-                else "each lookup at these stamps asks for what is not there"
-                + (
-                    " yet, by the same amount for ever; a larger timeout does not help"
-                    if ahead > 0
-                    else " any more"
-                ),
+                "so": so,
             },
             severity=Severity.ERROR
             if told and abs(ahead) > model.settings.cache_time
@@ -453,6 +415,12 @@ def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
         and len(topics) > 1
         and all(abs(one + aheads[0]) < seconds(0.01) for one in late)
     )
+
+
+def _is_of_transforms(model: Model, ahead: Duration) -> bool:
+    """Whether the moving transforms are ahead by the same time as a sensor's messages."""
+    moving = [one for one in model.dynamic if one.moves and not one.is_localisation]
+    return bool(moving) and all(abs(one.median_latency + ahead) < _ONE_CLOCK for one in moving)
 
 
 def _is_unshifted(model: Model, heard: Heard) -> bool:
@@ -485,7 +453,7 @@ def cure_of_offset(model: Model) -> Fix:
         return _PLAY_AGAIN
     # Data that was recorded before is stamped before its reception.
     is_old = model.shift is not None and model.shift.by > 0
-    return _LOOKS_THE_SAME if is_old else _COMPARE_CLOCKS
+    return _LOOKS_THE_SAME if is_old else COMPARE_CLOCKS
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -523,7 +491,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
                 "others, steadily: a delay in its driver, or another clock",
                 "so": "a delay is waited for; a clock that is off stays off",
             },
-            fixes=(_COMPARE_CLOCKS,),
+            fixes=(COMPARE_CLOCKS,),
             alone=True,
         )
 

@@ -208,6 +208,8 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
     if np.count_nonzero(leaves) < limits["changes"]:
         return None
+    if _turns_one_way(track, places):
+        return None
     together = _motion_errors(track, places)
     # Two publishers with equal rates alternate strictly, even if each turns a lot in a period.
     for owners in (_follow(track, places, limits), np.arange(len(places)) % 2):
@@ -215,6 +217,24 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
         if owned is not None:
             return _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
     return None
+
+
+def _turns_one_way(track: Track, places: Places) -> bool:
+    """Whether an edge only turns, and always in one direction: two motions would turn it back."""
+    if not is_revolute(track):
+        return False
+    turned = unit(track.rotations[places])
+    turns = rotation_vectors(multiply(conjugate(turned[:-1]), turned[1:]))
+    axis = int(np.abs(turns.sum(axis=0)).argmax())
+    along = turns[:, axis] * np.sign(turns[:, axis].sum())
+    return bool(np.mean(along < -_NO_TURN) < _AGAINST)
+
+
+_NO_TURN = 1e-3
+"""Angle of noise, radians."""
+
+_AGAINST = 0.005
+"""Maximum share of turns against the direction of a wheel that turns one way."""
 
 
 def _alternating(

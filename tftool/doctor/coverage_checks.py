@@ -234,13 +234,17 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         model: The evidence, prepared.
         heard: The headers of the messages.
         fixed: Target frame of the lookups.
-        warm: Whether to leave out the first and the last second of the recording.
+        warm: Whether to leave out the first second of the streams, and the last of the recording.
     """
     path = model.path(heard.frame, fixed)
     links = [track for track in path or () if not track.static and len(track.by_stamp)]
     if not links or any(not t.static and not len(t.by_stamp) for t in path or ()):
         return None
-    low, high = model.warm if warm else (model.start, model.end)
+    low, high = model.start, model.end
+    if warm:
+        # All that waited for the first subscription may arrive in one burst.
+        low = max(int(one.logs[0]) for one in (heard, *links)) + WARM_UP
+        high -= WARM_UP
     begin = max(int(track.sorted_stamps[0]) for track in links)
     # Waiting does not help a message older than the first transform: see `late_start`.
     inside = (heard.logs >= low) & (heard.logs <= high) & (heard.stamps >= begin)
@@ -286,7 +290,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         "refused": 0.5,
         "some": 0.1,
         "note": 0.06,
-        "messages": 5,
+        "messages": 20,
     },
     needs=(
         "log times",
@@ -298,9 +302,10 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         ("stream", "clock-mixture"),
         (
             "path",
-            "edge-stopped stale-stamp clock-offset zero-stamp frozen-stamp single-sample "
-            "nan-transform future-stamp loop",
+            "edge-stopped stale-stamp zero-stamp frozen-stamp single-sample nan-transform "
+            "future-stamp loop",
         ),
+        ("skew", "clock-offset"),
         ("gap", "gap"),
         ("frame", "loop"),
     ),
@@ -333,6 +338,8 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
         if heard.frame in around or last_part(heard.frame) in _WORLDS:
             continue  # it is placed in the world without the robot's pose
         waits = waits_of(model, heard, fixed)
+        if waits is not None and len(waits.waits) < limits["messages"]:
+            continue
         if waits is not None and not _is_result(model, heard, waits.link):
             yield heard, waits
 
@@ -396,6 +403,7 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
             "arrives": arrival(link.median_latency),
             "path": [list(track.edge) for track in waits.links],
             "gap": _only_in_holes(waits, limits["seconds"]),
+            "skew": abs(link.median_latency - heard.median_latency) > _ONE_CLOCK,
         },
         since=min(int(one.logs[0]) for one, _ in group),
         frames=(heard.frame, model.sensor_frame),
@@ -406,6 +414,9 @@ def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> H
         alone=True,
     )
 
+
+_ONE_CLOCK = 50_000_000
+"""Maximum difference between two latencies, nanoseconds, that belong to one clock."""
 
 _RELAYED = 5_000_000
 """Maximum difference between the waits of a topic and of its relayed copy, nanoseconds."""

@@ -10,7 +10,7 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import STOPPED_PERIODS, Area, Fact, Fix, Hit, Severity
 from tftool.doctor.missing_joins import is_world
-from tftool.doctor.model import Limits, Model
+from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part, rate
 from tftool.doctor.wording import several
 
@@ -43,11 +43,12 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     "share of {share:g}, before the recording's end, while other streams continue; of "
     "{samples:g} samples or more, except detections of a camera that have no children. A warning "
     "if all moving transforms end, or if a recording has no later scan, point cloud or range in "
-    "the frame or below it; then a note for a part of a robot, or a frame without children",
+    "the frame or below it; then a note for a frame without children, or a part "
+    "of a robot unless it moved and has been silent for 60 s",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
-    fixes=(Fix("check whether its publisher still runs: `{publishers} /tf`"),),
+    fixes=(Fix("check whether its publisher still runs: `{publishers} {tf_topic}`"),),
     causes=(
         "a node that crashed",
         "a lost sensor",
@@ -88,7 +89,9 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             is_part = model.is_minor(track) or (
                 len(model.below(track.child)) == 1 and last_part(track.child) not in BASES
             )
-            severity = Severity.NOTE if is_part else Severity.WARNING
+            # A joint that moved and has been silent for long is no part that rests.
+            is_lost = model.is_minor(track) and track.moves and before > _SILENT
+            severity = Severity.NOTE if is_part and not is_lost else Severity.WARNING
         yield hit_of(
             track,
             {
@@ -122,6 +125,9 @@ def _needed_in(model: Model, track: Track, begin: int, end: int) -> int:
     )
 
 
+_SILENT = 60 * NANOSECONDS
+"""Silence, nanoseconds, after which a part that moved has stopped without doubt."""
+
 _AT_ONCE = 0.1
 """Fraction of a recording before whose end all transforms ended too early, even if all did."""
 
@@ -148,7 +154,7 @@ def _is_detection(model: Model, track: Track) -> bool:
     rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
     "samples or more; a note for transforms that are published on change (variation "
     "above {variation:g}), for a gap below {note:g} s, and if no scan, point cloud or range in the "
-    "frame or below it has a stamp in the gap",
+    "frame or below it has a stamp in the gap, unless the transform places a robot in the world",
     headline="{where} {concerned:has a gap|have gaps}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
@@ -189,6 +195,8 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         stamps = track.stamps
         missing = int(np.count_nonzero((stamps > begin) & (stamps < end)))
         needed = _needed_in(model, track, begin, end)
+        is_long = end - begin > 10 * track.period
+        is_lost = bool(needed) or (is_long and _places_robot(model, track, begin))
         why = f"; {missing} samples in it are unusable (NaN)" if missing else ""
         why += f"; {count(needed, 'sensor message')} in it" if needed else ""
         yield hit_of(
@@ -207,10 +215,45 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             until=end,
             count=len(found),
             severity=Severity.NOTE
-            if on_change or end - begin < limits["note"] * NANOSECONDS or not needed
+            if on_change or end - begin < limits["note"] * NANOSECONDS or not is_lost
             else Severity.WARNING,
-            fixes=() if silent else (Fix("all else went on: look at its publisher at that time"),),
+            fixes=() if silent else (_publisher_at(model, track, begin, end),),
         )
+
+
+def _places_robot(model: Model, track: Track, begin: int) -> bool:
+    """Whether an edge has placed a robot in map, odom or world for a while, and is no detection.
+
+    Args:
+        model: The evidence, prepared.
+        track: The edge.
+        begin: Last stamp before a gap of the edge.
+    """
+    parent = last_part(track.parent)
+    if not (is_world(track.parent) or parent.startswith("odom")) or track.is_localisation:
+        return False
+    started = int(track.sorted_stamps[0]) + WARM_UP
+    # The gaps themselves make the rate of a robot's pose irregular.
+    usual = track.steps[track.steps < 10 * track.period]
+    regular = float(usual.std()) < float(usual.mean())
+    named = _SEEN.search(last_part(track.child).lower())
+    return begin > started and track.moves and regular and named is None
+
+
+def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
+    """Return the next step for a gap that no other stream is known to share."""
+    streams: list[Track | Heard] = [one for one in model.dynamic if one is not track]
+    streams += model.heard
+    margin = (end - begin) // 5
+    alive = [
+        one
+        for one in streams
+        if np.any((one.stamps > begin + margin) & (one.stamps < end - margin))
+    ]
+    if alive:
+        names = [one.name for one in alive]
+        return Fix(f"{several(names, 3)} went on: look at its publisher then")
+    return Fix("look at its publisher at that time, and at the source of the poses")
 
 
 def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:

@@ -258,7 +258,7 @@ def _is_calm(check: Check, hit: Hit) -> bool:
 
 def _share(hit: Hit, cause: Hit, common: str) -> bool:
     match common:
-        case "gap" | "mixed" if not hit.facts.get(common):
+        case "gap" | "mixed" | "skew" if not hit.facts.get(common):
             return False
         case "anything":
             return True
@@ -272,7 +272,7 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
             return bool(children & mine) or bool(parents & set(hit.frames))
         case "frame":
             return bool(set(hit.frames) & set(cause.frames))
-        case "path" | "gap":
+        case "path" | "gap" | "skew":
             path = hit.facts.get("path")
             edges = {(str(a), str(b)) for a, b in path} if isinstance(path, list) else set()
             return bool((edges | set(hit.edges)) & set(cause.edges)) or bool(

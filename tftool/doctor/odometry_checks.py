@@ -143,7 +143,7 @@ def _disagreement(
             "found": f"{count:,} of {len(wrong):,} pairs of one stamp, usually "
             f"{metres(float(np.median(apart)))} and {np.degrees(np.median(turned)):.3g}° apart",
         },
-        fixes=(Fix("look which nodes publish the two: `{publishers} /tf`"),),
+        fixes=(Fix(f"look which nodes publish the two: `{{publishers}} {track.topics[0]}`"),),
         alone=True,
     )
 

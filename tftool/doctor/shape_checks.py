@@ -35,7 +35,7 @@ JUDGED_EMPTY = frozenset(
     headline="the frames form a loop: {circle}",
     consequence='lookups that follow the parents to the root fail: "The tf tree is invalid because '
     'it contains a loop."',
-    fixes=(Fix("find the publishers: `{publishers} /tf`"),),
+    fixes=(Fix("find the publishers: `{publishers} {tf_topic}`"),),
     causes=("odom above body and body above odom at once",),
     links=threads("rai-opensource/spot_ros2#374"),
 )
@@ -72,7 +72,10 @@ def loop(model: Model, limits: Limits) -> Iterator[Hit]:
                         edges=tuple(track.edge for track in way),
                         frames=tuple(track.child for track in way),
                         publishers=tuple(sorted({n for track in way for n in track.nodes})),
-                        facts={"circle": [track.name for track in way]},
+                        facts={
+                            "circle": [track.name for track in way],
+                            "tf_topic": way[0].topics[0],
+                        },
                         alone=True,
                     )
                 break
@@ -206,7 +209,9 @@ def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
     headline="{where}: a frame is its own parent",
     detail="{frame}: {count:times}",
     consequence="tf2 drops it, and prints an error for each",
-    fixes=(Fix("look at the frame names in the settings of its publisher: `{publishers} /tf`"),),
+    fixes=(
+        Fix("look at the frame names in the settings of its publisher: `{publishers} {tf_topic}`"),
+    ),
     causes=(
         "published_frame and odom_frame of cartographer are equal",
         "base frame and odometry frame of rf2o are equal",
@@ -337,7 +342,8 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _shape(model: Model, edge: tuple[str, str], found: str, *more: tuple[str, str]) -> Hit:
-    nodes = ", ".join(model.parents[edge[1]].nodes) or "its publisher (`{publishers} /tf`)"
+    track = model.parents[edge[1]]
+    nodes = ", ".join(track.nodes) or f"its publisher (`{{publishers}} {track.topics[0]}`)"
     return Hit(
         edges=(edge, *more),
         frames=tuple(dict.fromkeys(name for one in (edge, *more) for name in one)),

@@ -7,13 +7,17 @@ import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
-from tftool.doctor.findings import Area, Fact, Fix, Hit, Severity
+from tftool.doctor.findings import STALE_AFTER, Area, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
-from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
+from tftool.doctor.stamp_stream import Heard, Mask, Places, Track, last_part, unsorted_share
+from tftool.doctor.wording import span
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.CLOCKS)
+
+COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc tracking`)")
+"""Next step if the stamps of one computer differ from the clock of another."""
 
 
 @check(
@@ -23,7 +27,7 @@ check = checks_of(Area.CLOCKS)
     headline="{where} {concerned:has|have} stamp 0",
     detail="{edge}: {count} of {of} samples",
     consequence="lookups at any other time refuse; in a query, 0 means the latest time",
-    fixes=(Fix("look at its publisher: `{publishers} /tf`"),),
+    fixes=(Fix("look at its publisher: `{publishers} {tf_topic}`"),),
     causes=(
         "the stamp is never set",
         "use_sim_time without /clock",
@@ -85,7 +89,7 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             )
         # A result that is sent again is old on purpose, and a marker is only drawn.
         is_sensor = isinstance(one, Track) or one.type.startswith("sensor_msgs/")
-        topic = "/tf" if isinstance(one, Track) else one.topic
+        topic = one.topics[0] if isinstance(one, Track) else one.topic
         yield hit_of(
             one,
             facts,
@@ -142,7 +146,9 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     detail="{edge}: {count} of {of} samples repeat a stamp, {different} of them with another value"
     "{by}",
     consequence="{so}",
-    fixes=(Fix("look at how these stamps are made: `{publishers} /tf` lists the publishers"),),
+    fixes=(
+        Fix("look at how these stamps are made: `{publishers} {tf_topic}` lists the publishers"),
+    ),
     causes=(
         "a filter publishes faster than its data",
         "the same pose is sent once per sensor",
@@ -250,7 +256,7 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
             "count": len(stamps),
             "different": different,
         }
-        fix = Fix("count its publishers: `{publishers} /tf`")
+        fix = Fix(f"count its publishers: `{{publishers}} {track.topics[0]}`")
         yield hit_of(track, facts, fixes=(fix,))
 
 
@@ -323,7 +329,9 @@ _NOETIC = seconds(1_590_000_000)
     headline="{where} {concerned:sends|send} samples that are too old to be kept",
     detail="{edge}: {count:times}, up to {behind:span} behind",
     consequence="tf2 drops them and warns TF_OLD_DATA",
-    fixes=(Fix("find where these stamps come from: `{publishers} /tf` lists the publishers"),),
+    fixes=(
+        Fix("find where these stamps come from: `{publishers} {tf_topic}` lists the publishers"),
+    ),
     limits={"share": 0.01},
     causes=(
         "a restarted publisher or simulation",
@@ -355,7 +363,12 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
                 publishers=tuple(sorted({n for track in tracks for n in track.nodes})),
                 since=int(logs[np.flatnonzero(old)[0]]),
                 count=count,
-                facts={"edge": tracks[0].name, "count": count, "behind": behind},
+                facts={
+                    "edge": tracks[0].name,
+                    "tf_topic": tracks[0].topics[0],
+                    "count": count,
+                    "behind": behind,
+                },
                 severity=Severity.NOTE if count < limits["share"] * len(old) else None,
             )
 
@@ -404,3 +417,141 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
             waited = (track.child,) if track.is_localisation else ()
             facts = {"count": count, "of": len(track.stamps)}
             yield hit_of(track, facts, since=None, count=count, frames=waited)
+
+
+@check(
+    "stale-stamp",
+    Severity.NOTE,
+    rule="the median latency is above {transforms:g} s for a transform or {messages:g} s for "
+    "messages. A warning if another topic shows where the delay arises: one with the same stamps, "
+    "or one from which the late topic is made, arrives in time, or Odometry brings the poses of a "
+    "transform in time whose latency is above {odometry:g} s",
+    headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
+    detail="{what}: {late:span} late (median){varies}",
+    consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
+    causes=(
+        "the stamp is copied from an old measurement",
+        "the publisher's clock is behind",
+        "a slow network",
+    ),
+    links=threads("cartographer-project/cartographer_ros#143"),
+    limits={"transforms": STALE_AFTER, "messages": 2.0, "odometry": 0.2},
+    needs=("log times",),
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("stream", "clock-mixture"),
+        ("stream", "cache-short"),
+        ("stream", "clock-offset"),
+    ),
+)
+def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Transforms or messages are stamped long before they arrive."""
+    for track in model.dynamic:
+        least = limits["transforms"] * NANOSECONDS
+        if track.is_localisation:
+            least = max(least, track.period)
+        if len(track.stamps) < 2 or stands_still(track):
+            continue
+        if (told := _in_time(model, track, limits["odometry"])) is not None:
+            yield told
+        elif track.median_latency > least:
+            yield _late(model, track)
+    for heard in model.heard:
+        # A latched message may be old, and without motion an old message is as good as a new one.
+        if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
+            continue
+        if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
+            yield _late(model, heard)
+
+
+_STEADY = seconds(0.1)
+"""Maximum variation, from 10 % to 90 % quantile, of a delay that no queue causes."""
+
+
+def _in_time(model: Model, track: Track, least: float) -> Hit | None:
+    """Return a hit if Odometry brings the poses of a late transform in time; else None.
+
+    Args:
+        model: The evidence, prepared.
+        track: The transform.
+        least: Minimum latency, seconds, of a transform that is late.
+    """
+    odometry = model.evidence.odometry
+    is_late = track.median_latency > least * NANOSECONDS
+    if odometry is None or not is_late or not track.moves:
+        return None
+    for edge in odometry.edges:
+        other = Track(edge, odometry)
+        if other.edge != track.edge or len(other.stamps) < _FEWEST_POSES:
+            continue
+        by = 0 if model.shift is None else model.shift.by
+        latency = int(np.median(other.logs - other.stamps)) - by
+        if 4 * abs(latency) > track.median_latency:
+            continue
+        # The message of a pose arrives at nearly the same time as the transform.
+        after = np.searchsorted(other.logs, track.logs)
+        own = np.arange(len(track.stamps))
+        near = [np.clip(after + step, 0, len(other.logs) - 1) for step in (-1, 0)]
+        same = [_are_same(track, own, other, one) for one in near]
+        if np.mean(same[0] | same[1]) < _SAME_POSES:
+            continue
+        topic = other.topics[0]
+        facts = {"what": track.name, "late": track.median_latency, "varies": ""}
+        cure = (
+            f"{topic} brings the same poses {span(latency)} after their stamps: the node that "
+            "sends both stamps the transform with an older time"
+        )
+        return hit_of(track, facts, severity=Severity.WARNING, fixes=(Fix(cure),))
+    return None
+
+
+_FEWEST_POSES = 10
+"""Minimum number of Odometry messages that show the right stamps of their poses."""
+
+_SAME_POSES = 0.8
+"""Minimum share of a transform's samples with the pose of an Odometry message."""
+
+
+def _are_same(track: Track, some: Places, other: Track, others: Places) -> Mask:
+    """Return a mask of the pairs of samples with one pose, within rounding."""
+    apart = np.abs(track.translations[some] - other.translations[others]).max(axis=1)
+    dots = np.einsum("ij,ij->i", track.rotations[some], other.rotations[others])
+    return np.asarray((apart < 1e-4) & (np.abs(dots) > 1.0 - 1e-6))
+
+
+def _late(model: Model, stream: "Track | Heard") -> Hit:
+    low, high = (int(one) for one in np.percentile(stream.latency, (10, 90)))
+    varies = f", from {span(low)} to {span(high)} for 80 %" if high - low > _STEADY else ""
+    shown = _relayed_late(model, stream)
+    for other in model.heard if isinstance(stream, Track) else ():
+        # Nobody dates a transform by a message that has not come.
+        soon = 4 * abs(other.median_latency) < stream.median_latency
+        if soon and not shown and np.isin(stream.stamps, other.stamps).mean() > 0.5:
+            shown = (
+                f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
+                "messages wait on their way, and no clock is wrong"
+            )
+    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies}
+    if not shown:
+        return hit_of(stream, facts, fixes=() if varies else (COMPARE_CLOCKS,))
+    return hit_of(stream, facts, severity=Severity.WARNING, fixes=(Fix(shown),))
+
+
+def _relayed_late(model: Model, stream: "Track | Heard") -> str:
+    """Return a remedy if a node delays data that reaches it in time; else an empty string."""
+    for source in model.heard:
+        if not source.is_spatial or 4 * abs(source.median_latency) > stream.median_latency:
+            continue
+        part = last_part(source.topic)
+        for other in model.heard:
+            made = last_part(other.topic)
+            is_late = 2 * other.median_latency > stream.median_latency
+            is_same = (other.type, other.frame) == (source.type, source.frame)
+            is_made = made != part and made.endswith(part) and stream.name.endswith(made)
+            if is_late and is_same and is_made:
+                told = " and ".join(sorted({stream.name, other.topic}))
+                return (
+                    f"{source.topic} arrives {span(source.median_latency)} after its stamp, and "
+                    f"{told} late: look at the node that makes {other.topic} from it"
+                )
+    return ""

@@ -1,5 +1,6 @@
 """Checks of numbers: NaN, invalid rotations, jumps, axes."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -9,10 +10,12 @@ from tftool.doctor.check import REP103, REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.missing_joins import base_of, quoted
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import BASES, ZERO_QUATERNION, Places, Track, last_part
 from tftool.doctor.wording import metres, span
 from tftool.geometry.quaternions import IDENTITY, Triple, angle_between, multiply, rotate
-from tftool.geometry.rigid_arrays import unit
+from tftool.geometry.rigid_arrays import rotate as rotate_all
+from tftool.geometry.rigid_arrays import rotation_vectors, unit
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.VALUES)
@@ -31,7 +34,7 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
     headline="{where} {concerned:has|have} numbers that are none",
     detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
     consequence="a lookup at these stamps gets other samples, or no position",
-    fixes=(Fix("look at what its publisher did at that time: `{publishers} /tf`"),),
+    fixes=(Fix("look at what its publisher did at that time: `{publishers} {tf_topic}`"),),
     causes=(
         "an estimator or simulation that diverged",
         "a NaN joint command",
@@ -68,10 +71,11 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.ERROR,
     rule="a quaternion's squared length is below 10⁻¹² (an error), or differs from 1 by more"
     " than {length:g} (a warning)",
-    headline="{where} {concerned:has|have} rotations that are none",
+    headline="{where} {concerned:has a rotation of|have rotations of a wrong} length{concerned:|,} "
+    "{concerned:|such as }{length:.4g} instead of 1",
     detail="{edge}: {count} of {of} samples, first {numbers} (length {length:.4g}); {fate}",
-    consequence="the frame exists for one listener and not for another",
-    fixes=(Fix("look at how its publisher computes the rotation: `{publishers} /tf`"),),
+    consequence="{so}",
+    fixes=(Fix("look at how its publisher computes the rotation: `{publishers} {tf_topic}`"),),
     causes=(
         "a message that was never filled (w = 0)",
         "decimals typed by hand",
@@ -98,6 +102,7 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
         for bad, severity in ((zero, Severity.ERROR), (loose, Severity.WARNING)):
             if len(bad):
                 numbers = " ".join(f"{number:g}" for number in track.rotations[bad[0]].tolist())
+                fate, so = _fate(model, track, int(bad[0]), severity)
                 yield hit_of(
                     track,
                     {
@@ -105,15 +110,37 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
                         "of": len(track.stamps),
                         "numbers": numbers,
                         "length": float(np.sqrt(squares[bad[0]])),
-                        "fate": "both tf2s drop them"
-                        if severity is Severity.ERROR
-                        else "ROS 1 drops them, ROS 2 normalises them",
+                        "fate": fate,
+                        "so": so,
                     },
                     since=int(track.logs[bad[0]]),
                     until=int(track.logs[bad[-1]]),
                     count=len(bad),
                     severity=severity,
                 )
+
+
+def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[str, str]:
+    """Return the effect of a rotation of a wrong length on tf2, and what that leads to."""
+    if severity is Severity.ERROR:
+        return "tf2 drops them", "a lookup at these stamps gets other samples, or no frame"
+    if is_ros1(model.evidence):
+        return (
+            "tf2 of ROS 1 drops them, ROS 2 normalises them",
+            "tf2 of ROS 1 does not know the frame at these stamps",
+        )
+    x, y, z = rotation_vectors(unit(track.rotations[place])).tolist()
+    angle = math.sqrt(x * x + y * y + z * z)
+    axis = [round(one / angle, 2) + 0.0 if angle else 0.0 for one in (x, y, z)]
+    about = f"({', '.join(f'{one:g}' for one in axis)})"
+    for name, one in zip("xyz", axis, strict=True):
+        if abs(one) == 1.0:
+            about, angle = name, math.copysign(angle, one)
+    return (
+        f"ROS 2 normalises it to {math.degrees(angle):.1f}° about {about}",
+        "ROS 2 uses the normalised rotation, which may not be the one that was meant; ROS 1 and "
+        "programs that check the length refuse it",
+    )
 
 
 @check(
@@ -124,8 +151,9 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     "speed, in a share of at most {share:g} of the steps ({triggered:g} if each comes within 50 ms "
     "after a position message) or {few:g} of them; of "
     "{samples:g} samples or more of one publisher. A note for a part of a robot that no sensor "
-    "message is in",
-    headline="{where} {concerned:jumps|jump} {far} within {within:span}",
+    "message is in. Of a localiser, {corrections:g} steps or more that move the robot by "
+    "{corrected:g} m, without an initial pose",
+    headline="{where} {concerned:jumps|jump} {far}{how}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
     causes=(
@@ -133,6 +161,7 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
         "a reset of the filter",
         "wheel slip",
         "a satellite receiver in the filter of the odometry",
+        "a localiser that is lost",
     ),
     links=(
         *threads("ROBOTIS-GIT/turtlebot3#926"),
@@ -148,6 +177,8 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
         "triggered": 0.05,
         "few": 3,
         "samples": 10,
+        "corrections": 3,
+        "corrected": 0.5,
     },
     why="steady motion has a usual speed; more jumps than that are noise, or two publishers",
     because_of=(
@@ -160,6 +191,9 @@ def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
     is_named = model.has_named_publishers
     for track in model.dynamic:
         if track.is_localisation:
+            corrected = _corrections(model, track, limits)
+            if corrected is not None:
+                yield corrected
             continue
         senders = track.senders[track.by_stamp] if is_named and len(track.nodes) > 1 else None
         for number in (0,) if senders is None else np.unique(senders).tolist():
@@ -210,6 +244,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
             if moved[worst]
             else f"{np.degrees(turned[worst]):.3g}°",
             "within": int(gaps[worst] * NANOSECONDS),
+            "how": f" within {span(gaps[worst] * NANOSECONDS)}",
             "at": int(track.stamps[others[worst]]),
             "usual": f"; usual {usual:.2g} m/s" if usual else "",
             "after": f"; each at most {span(after)} after a message of {topic}" if topic else "",
@@ -221,12 +256,63 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         until=int(track.logs[others[jumps[-1]]]),
         count=len(jumps),
         severity=Severity.NOTE if model.is_minor(track) else None,
-        fixes=(
-            Fix(
-                "list the jumps, and compare them with the sensors at these times:",
-                f"tftool doctor RECORDING --steps --pair {quoted(':'.join(track.edge))}",
-            ),
-        ),
+        fixes=(_list_steps(track),),
+    )
+
+
+def _list_steps(track: Track) -> Fix:
+    return Fix(
+        "list the jumps, and compare them with the sensors at these times:",
+        f"tftool doctor RECORDING --steps --pair {quoted(':'.join(track.edge))}",
+    )
+
+
+def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if a localiser moves the robot again and again; else None.
+
+    An initial pose is no correction: the first step does not count if it is the largest.
+    """
+    places = track.by_stamp
+    if len(places) < limits["samples"] or last_part(track.parent).startswith("odom"):
+        return None
+    some, others = places[:-1], places[1:]
+    robot = np.zeros((len(others), 3))
+    for below in model.dynamic:
+        if below.parent == track.child and last_part(below.child) in BASES and len(below.by_stamp):
+            near = np.searchsorted(below.sorted_stamps, track.stamps[others])
+            robot = below.translations[below.by_stamp[near.clip(max=len(below.by_stamp) - 1)]]
+    # A turn of odom moves the robot by its distance from the origin of odom.
+    before, after = (
+        track.translations[one] + rotate_all(unit(track.rotations[one]), robot)
+        for one in (some, others)
+    )
+    moved = np.linalg.norm(after - before, axis=1)
+    steps = np.flatnonzero(moved > limits["corrected"])
+    if len(steps) and moved[steps[0]] > 0.95 * moved.max():
+        steps = steps[1:]
+    if len(steps) < limits["corrections"]:
+        return None
+    worst = int(steps[moved[steps].argmax()])
+    turned = track.turned(some[[worst]], others[[worst]])
+    return hit_of(
+        track,
+        {
+            "jump": float(moved[worst]),
+            "turn": float(turned[0]),
+            "far": f"by up to {metres(float(moved[worst]))}",
+            "how": f", {len(steps)} times by more than {limits['corrected']:g} m: its localiser "
+            "corrects it again and again",
+            "at": int(track.stamps[others[worst]]),
+            "usual": "",
+            "after": ", measured at the robot",
+            "count": len(steps),
+            "also": "; the localiser may be lost",
+            "mixed": True,
+        },
+        since=int(track.logs[others[steps[0]]]),
+        until=int(track.logs[others[steps[-1]]]),
+        count=len(steps),
+        fixes=(_list_steps(track),),
     )
 
 

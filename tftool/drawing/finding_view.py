@@ -153,7 +153,7 @@ def _clean(diagnosis: Diagnosis) -> Table:
     evidence = model.evidence
     heard = len({one.topic for one in model.heard if len(one.stamps)})
     facts = {
-        Area.PUBLISHERS: f"{count(len(evidence.transforms.publishers), 'publisher')} of transforms",
+        Area.PUBLISHERS: _sources(model),
         Area.SHAPE: f"{count(len(model.frames), 'frame')} in {count(len(model.trees), 'tree')}",
         Area.NAMES: f"{count(len(model.frames), 'name')} of frames",
         Area.CLOCKS: _latencies(model, Area.CLOCKS).strip(" ()"),
@@ -173,8 +173,17 @@ def _clean(diagnosis: Diagnosis) -> Table:
     return table
 
 
+def _sources(model: Model) -> str:
+    """Return the number of nodes that publish transforms; of topics if no node is known."""
+    publishers = [one for track in model.tracks for one in track.publishers]
+    nodes = {one.node for one in publishers if one.node}
+    if nodes:
+        return f"{count(len(nodes), 'publisher')} of transforms"
+    return f"{count(len({one.topic for one in publishers}), 'topic')} of transforms"
+
+
 def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
-    """Return the areas that have no finding, and why they were skipped; "" if they were not."""
+    """Return the areas that have no finding, and why a reader may not call them fine; else ""."""
     wrong = {finding.area for finding in diagnosis.findings if finding.is_shown}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -185,6 +194,9 @@ def _fine(diagnosis: Diagnosis) -> list[tuple[Area, str]]:
         reasons = {skipped[check.id] for check in checks if check.id in skipped}
         if len(reasons) == 1 and all(check.id in skipped for check in checks):
             told.append((area, f"skipped, {reasons.pop()}"))
+        elif area is Area.CLOCKS and (shift := diagnosis.model.shift) is not None:
+            side = "before" if shift.by > 0 else "after"
+            told.append((area, f"most stamps are {span(abs(shift.by))} {side} their arrival"))
         else:
             told.append((area, ""))
     return told
@@ -408,14 +420,17 @@ def _marked(text: str) -> str:
 
 def _general(text: str) -> str:
     """Replace each placeholder of a message template by its name in capitals."""
-    parts = []
+    parts, follows = [], False
     for literal, name, spec, _ in Formatter().parse(in_words(text)):
         parts.append(literal)
         if spec and "|" in spec:
             parts.append(spec.partition("|")[0])
+            follows = False
             continue
-        # A field that follows a word without a blank is an ending that may be empty.
-        if name is not None and not literal[-1:].isalpha():
+        # A field that follows a word or a field without a blank is an ending that may be empty.
+        is_ending = literal[-1:].isalpha() or (follows and not literal)
+        follows = True
+        if name is not None and not is_ending:
             parts.append(name.split("[")[0].upper())
     return "".join(parts)
 
