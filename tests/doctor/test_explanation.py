@@ -418,3 +418,31 @@ def test_the_frame_of_a_filtered_position_needs_no_mount():
     made.hears("/gps/filtered", "gps", 1.0, "sensor_msgs/NavSatFix")
     found = asked(made, "odom", "gps", 4.0)
     assert [remedy.command for remedy in found.remedies] == [""]
+
+
+def test_a_joint_that_ended_long_ago_needs_its_publisher_and_no_larger_cache():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", 10.0, end=40.0)
+    made.moving("base_link", "wheel", 10.0, end=5.0)
+    found = traced(Model(made.evidence()), Question("odom", "wheel"))
+    assert (found.cause, found.check) == (Cause.STOPPED, "edge-stopped")
+    # The wheel's last sample is 4.9, and the last sample of all is 39.9.
+    assert "wheel in base_link ended at 1750000004.900, 35.00 s before" in found.why[0]
+    assert [remedy.kind for remedy in found.remedies] == ["publisher"]
+
+
+def test_another_number_in_a_name_is_another_thing_and_no_misspelling():
+    made = robot()
+    made.static("base_link", "landmark_21")
+    for name, near in (("landmark_31", False), ("lanmark_21", True)):
+        found = asked(made, "base_link", name, 5.0)
+        assert ("landmark_21" in found.remedies[0].text) is near
+
+
+def test_a_rotation_that_ros_1_drops_is_told_although_ros_2_answers():
+    made = robot(scans=False)
+    made.static("odom", "camera", (0.0, 0.0, 0.0, 0.0, 0.0, 0.6, 0.9))
+    for kind, told in (("ROS 1 bag", True), ("MCAP", False)):
+        made.kind = kind
+        found = asked(made, "odom", "camera", 5.0)
+        assert ("ROS 1 drops camera in odom" in found.why[0]) is told

@@ -501,3 +501,19 @@ def test_wheels_that_turned_and_then_stay_silent_for_minutes_are_a_warning():
             pose = (0.0, 0.2, 0.0, *turned(0.1 * tick, 1))
             made.sent("base_link", "wheel", tick * 0.1, pose)
         assert found(made, "edge-stopped").severity is severity
+
+
+def test_a_pose_that_stalls_again_and_again_is_a_warning_and_a_few_stalls_are_none():
+    for every, told in ((0.5, ["gap"]), (2.0, [])):
+        made = robot(odometry=False, scans=False)
+        for tick in range(400):
+            at = 0.02 * tick
+            if at % every > 0.26:
+                made.sent("odom", "base_link", at, drives(at))
+        assert ids(made) == told
+    made = robot(odometry=False, scans=False)
+    for tick in range(400):
+        at = 0.02 * tick
+        if at % 0.5 > 0.26:
+            made.sent("base_link", "arm", at, drives(at))
+    assert ids(made) == []

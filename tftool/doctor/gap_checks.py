@@ -154,8 +154,9 @@ def _is_detection(model: Model, track: Track) -> bool:
     rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
     "samples or more; a note for transforms that are published on change (variation "
     "above {variation:g}), for a gap below {note:g} s, and if no scan, point cloud or range in the "
-    "frame or below it has a stamp in the gap, unless the transform places a robot in the world",
-    headline="{where} {concerned:has a gap|have gaps}",
+    "frame or below it has a stamp in the gap, unless the transform places a robot in the world. "
+    "Of such a transform, {times:g} gaps of {again:g} s and {missed:g} periods or more",
+    headline="{where} {concerned:has a gap|have gaps}{often}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
     consequence="lookups inside it interpolate across the gap, or refuse during it",
@@ -164,7 +165,16 @@ def _is_detection(model: Model, track: Track) -> bool:
         "a network that drops",
         "a publisher that hung",
     ),
-    limits={"periods": 5, "seconds": 0.5, "note": 1.0, "samples": 10, "variation": 1.0},
+    limits={
+        "periods": 5,
+        "seconds": 0.5,
+        "note": 1.0,
+        "samples": 10,
+        "variation": 1.0,
+        "times": 10,
+        "again": 0.2,
+        "missed": 8,
+    },
     why="four messages lost in a row are no accident on a reliable topic; the usual "
     "timeouts of consumers cover shorter gaps",
     because_of=(
@@ -176,7 +186,8 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
     """A transform has a gap."""
     known = {track.edge: _in_service(model, track, limits) for track in model.dynamic}
     for track in model.dynamic:
-        found = known[track.edge]
+        again = _repeated(model, track, limits)
+        found = known[track.edge] or again
         if not found:
             continue
         begin, end = max(found, key=lambda hole: hole[1] - hole[0])
@@ -199,12 +210,18 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         is_lost = bool(needed) or (is_long and _places_robot(model, track, begin))
         why = f"; {missing} samples in it are unusable (NaN)" if missing else ""
         why += f"; {count(needed, 'sensor message')} in it" if needed else ""
+        cures: tuple[Fix, ...] = ()
+        if not silent:
+            cures = (_publisher_at(model, track, begin, end),)
+        elif again:
+            cures = (Fix("look at the load of the computer and the network at these times"),)
         yield hit_of(
             track,
             {
                 "begin": begin,
                 "end": end,
                 "length": end - begin,
+                "often": f", again and again: {len(again)} times" if again else "",
                 "period": track.period,
                 "also": also,
                 "beside": f"; at the same time: {several(silent)}" if silent else "",
@@ -213,12 +230,22 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             },
             since=begin,
             until=end,
-            count=len(found),
+            count=len(again or found),
             severity=Severity.NOTE
-            if on_change or end - begin < limits["note"] * NANOSECONDS or not is_lost
+            if not again
+            and (on_change or end - begin < limits["note"] * NANOSECONDS or not is_lost)
             else Severity.WARNING,
-            fixes=() if silent else (_publisher_at(model, track, begin, end),),
+            fixes=cures,
         )
+
+
+def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
+    """Return the short gaps of an edge that places a robot, if there are many; else none."""
+    small = {**limits, "seconds": limits["again"], "periods": limits["missed"]}
+    found = _in_service(model, track, small)
+    many = bool(found) and len(found) >= limits["times"]
+    is_told = many and _places_robot(model, track, found[-1][0])
+    return found if is_told else []
 
 
 def _places_robot(model: Model, track: Track, begin: int) -> bool:

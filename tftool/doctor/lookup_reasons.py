@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
+from tftool.base.stamps import LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 from tftool.doctor.clock_checks import cure_of_offset
 from tftool.doctor.coverage_checks import Waits, waits_of
 from tftool.doctor.gap_checks import edge_stopped
 from tftool.doctor.missing_joins import proposed_frame, proposed_join
 from tftool.doctor.model import Model
 from tftool.doctor.name_checks import alike_frames, is_navsat_output
-from tftool.doctor.ros_words import in_words
+from tftool.doctor.ros_words import in_words, is_ros1
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import NEVER, Heard, Track
 from tftool.doctor.trace import LinkVerdict, LookupTrace, TracedLink
+from tftool.doctor.value_checks import bad_quaternion
 from tftool.doctor.wording import dated, least_rate, moment, rounded_up, several, span
 
 if TYPE_CHECKING:
@@ -194,6 +195,8 @@ def works(known: TraceResult) -> Reason:
                 ),
                 (Remedy("publisher", "publish one direction only"),),
             )
+    if (dropped := _dropped_by_ros1(known)) is not None:
+        return dropped
     return Reason(
         Cause.WORKS,
         (
@@ -201,6 +204,23 @@ def works(known: TraceResult) -> Reason:
             "waits block its executor, had the buffer time to fill?",
         ),
     )
+
+
+def _dropped_by_ros1(known: TraceResult) -> Reason | None:
+    """Return the text about a lookup that ROS 1 refuses, because of a rotation of a wrong length.
+
+    Return None for other lookups. See the check `bad-quaternion`.
+    """
+    for track in known.way or () if is_ros1(known.trace.model.evidence) else ():
+        squares = track.squares[track.usable]
+        if len(squares) and np.abs(squares - 1.0).min() > bad_quaternion.limits["length"]:
+            why = (
+                f"ROS 2 answers, but ROS 1 drops {track.name}: its rotation has the length "
+                f"{math.sqrt(squares[0]):.4g} instead of 1"
+            )
+            cure = "let its publisher normalise the rotation"
+            return Reason(Cause.WORKS, (why,), (Remedy("publisher", cure),))
+    return None
 
 
 def refusing_link(known: TraceResult) -> Reason:
@@ -228,6 +248,8 @@ def refusing_link(known: TraceResult) -> Reason:
             (Remedy("publisher", "send it with a StaticTransformBroadcaster (on /tf_static)"),),
             ("a timeout: no second sample comes",),
         )
+    if trace.stamp == LATEST and (ended := _ended(known)) is not None:
+        return ended
     if link.verdict is LinkVerdict.PRUNED:
         return _pruned(known, link, track)
     first, last = int(track.sorted_stamps[0]), int(track.sorted_stamps[-1])
@@ -378,6 +400,30 @@ def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
         (Remedy("publisher", "check whether its publisher still runs"),),
         ("a timeout: nothing comes any more",),
     )
+
+
+def _ended(known: TraceResult) -> Reason | None:
+    """Return the reason for a refused lookup of the latest time, if an edge ended long ago.
+
+    The latest common time of the path is then the end of that edge. Return None for other lookups.
+    """
+    trace = known.trace
+    for track in known.way or ():
+        if track.static or _goes_on(trace, track):
+            continue
+        since = trace.asked - int(track.logs[-1])
+        if int(track.sorted_stamps[-1]) == trace.moment and since > trace.cache:
+            why = (
+                f"{track.name} ended at {moment(trace.moment)}, {span(since)} before the question; "
+                "the latest time that all links have is that one, and the others have dropped it"
+            )
+            return Reason(
+                Cause.STOPPED,
+                (why,),
+                (Remedy("publisher", "check whether its publisher still runs"),),
+                ("a timeout: nothing comes any more", "a larger cache: it keeps an old pose"),
+            )
+    return None
 
 
 def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:

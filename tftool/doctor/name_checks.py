@@ -143,10 +143,15 @@ def alike_frames(model: Model, name: str) -> list[str]:
     return list(dict.fromkeys((*fitting, *_near(model, name))))
 
 
+_NUMBER = re.compile(r"\d+")
+
+
 def _near(model: Model, name: str) -> list[str]:
     """Return known frames that share a distinctive word with an unknown name, or resemble it."""
     words = {word for word in distinctive_words(name) if not word.isdigit()}
     found = near_names(last_part(name), sorted(model.frames), 3)
+    # Names that differ only in a number belong to two things of one kind.
+    found = [one for one in found if _NUMBER.sub("#", one) != _NUMBER.sub("#", name)]
     return [one for one in found if words & distinctive_words(one) or distance(name, one, 1) <= 1]
 
 

@@ -288,7 +288,7 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
     )
     moved = np.linalg.norm(after - before, axis=1)
     steps = np.flatnonzero(moved > limits["corrected"])
-    if len(steps) and moved[steps[0]] > 0.95 * moved.max():
+    if len(steps) and moved[steps[0]] > 0.999 * moved.max():
         steps = steps[1:]
     if len(steps) < limits["corrections"]:
         return None
