@@ -43,3 +43,17 @@ def test_rate_and_delay_are_counted_from_look_to_look(room, cells):
     assert rate.width == delay.width == cells
     assert [one.heading for one in history.columns(["base"], 20)] == ["rate, max Hz"]
     assert history.columns(["base"], 12) == []
+
+
+def test_the_delay_of_a_burst_between_two_looks_is_in_the_curve():
+    traffic, history = Traffic(), TrafficHistory()
+    now = seconds(100)
+    for delay in (0.01, 0.3, 0.01):
+        now += seconds(0.1)
+        sample = TransformStamped(now - seconds(delay), "map", "base", Transform.identity())
+        traffic.receive(now, [sample], "driver", is_static=False)
+    history.look(now, traffic)
+
+    (look,) = history.looks("base")
+
+    assert look.delay == pytest.approx(0.3)

@@ -8,6 +8,7 @@ very late.
 
 from collections import deque
 from collections.abc import Iterable
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from tftool.base.stamps import Stamp, as_seconds
@@ -87,6 +88,17 @@ class Series:
     def latest_delay(self) -> float | None:
         """Delay of the newest moving transform, seconds; None if all messages are static."""
         return self._delays[-1] if self._delays else None
+
+    def worst_delay_since(self, stamp: Stamp) -> float | None:
+        """Return the greatest delay of the messages that arrived after a time, seconds.
+
+        Between two messages, the delay of the newest message is returned; None without a message.
+        """
+        newest = takewhile(
+            lambda one: one[0] > stamp,
+            zip(reversed(self._arrivals), reversed(self._tf2_delays), strict=True),
+        )
+        return max((delay for _, delay in newest), default=self.latest_delay)
 
     @property
     def maximum_delay(self) -> float | None:

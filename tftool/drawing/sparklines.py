@@ -71,7 +71,7 @@ class TrafficHistory:
         self._looks: dict[str, deque[TrafficLook]] = {}
 
     def look(self, now: Stamp, traffic: Traffic, *, over: int = 4) -> None:
-        """Store every frame's present rate and newest delay, as new entries of the history.
+        """Store every frame's present rate, and its greatest delay since the last call.
 
         Args:
             now: Current time of the clock in nanoseconds.
@@ -83,11 +83,12 @@ class TrafficHistory:
             if link.is_static:
                 continue
             counts = self._counts.setdefault(name, deque(maxlen=over))
+            since = counts[-1][0] if counts else 0
             counts.append((now, link.series.total))
             (first, before), (last, total) = counts[0], counts[-1]
             rate = (total - before) / as_seconds(last - first) if last > first else None
             # An edge that is silent has no current delay, only its last one.
-            delay = None if rate == 0.0 else link.series.latest_delay
+            delay = None if rate == 0.0 else link.series.worst_delay_since(since)
             looks = self._looks.setdefault(name, deque(maxlen=LOOKS))
             looks.append(TrafficLook(now, rate, delay))
 
