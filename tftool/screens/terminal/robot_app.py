@@ -207,7 +207,9 @@ class RobotApp(PanelApp):
             frames = (SpaceFrame(root, Transform()),)
         space.draw(SpacePicture(root, frames, self._solids, chosen=self._chosen_frame()), self.look)
         if self._missing:
-            space.border_subtitle = f"meshes missing: {len(self._missing)}"
+            space.border_subtitle = (
+                f"{len(self._missing)} meshes not found: simpler shapes in their place"
+            )
 
     def _chosen_frame(self) -> str:
         """Return the frame of the link that the chosen joint moves."""

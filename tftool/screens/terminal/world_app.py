@@ -220,6 +220,7 @@ FRAME_CSS = """
 Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
 Screen { layers: default above; }
 Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
+Panel { border-subtitle-color: $foreground; }
 .ascii Panel { border: ascii $secondary; }
 #header, #footer { border: none; height: 1; background: $background; }
 #body { height: 1fr; layout: horizontal; overflow: hidden; }
