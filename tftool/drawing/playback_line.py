@@ -115,7 +115,7 @@ def lines(
         ascii_only: Whether to draw in ASCII.
         palette: Colours of the screen.
     """
-    state = ("||" if playback.is_paused else "> ") if ascii_only else "⏸▶"[not playback.is_paused]
+    state = ("||" if playback.is_paused else "> ") if ascii_only else "‖▶"[not playback.is_paused]
     total = as_seconds(playback.total)
     count = len(f"{total:.2f}")
     words = f"{state} {as_seconds(playback.done):{count}.2f} / {total:.2f} s"
@@ -132,7 +132,7 @@ def lines(
     width = max(1, width)
     counts, _ = np.histogram(moments, bins=width, range=(0, max(1, playback.total)))
     curve = Text(sparkline(counts.tolist(), width, ascii_only=ascii_only), dim)
-    curve.stylize(color, 0, _place(playback.done, playback, width))
+    curve.stylize(color, 0, width if playback.is_over else _place(playback.done, playback, width))
     axis = axis_labels(0.0, total, width) if total > 0 else ""
     return [text, curve, _bar(playback, width, ascii_only, palette), Text(axis, dim)]
 
