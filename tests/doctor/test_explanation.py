@@ -446,3 +446,10 @@ def test_a_rotation_that_ros_1_drops_is_told_although_ros_2_answers():
         made.kind = kind
         found = asked(made, "odom", "camera", 5.0)
         assert ("ROS 1 drops camera in odom" in found.why[0]) is told
+
+
+def test_a_fixed_frame_that_is_not_recorded_names_the_root_that_is():
+    made = Robot()
+    made.moving("world", "drone")
+    assert "the root of all frames in tf is world" in asked(made, "odom", "drone", 5.0).why
+    assert not any("root" in one for one in asked(made, "world", "arm", 5.0).why)

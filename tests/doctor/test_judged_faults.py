@@ -368,6 +368,7 @@ def test_an_offset_that_transforms_share_says_that_the_robots_own_lookups_work()
         made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=-0.23)
         finding = found(made, "clock-offset")
         assert ("lookups among the robot's own data work" in finding.consequence) is works
+        assert ("230 ms ahead of the recorder's clock" in finding.message) is works
 
 
 def test_an_offset_that_transforms_share_explains_no_waits():
@@ -517,3 +518,19 @@ def test_a_pose_that_stalls_again_and_again_is_a_warning_and_a_few_stalls_are_no
         if at % 0.5 > 0.26:
             made.sent("base_link", "arm", at, drives(at))
     assert ids(made) == []
+
+
+def test_a_map_on_the_recorders_clock_is_not_among_all_shifted_stamps():
+    for begin, told in ((0.0, "all stamps are"), (1_800_000.0, "most stamps are")):
+        made = robot(log_from=START + 1_800_000.0)
+        made.hears("/map", "map", 1.0, "nav_msgs/OccupancyGrid", begin=begin, end=begin + 1.0)
+        kind, rows = made.heard["/map"]
+        made.heard["/map"] = (kind, [(stamp, made.log(1.0), frame) for stamp, _, frame in rows])
+        assert found(made, "shifted-clock").message.startswith(told)
+
+
+def test_a_sensor_in_an_unknown_frame_by_the_wall_clock_is_no_error():
+    made = simulated(moves=True, messages=6)
+    kind, rows = made.heard["/told"]
+    made.heard["/told"] = (kind, [(*row, "nowhere") for *row, _ in rows])
+    assert found(made, "clock-mixture").severity is Severity.WARNING

@@ -9,7 +9,7 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.missing_joins import own_trees
-from tftool.doctor.model import Limits, Model
+from tftool.doctor.model import Limits, Model, Shift
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track
 from tftool.doctor.wording import several, span
@@ -135,7 +135,9 @@ def _is_placed_by_stamp(model: Model, stream: "Track | Heard") -> bool:
     if isinstance(stream, Track):
         return True
     is_sensor = stream.type.startswith("sensor_msgs/") or stream.type == "nav_msgs/Odometry"
-    return is_sensor and not _is_single(stream) and not model.rests(stream.frame)
+    # Lookups of a frame that tf does not know refuse at any stamp.
+    path = model.path(stream.frame.removeprefix("/"), model.fixed_frame) or ()
+    return is_sensor and not _is_single(stream) and not all(track.static for track in path)
 
 
 def _others(model: Model, odd: "list[Track | Heard]", family: int) -> str:
@@ -187,7 +189,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "spread": model.shift.spread,
             "streams": model.shift.streams,
             "of": model.shift.of,
-            "most": "all" if model.shift.streams == model.shift.of else "most",
+            "most": "most" if _has_unshifted(model, model.shift) else "all",
             "live": "a live listener on the recorder's computer refuses all of it"
             if model.shift.by > 0
             else "a node on the recorder's computer that asks for its present time gets data of "
@@ -197,6 +199,13 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
         fixes=(cure_of_offset(model),),
         alone=True,
     )
+
+
+def _has_unshifted(model: Model, shift: Shift) -> bool:
+    """Whether a stream, a static transform or a latched message is not shifted as the others."""
+    every: list[Track | Heard] = [*model.tracks, *model.heard]
+    odd = (2 * abs(one.median_latency) > abs(shift.by) for one in every if one.families[1])
+    return shift.streams < shift.of or any(odd)
 
 
 @check(
@@ -370,9 +379,11 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             if ahead > 0
             else " any more"
         )
+        off = f"off {other}"
         if told:
             so = "no lookup across the two clocks can succeed"
         elif _is_of_transforms(model, ahead):
+            off = f"{'ahead of' if ahead > 0 else 'behind'} the recorder's clock"
             so = (
                 "lookups among the robot's own data work; a node on the recorder's computer that "
                 "asks for its present time gets another moment"
@@ -388,8 +399,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "ahead": ahead,
                 "groups": groups,
                 "sources": sources,
-                "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} off {other}"
-                + told,
+                "found": f"{'is' if len(names) == 1 else 'are'} {span(abs(ahead))} {off}" + told,
                 "so": so,
             },
             severity=Severity.ERROR

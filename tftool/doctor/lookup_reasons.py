@@ -17,7 +17,7 @@ from tftool.doctor.model import Model
 from tftool.doctor.name_checks import alike_frames, is_navsat_output
 from tftool.doctor.ros_words import in_words, is_ros1
 from tftool.doctor.shape_checks import nothing_says
-from tftool.doctor.stamp_stream import NEVER, Heard, Track
+from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part
 from tftool.doctor.trace import LinkVerdict, LookupTrace, TracedLink
 from tftool.doctor.value_checks import bad_quaternion
 from tftool.doctor.wording import dated, least_rate, moment, rounded_up, several, span
@@ -147,6 +147,8 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
         why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
         mistyped = "" if says else f"ask for {alike[0]}, or "
         remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
+    elif len(model.trees) == 1 and last_part(name) in ("map", "odom", "world"):
+        why.append(f"the root of all frames in tf is {model.trees[0].root}")
     join = proposed_frame(model, name, [h.type for h in says if not is_navsat_output(h)])
     if join is not None:
         remedies.append(Remedy("join", join.fix.text, join.fix.command))
