@@ -157,7 +157,9 @@ def _clean(diagnosis: Diagnosis) -> Table:
         Area.SHAPE: f"{count(len(model.frames), 'frame')} in {count(len(model.trees), 'tree')}",
         Area.NAMES: f"{count(len(model.frames), 'name')} of frames",
         Area.CLOCKS: _latencies(model, Area.CLOCKS).strip(" ()"),
-        Area.COVERAGE: f"{count(heard, 'topic')} with headers" if heard else "no headers",
+        Area.COVERAGE: f"{count(heard, 'topic')} with headers"
+        if heard
+        else "transforms only, as no message has a header",
         Area.VALUES: count(len(evidence.transforms), "transform"),
     }
     table = Table.grid(padding=(0, 2), pad_edge=False)
