@@ -142,11 +142,11 @@ def test_the_table_shows_milliseconds_bars_and_statics_as_such():
     assert shown(seconds(11.5), seconds(10), heard) == [
         "All frames, for 2 s",
         "",
-        "frame    in     broadcaster       rate              delay     most",
+        "frame    in     broadcaster       rate              delay      max",
         "A␛       world  static[b]       static                  -        -",
         "turtle1  world  broadcaster1  10.00 Hz  ▇▇▇▇▇▇▇▇  20.0 ms  20.0 ms",
         "",
-        "broadcaster       rate              delay     most",
+        "broadcaster       rate              delay      max",
         "broadcaster1  10.00 Hz  ▇▇▇▇▇▇▇▇  20.0 ms  20.0 ms",
         "static[b]            -                  -        -",
     ]

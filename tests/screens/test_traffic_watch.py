@@ -152,7 +152,7 @@ def test_bars_have_a_scale_and_small_curves_their_maximum():
 
     # The fastest node sends at 10 Hz; the scale is a round number above its rate.
     heading = lines[line_of(lines, "broadcaster ")]
-    assert heading.rstrip(" │").endswith("12Hz")
+    assert heading.rstrip(" │").endswith("12 Hz")
     row = lines[line_of(lines, "● link_00 ")]
     assert row.count("20.0 ms") == 1
-    assert row.rstrip(" │").endswith("20ms")
+    assert row.rstrip(" │").endswith("20 ms")

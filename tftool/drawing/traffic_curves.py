@@ -148,7 +148,7 @@ def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
     longest = max([cell_len(visible(name)) for name, _ in found], default=0)
     names = max(len("broadcaster"), min(longest, layout.width // 3))
     cells = layout.width - names - 3 * NUMBER - 4
-    numbers = f"{'rate':>{NUMBER}}{'mean delay':>{NUMBER + 1}}{'most':>{NUMBER}}"
+    numbers = f"{'rate':>{NUMBER}}{'mean delay':>{NUMBER + 1}}{'max':>{NUMBER}}"
     top, digits = _above(fastest), delay_digits(traffic.senders.values())
     scale = f"  0{_short(top, 'Hz'):>{cells - 1}}" if cells >= 8 else ""
     words = padded("broadcaster", names) + numbers + scale
@@ -354,4 +354,4 @@ def _above(value: float) -> float:
 
 
 def _short(value: float, unit: str = "") -> str:
-    return f"{three_digits(value)}{unit}"[: GUTTER - 1]
+    return f"{three_digits(value)} {unit}".rstrip()[: GUTTER - 1]

@@ -210,7 +210,7 @@ def _measures(
             goes=5,
         ),
         TableColumn(
-            "most", cells([milliseconds(one.maximum_delay, digits) for one in series]), True, goes=2
+            "max", cells([milliseconds(one.maximum_delay, digits) for one in series]), True, goes=2
         ),
         TableColumn("last heard", silent, True),
     ]
