@@ -32,7 +32,7 @@ LOOKS_PER_SECOND = 2
 HEADINGS = 2
 """Most lines above the frames."""
 
-WITH_SPACE, LEAST_SPACE = 60, 11
+WITH_SPACE, LEAST_SPACE = 60, 9
 """Smallest columns of a screen, and rows of the picture, for a picture below the tree."""
 
 Marks = Mapping[str, Sequence[str]]
