@@ -118,7 +118,7 @@ class Clock(ABC):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`, or as soon as possible if `stamp` has passed.
+        """Return a future that is done at `stamp`, or at the current time if `stamp` has passed.
 
         Waiters of one instant are woken in the order of phase, rank and request. To stop the timer,
         cancel the future.
@@ -184,7 +184,7 @@ class SimClock(Clock):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`, or as soon as possible if `stamp` has passed."""
+        """Return a future that is done at `stamp`, or at the current time if `stamp` has passed."""
         return super().timer(max(whole(stamp), self._now), phase, rank)
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
@@ -342,7 +342,7 @@ class WallClock(Clock):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """Return a future that is done at `stamp`, or as soon as possible if `stamp` has passed."""
+        """Return a future that is done at `stamp`, or at the current time if `stamp` has passed."""
         future = super().timer(stamp, phase, rank)
         if self._waiters[0][4] is future:
             self._set_alarm()
