@@ -505,19 +505,24 @@ def test_wheels_that_turned_and_then_stay_silent_for_minutes_are_a_warning():
 
 
 def test_a_pose_that_stalls_again_and_again_is_a_warning_and_a_few_stalls_are_none():
-    for every, told in ((0.5, ["gap"]), (2.0, [])):
+    def stalls(*edges: tuple[str, str], every: float = 0.5) -> Robot:
         made = robot(odometry=False, scans=False)
         for tick in range(400):
             at = 0.02 * tick
-            if at % every > 0.26:
-                made.sent("odom", "base_link", at, drives(at))
-        assert ids(made) == told
-    made = robot(odometry=False, scans=False)
-    for tick in range(400):
-        at = 0.02 * tick
-        if at % 0.5 > 0.26:
-            made.sent("base_link", "arm", at, drives(at))
-    assert ids(made) == []
+            for edge in edges if at % every > 0.26 else ():
+                made.sent(*edge, at, drives(at))
+        return made
+
+    pose, arm = ("odom", "base_link"), ("base_link", "arm")
+    assert ids(stalls(pose)) == ["gap"]
+    assert ids(stalls(pose, every=2.0)) == []
+    assert ids(stalls(arm)) == []
+    together = found(stalls(pose, arm), "gap")
+    assert together.evidence[0].endswith("at the same time: arm in base_link")
+    assert "load" in together.fixes[0].text
+    made = stalls(pose)
+    made.moving("base_link", "arm")
+    assert "arm in base_link went on" in found(made, "gap").fixes[0].text
 
 
 def test_a_map_on_the_recorders_clock_is_not_among_all_shifted_stamps():

@@ -195,7 +195,10 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             other.name
             for other in model.dynamic
             if other is not track
-            and any(low < end and begin < high for low, high in known[other.edge])
+            and (
+                any(low < end and begin < high for low, high in known[other.edge])
+                or (again and _is_silent(other, begin, end))
+            )
         ]
         quiet = {h.topic for h in model.heard if _is_silent(h, begin, end)}
         silent = [*also, *sorted(quiet)]
@@ -271,14 +274,8 @@ def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
     """Return the next step for a gap that no other stream is known to share."""
     streams: list[Track | Heard] = [one for one in model.dynamic if one is not track]
     streams += model.heard
-    margin = (end - begin) // 5
-    alive = [
-        one
-        for one in streams
-        if np.any((one.stamps > begin + margin) & (one.stamps < end - margin))
-    ]
-    if alive:
-        names = [one.name for one in alive]
+    names = [one.name for one in streams if _is_going_on(one, begin, end)]
+    if names:
         return Fix(f"{several(names, 3)} went on: look at its publisher then")
     return Fix("look at its publisher at that time, and at the source of the poses")
 
@@ -292,11 +289,18 @@ def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, i
     return [one for one in found if one[0] != first and model.log_of(one[1]) >= model.start]
 
 
-def _is_silent(heard: Heard, begin: int, end: int) -> bool:
-    """Whether a topic has no message in the middle of a gap, although it has more before."""
+def _is_going_on(stream: Track | Heard, begin: int, end: int) -> bool:
+    """Whether a stream has at least half of its usual number of samples in a gap of another."""
+    inside = np.count_nonzero((stream.stamps > begin) & (stream.stamps < end))
+    usual = len(stream.stamps) * (end - begin) / max(1, int(np.ptp(stream.stamps)))
+    return bool(usual > 2 and 2 * inside > usual)
+
+
+def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
+    """Whether a stream has nothing in the middle of a gap, although it has more before."""
     margin = (end - begin) // 5
-    low, high = np.searchsorted(np.sort(heard.stamps), (begin + margin, end - margin))
-    usual = len(heard.stamps) * (end - begin - 2 * margin) / max(1, int(np.ptp(heard.stamps)))
+    low, high = np.searchsorted(np.sort(stream.stamps), (begin + margin, end - margin))
+    usual = len(stream.stamps) * (end - begin - 2 * margin) / max(1, int(np.ptp(stream.stamps)))
     return bool(low == high) and usual > 2
 
 
