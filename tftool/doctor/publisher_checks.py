@@ -313,7 +313,9 @@ def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]
         kept = [int(places[0])]
         changes: list[int] = []
         last = kept[0]
-        for place in places[1:].tolist():
+        # A node that repeats a static sends mostly the same numbers, which need no comparison.
+        poses = np.hstack((track.translations, track.rotations))[places]
+        for place in places[1:][(poses[1:] != poses[:-1]).any(axis=1)].tolist():
             if _same(track, place, last, limits):
                 continue
             changes.append(place)
