@@ -153,10 +153,10 @@ def test_refuses_places_outside_of_the_buffer():
     payload = bytes(100)
 
     for start, length in ((-1, 4), (0, 101), (101, 0), (90, 11), (2**62, 2**62), (0, -1)):
-        with pytest.raises(ValueError, match="outside"):
+        with pytest.raises(ValueError, match="beyond"):
             take(SCAN.Pairs(), payload, None, start=start, length=length)
     no_numbers = np.zeros(0, dtype=np.int32)
-    with pytest.raises(ValueError, match="outside"):
+    with pytest.raises(ValueError, match="beyond"):
         SCAN.Pairs().take(payload, np.array([0]), np.array([4]), no_numbers, True, None)
 
 
@@ -203,7 +203,7 @@ def test_refuses_pairs_of_the_other_layout_whose_bytes_lie_otherwise():
         pairs.lead(pair, 0, False)
 
     take(pairs, ros1([(5, "a", "b")]), ask)
-    with pytest.raises(ValueError, match="the other layout"):
+    with pytest.raises(ValueError, match="another layout"):
         take(pairs, cdr([(5, "a", "b")]), ask, is_cdr=True)
     assert columns[2][0] == 1
 
@@ -224,7 +224,7 @@ def test_refuses_columns_without_room_or_of_another_kind():
         lambda pair, *_: (pairs.aim(0, *room(0)), pairs.lead(pair, 0, False)),
         put_elsewhere,
     ):
-        with pytest.raises(ValueError, match="no room"):
+        with pytest.raises(ValueError, match="are full"):
             take(pairs, payload, nobody)
     with pytest.raises(ZeroDivisionError):
         take(pairs, payload, lambda *_: 1 // 0)
