@@ -457,9 +457,11 @@ def forget_in(folder: Path) -> None:
     names = {one.stem for one in folder.iterdir()}
     roots = [] if _finder is None else _finder.roots
     for name, module in list(sys.modules.items()):
+        # Most modules have another name; their files need not be looked at.
+        if name.partition(".")[0] not in names:
+            continue
         file = _file_of(module)
-        is_elsewhere = name.partition(".")[0] in names and not file.is_relative_to(folder)
-        if is_elsewhere and _is_users(file, roots):
+        if not file.is_relative_to(folder) and _is_users(file, roots):
             del sys.modules[name]
 
 
