@@ -110,7 +110,7 @@ def lines(
 
     Args:
         playback: State of the player.
-        moments: Times of the transforms, nanoseconds from the recording's start.
+        moments: Times of the transforms, nanoseconds from the recording's start, ascending.
         width: Width in cells.
         ascii_only: Whether to draw in ASCII.
         palette: Colours of the screen.
@@ -130,7 +130,10 @@ def lines(
         text.append("q", theme.ink(palette.accent, bold=True)).append(" quits", dim)
     text.truncate(width)
     width = max(1, width)
-    counts, _ = np.histogram(moments, bins=width, range=(0, max(1, playback.total)))
+    # A search for the limits of the cells: a histogram would read all moments for each picture.
+    limits = np.arange(width + 1) * max(1, playback.total) // width
+    limits[-1] += 1
+    counts = np.diff(np.searchsorted(moments, limits))
     curve = Text(sparkline(counts.tolist(), width, ascii_only=ascii_only), dim)
     curve.stylize(color, 0, width if playback.is_over else _place(playback.done, playback, width))
     axis = axis_labels(0.0, total, width) if total > 0 else ""
