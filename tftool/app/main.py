@@ -152,8 +152,8 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
         if rest is None:
             return ExitStatus.DONE
         if rest[:1] and rest[0] not in RUNS_PROGRAMS:
-            # numpy's BLAS would start a thread for each processor, each of which waits busily
-            # for a tenth of a second. The matrices of tftool's own commands are too small to share.
+            # numpy's BLAS starts a thread for each processor, and each thread first spends a tenth
+            # of a second in a waiting loop. The matrices of tftool's own commands need one thread.
             os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         from tftool.app.command_line import run_command
 

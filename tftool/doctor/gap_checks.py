@@ -388,12 +388,12 @@ def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
     "stall",
     Severity.NOTE,
     rule="a regular transform or Odometry topic pauses for {seconds:g} s and {periods:g} periods "
-    "or more, and what comes next is older than usual by half of the pause; of {samples:g} samples "
-    "or more",
+    "or more, and its next message is older than usual by half of the pause; of {samples:g} "
+    "samples or more",
     headline="{where} {concerned:stalls|stall} for {length:span}",
     detail="{what}: {stalls:times}, the longest from {begin:moment} on (log time); usually every "
     "{period:span}",
-    consequence="what was held up comes late, and at once",
+    consequence="the delayed messages arrive late, in one burst",
     causes=("load", "a network that drops", "a node that waits for another"),
     limits={"seconds": 0.5, "periods": 10, "samples": 50},
     needs=("log times",),
@@ -403,7 +403,7 @@ def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
     ),
 )
 def stall(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A regular stream pauses, and then comes in a burst."""
+    """A regular stream pauses, and its messages then arrive in a burst."""
     odometry = (h for h in model.heard if h.type == "nav_msgs/Odometry")
     streams: list[Track | Heard] = [*model.dynamic, *odometry]
     for stream in streams:
