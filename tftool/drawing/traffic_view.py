@@ -317,7 +317,7 @@ def _number(value: float | None) -> str:
 
 
 def delay_digits(series: Iterable[Series]) -> int:
-    """Return the number of decimals of all delays in milliseconds, mean and most alike."""
+    """Return the number of decimals of all delays in milliseconds, means and maxima alike."""
     largest = max((abs(one.maximum_delay or 0.0) for one in series), default=0.0)
     return 3 if 0.0 < largest < 0.01 else 1 if largest < 10.0 else 0
 
