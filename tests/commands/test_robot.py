@@ -54,3 +54,15 @@ def test_the_publisher_runs_by_its_ros_name_without_turtles(tftool, robot):
 
     assert result.status == 0
     assert "turtles" not in result.err
+
+
+def test_a_robot_whose_joints_are_in_no_order_is_drawn_into_a_file(tftool, tmp_path):
+    joint = '<joint name="{1}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint>'
+    joints = joint.format("b", "c") + joint.format("a", "b")
+    links = "".join(f'<link name="{name}"/>' for name in "abc")
+    (tmp_path / "x.urdf").write_text(f'<robot name="x">{links}{joints}</robot>')
+
+    result = tftool("robot", tmp_path / "x.urdf", "-o", tmp_path / "x.svg")
+
+    assert result.status == 0
+    assert ">c, b +1</text>" in (tmp_path / "x.svg").read_text()

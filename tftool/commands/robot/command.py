@@ -29,6 +29,7 @@ from tftool.robots.robot_model import Robot
 from tftool.screens.terminal.robot_app import RobotApp
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.sliders import Sliders
+from tftool.screens.terminal.space_panel import frames_in_space
 from tftool.screens.terminal.world_app import show
 from tftool.world.clock import run as run_loop
 from tftool.world.link.session_world import Session
@@ -106,15 +107,9 @@ def _draw(
     form = output.suffix.lower().removeprefix(".")
     if form not in ("svg", "png"):
         raise UsageError(f"'{output}' has no known suffix: end it in .svg or .png.")
-    poses = {described.root: Transform.identity()}
-    for one in described.transforms(joints):
-        poses[one.child_frame_id] = poses[one.frame_id] @ one.transform
-    frames = tuple(
-        SpaceFrame(
-            name, pose, None if name == described.root else described.joint_above(name).parent
-        )
-        for name, pose in poses.items()
-    )
+    frames = frames_in_space(described.buffer(joints).snapshot(0), described.root)
+    # A robot of one link has no joints, and so no transforms.
+    frames = frames or (SpaceFrame(described.root, Transform.identity()),)
     picture = SpacePicture(described.root, frames, shapes[0])
     _tell_missing(shapes[1])
     content = drawn_file(picture, form, LIGHT if light else DARK, title=described.name)
