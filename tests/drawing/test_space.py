@@ -371,6 +371,37 @@ def test_the_outline_of_a_solid_in_ascii_is_drawn_with_strokes():
     assert len({(line.index("|"), line.rindex("|")) for line in sides}) <= 2
 
 
+def test_a_thin_part_in_ascii_is_shaded_not_only_outlined():
+    robot = """<robot name="rod"><link name="rod"><visual><geometry><box size="8 .5 .5"/></geometry>
+    </visual></link></robot>"""
+    solids, _ = solids_of(parse_description(robot).links.values(), MeshFolders())
+    rod = SpacePicture("rod", (SpaceFrame("rod", Transform()),), solids)
+    drawn = text(cells(rod, "side", columns=60, rows=24, ascii_only=True))
+
+    assert sum(sign in ":=+*#%@" for sign in drawn) > 30
+    assert not any(sign in "|/\\_" for sign in drawn)
+
+
+@pytest.mark.parametrize("options", [{}, {"ascii_only": True}, {"tones": "none"}])
+def test_the_axes_of_a_few_frames_have_letters_and_those_of_many_have_none(options):
+    few, many = (
+        text(cells(SpacePicture("root", tuple(spread(n))), columns=100, rows=40, **options))
+        for n in (2, 20)
+    )
+
+    assert [few.count(letter) for letter in "xyz"] == [3, 3, 3]
+    assert not set("xyz") & set(many)
+
+
+def test_frames_above_each_other_are_labelled_with_their_heights():
+    def drawn(x):
+        frames = SpaceFrame("A", Transform()), SpaceFrame("B", Transform((x, 0, 3.0)), "A")
+        return text(cells(SpacePicture("A", frames)))
+
+    assert "B z 3 m" in drawn(0.0)
+    assert "z 3 m" not in drawn(5.0)
+
+
 def test_axes_of_many_frames_are_shorter_so_that_they_overlap_less():
     def blue(count):
         lines = cells(SpacePicture("root", tuple(spread(count))), columns=160, rows=60)

@@ -1,6 +1,7 @@
 """Data of a 3-D picture of frames, and the camera that orbits the frames."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, TypeAlias
 
@@ -203,3 +204,14 @@ def axis_length(view: Viewpoint, rows: int, frames: int) -> float:
     """Return the length in metres of the axes of each frame; shorter for more than 20 frames."""
     crowded = math.sqrt(20.0 / max(20, frames))
     return view.scale * 4.0 * max(1.2, crowded * rows / 10.0)
+
+
+def is_tall(frames: Sequence[SpaceFrame]) -> bool:
+    """Return whether frames differ much in height, which a view from above cannot show."""
+    if len(frames) < 2:
+        return False
+    across, along, up = (
+        max(axis) - min(axis)
+        for axis in zip(*(one.pose.translation for one in frames), strict=True)
+    )
+    return bool(up > max(across, along))

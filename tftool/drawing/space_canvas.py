@@ -10,6 +10,7 @@ from typing import Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from numpy.lib.stride_tricks import sliding_window_view
 from rich.cells import cell_len
 
 from tftool.base.color import Color
@@ -24,7 +25,7 @@ from tftool.drawing.labels import (
     Placer,
     label_text,
 )
-from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length
+from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length, is_tall
 from tftool.drawing.table_columns import plain
 
 Floats: TypeAlias = npt.NDArray[np.float32]
@@ -34,6 +35,9 @@ Tones = Literal["full", "few", "none"]
 
 MOST_NAMED: Final = 40
 """Largest number of names that are written."""
+
+MOST_LETTERED: Final = 4
+"""Most frames whose axes have letters; more letters would hide the frames."""
 
 CELLS_PER_NAME: Final = 150
 """Cells of a picture for each name; in a small picture, more names would hide the robot."""
@@ -179,6 +183,7 @@ def drawn(
         tinted: Whether the solid under the cursor takes the colour of the cursor.
         plain: Whether to draw for a terminal of few colours: the ground is a dot at each crossing
             of its grid, and on a robot only the frame under the cursor has axes and a line.
+            In a small picture of a robot of many frames, this holds with colours, too.
     """
     width, height = 2 * columns, 4 * rows
     poses = {one.name: one.pose for one in picture.frames}
@@ -215,8 +220,11 @@ def drawn(
     ground = _ground(picture, view, sparse=plain)
     layers = [Layer(theme.paper(palette).grid, view.project(ground), is_hidden=True)]
     is_robot = solids is not None and len(solids.triangles) > 0
+    is_crowded = len(picture.frames) * CELLS_PER_NAME > columns * rows
     lined = [
-        one for one in picture.frames if not (plain and is_robot) or one.name == picture.chosen
+        one
+        for one in picture.frames
+        if not (is_robot and (plain or is_crowded)) or one.name == picture.chosen
     ]
     layers += _layers(picture, view, rows, palette, lined)
     return DrawnSpace(image, depth, layers, edges, names, view.grid)
@@ -292,6 +300,8 @@ def _named(
         x, y, _ = places[number]
         if abs(x) + abs(y) < 1e6:
             labels.setdefault((round(x / 3.0), round(y / 5.0)), []).append(number)
+    # Where frames differ mostly in height, the height is the number to see.
+    has_heights = picture.solids is None and is_tall(picture.frames)
     found = []
     for group in labels.values():
         group.sort(key=lambda number: (picture.frames[number].name != picture.chosen, number))
@@ -299,6 +309,8 @@ def _named(
         shown = 2 if len("".join(names[:2])) <= 18 else 1
         more = f" +{len(names) - shown}" if len(names) > shown else ""
         label = ", ".join(names[:shown]) + more
+        height = picture.frames[group[0]].pose.translation.z
+        label += f" z {height:.3g} m" if has_heights and abs(height) > 1e-3 else ""
         found.append((picture.frames[group[0]], label, len(group), places[group[0]]))
     return found
 
@@ -403,7 +415,9 @@ class SpaceCanvas:
         solid = _solid(drawing, columns, rows)
         ground = self._dotted(drawing, drawing.layers[:1])
         ground.masks[solid] = 0
-        sheet.lay(ground, ascii_only=self._ascii)
+        points = sheet.lay(ground, ascii_only=self._ascii)
+        if self._ascii:
+            sheet.texts[points] = "."
         dots = self._dotted(drawing, drawing.layers[1:])
         sheet.grounds = np.where(dots.masks > 0, halves, sheet.grounds)
         marked = sheet.lay(dots, ascii_only=self._ascii)
@@ -442,9 +456,14 @@ class SpaceCanvas:
             hue = mean * (230.0 / np.maximum(mean.max(1, keepdims=True), 1.0))
             sheet.inks[some] = _few_shades(hue)
             if self._ascii:
+                # Strokes only beside a broad part: a thin part of only strokes is unreadable.
+                full = np.pad(total == 8, 2)
+                broad = full[1:, 1:] & full[1:, :-1] & full[:-1, 1:] & full[:-1, :-1]
+                beside = sliding_window_view(broad, (4, 4)).any((2, 3))
                 down, across = np.nonzero(drawing.edges)
                 strokes = Dots(columns, rows)
                 strokes.mark(across, down, NONE)
+                strokes.masks[(total == 8) | ~beside] = 0
                 sheet.lay(strokes, sheet.inks, ascii_only=True)
             return sheet
         count = found.reshape(rows, 2, 2, columns, 2).sum((2, 4))
@@ -474,6 +493,22 @@ class SpaceCanvas:
             dots.cover(mine)
         return dots
 
+    def _letter_axes(self, drawing: DrawnSpace, sheet: CellSheet) -> npt.NDArray[np.bool_]:
+        """Write x, y and z at the ends of the axes of a few frames; return a mask of the cells."""
+        written = np.zeros((self.rows, self.columns), bool)
+        # On a coloured robot, letters would hide the robot, and the colours name the axes.
+        if self._has_halves and (drawing.depth.owners >= 0).any():
+            return written
+        for letter, layer in zip("xyz", drawing.layers[-3:], strict=True):
+            for start, end in layer.ends[:, :, :2] if len(layer.ends) <= MOST_LETTERED else ():
+                x, y = end / (2.0, -4.0) + (0.5 * self.columns, 0.5 * self.rows)
+                # An axis towards the viewer is too short for a letter.
+                is_long = np.abs((end - start) / (2.0, 4.0)).max() >= 1.0
+                if is_long and 0 <= x < self.columns and 0 <= y < self.rows:
+                    sheet.write(int(x), int(y), letter, packed(layer.color))
+                    written[int(y), int(x)] = True
+        return written
+
     def _name(
         self,
         drawing: DrawnSpace,
@@ -493,6 +528,8 @@ class SpaceCanvas:
                 labels.append(Label(one.name, text, column, row, 1))
                 named[one.name] = one, count
         # Names beside a robot are easier to read than names on it, and a gap keeps them apart.
+        letters = self._letter_axes(drawing, sheet)
+        solid = solid | letters
         near = solid.copy()
         near[:, 1:] |= solid[:, :-1]
         near[:, :-1] |= solid[:, 1:]
@@ -513,6 +550,7 @@ class SpaceCanvas:
         far = np.array([placed.is_far for placed in found], bool)
         ends = np.array([_leader(placed) for placed in found], float).reshape(-1, 2, 2)
         leaders.draw(ends[far], np.array(inks, np.int64)[far])
+        leaders.masks[letters] = 0
         sheet.lay(leaders, ascii_only=self._ascii)
         for placed, ink in zip(found, inks, strict=True):
             one, _ = named[placed.label.name]

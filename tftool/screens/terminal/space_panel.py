@@ -199,14 +199,3 @@ def frames_in_space(
             age = 0.0 if ages is None else ages.get(info.frame, 0.0)
             found.append(SpaceFrame(info.frame, pose, info.parent, age))
     return tuple(found)
-
-
-def is_tall(frames: tuple[SpaceFrame, ...]) -> bool:
-    """Return whether frames differ much in height, which a view from above cannot show."""
-    if len(frames) < 2:
-        return False
-    across, along, up = (
-        max(axis) - min(axis)
-        for axis in zip(*(one.pose.translation for one in frames), strict=True)
-    )
-    return bool(up > max(across, along))

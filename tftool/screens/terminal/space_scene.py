@@ -5,9 +5,9 @@ import numpy as np
 from tftool.drawing.cells import packed
 from tftool.drawing.plane import ColoredLines
 from tftool.drawing.solids import Solids
-from tftool.drawing.space import SpacePicture
+from tftool.drawing.space import SpacePicture, is_tall
 from tftool.screens.terminal.scene import SceneMoment
-from tftool.screens.terminal.space_panel import frames_in_space, is_tall
+from tftool.screens.terminal.space_panel import frames_in_space
 
 MOST_STROKES = 3000
 """Most strokes drawn of a drawing, and of all trails: the newest ones."""
