@@ -56,6 +56,41 @@ def test_a_recording_is_drawn_as_high_as_the_terminal(run, monkeypatch, capsys):
     assert 50 < heights[1] < 60
 
 
+def test_curves_in_ascii_are_drawn_with_the_signs_in_the_title(tftool, run):
+    lines = tftool("plot", "map", "car", run, "--ascii").out.splitlines()
+
+    assert lines[1] == "position, m  1 x 1.654  2 y 1.124  3 z 0.500"
+    position = "".join(lines[2:9])
+    assert all(position.count(sign) > 10 for sign in "123")
+    # A curve alone in its panel is drawn with strokes.
+    assert next(line for line in lines if line.startswith("distance")).startswith("distance, m  2")
+
+
+def test_curves_on_a_terminal_without_colours_have_signs(run, monkeypatch, capsys):
+    monkeypatch.setattr(Console, "is_terminal", True)
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", "100")
+
+    assert main(["plot", "map", "car", str(run), "--only", "roll,pitch,yaw"]) == 0
+
+    lines = re.sub("\x1b[^m]*m", "", capsys.readouterr().out).splitlines()
+    assert lines[1] == "rotation, °  1 roll 0  2 pitch 0  3 yaw 124.2"
+    # Roll and pitch are equal: each one has its own sign on the same line.
+    assert any(re.search(r"⠤1⠤+2⠤", line) for line in lines)
+
+
+def test_a_panel_without_room_says_how_to_see_its_curve():
+    stamps = np.arange(3) * seconds(1) + 1
+    turns = np.tile([0.0, 0.0, 0.0, 1.0], (3, 1))
+    still = TransformArray("map", "car", stamps, np.zeros((3, 3)), turns, np.ones(3, bool))
+
+    look = PlotLook(80, 12, numbered=True)
+    lines = over_time([trajectory_of(still)], 1, chosen([]), look).plain.splitlines()
+
+    assert "turn rate, °/s  9 0  (a taller window shows the curve, or the key i)" in lines
+    assert not any("window" in line for line in lines if line.startswith("position"))
+
+
 def test_a_value_that_is_noise_is_written_as_zero():
     stamps = np.arange(5) * seconds(1) + 1
     moves = np.stack([np.linspace(1.0, 3.7e-8, 5), np.ones(5), np.zeros(5)], 1)

@@ -559,7 +559,7 @@ def curve(height, color):
     return dots
 
 
-def test_curves_that_share_their_cells_keep_all_dots_and_one_color():
+def test_curves_that_share_cells_keep_all_dots_and_take_turns_where_they_are_level():
     red, blue, green = Color(255, 0, 0), Color(0, 0, 255), Color(0, 255, 0)
     high, low = curve(0.5, red), curve(0.4, blue)
     rising = Dots(12, 3)
@@ -567,10 +567,12 @@ def test_curves_that_share_their_cells_keep_all_dots_and_one_color():
 
     found = merged([high, low])
     assert (found.masks == high.masks | low.masks).all()
-    assert sorted(map(set, found.colors.tolist()), key=min) == [{-1}, {-1}, {packed(red)}]
+    dashes = [packed(red)] * 3 + [packed(blue)] * 3
+    assert [row for row in found.colors.tolist() if max(row) >= 0] == [dashes * 2]
     both = merged([high, rising])
     assert (both.masks == high.masks | rising.masks).all()
-    assert (both.colors[rising.masks > 0] == packed(green)).all()
+    assert (both.colors[:, :6][rising.masks[:, :6] > 0] == packed(green)).all()
+    assert set(both.colors[1, 7:].tolist()) == {packed(red), packed(green)}
     assert (merged([high]).masks == high.masks).all()
 
 

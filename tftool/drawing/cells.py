@@ -23,6 +23,9 @@ Mask: TypeAlias = npt.NDArray[np.bool_]
 
 NONE: Final = -1
 
+DASH: Final = 3
+"""Cells that each of several curves with equal dots takes in turn."""
+
 Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
 """Straight piece of a trail: x and y of both ends in metres, colour, width in pixels."""
 
@@ -199,22 +202,32 @@ def merged(layers: Sequence[Dots]) -> Dots:
 
     The colour is of a curve that is not level, if one crosses the cell; among such curves, of the
     one with the fewest cells that no other curve crosses. The order is the same in all cells, so a
-    curve's colour does not alternate.
+    curve's colour does not alternate. Curves that are all level in the cell take turns, in dashes,
+    because no other sign shows that there are several.
 
     Args:
         layers: The dots of each curve, all of one size; at least one.
     """
+    found = Dots(*layers[0].masks.shape[::-1])
+    found.masks = np.bitwise_or.reduce([one.masks for one in layers])
+    owners = owners_of(layers)[None]
+    found.colors = np.take_along_axis(np.stack([one.colors for one in layers]), owners, 0)[0]
+    return found
+
+
+def owners_of(layers: Sequence[Dots]) -> Numbers:
+    """Return the index of the curve that `merged` shows in each cell."""
     masks = np.stack([one.masks for one in layers])
     has = masks > 0
     is_level = has.any(2).sum(1) <= 1
     own = (has & (has.sum(0) == 1)).sum((1, 2))
     order = np.lexsort((own, is_level))
-    chosen = has[order].argmax(0)[None]
-    found = Dots(*masks.shape[:0:-1])
-    found.masks = np.bitwise_or.reduce(masks)
-    colors = np.stack([layers[place].colors for place in order])
-    found.colors = np.take_along_axis(colors, chosen, 0)[0]
-    return found
+    owners: Numbers = order[has[order].argmax(0)]
+    rows = ((masks[..., None] & _BITS.sum(1)) > 0).sum(-1)
+    count = has.sum(0)
+    turn = np.arange(masks.shape[2]) // DASH % np.maximum(count, 1)
+    in_turn = (np.cumsum(has, 0) == turn + 1).argmax(0)
+    return np.where(rows.max(0) == 1, in_turn, owners)
 
 
 class CellSheet:

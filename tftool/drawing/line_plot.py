@@ -13,7 +13,7 @@ from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme
-from tftool.drawing.cells import Dots, merged, packed
+from tftool.drawing.cells import Dots, merged, owners_of, packed
 from tftool.drawing.table_columns import fitted
 from tftool.frames.pair_samples import Trajectory, trajectory_of
 from tftool.frames.pair_series import (
@@ -32,6 +32,14 @@ from tftool.geometry.rigid_arrays import Floats
 
 LABELS: Final = 10
 """Cells at the left of a panel for the labels of its axis."""
+
+MARK_EVERY: Final = 12
+"""Cells of a curve in braille from one of its signs to the next."""
+
+_SIGNS: Final = "0123456789abcdefghijklmnopqrstuvwxyz"
+
+NO_ROOM: Final = "  (a taller window shows the curve, or the key i)"
+"""Note beside the title of a panel without room."""
 
 NOISE: Final = 1e-6
 """Fraction of a panel's largest value below which a value is shown as 0."""
@@ -62,6 +70,7 @@ class PlotLook:
         light: Whether the background is light.
         numbered: Whether to show each curve's number, which is also the key that hides the curve.
         hidden: Numbers of the curves that are hidden.
+        marked: Whether curves of one panel are told apart by their numbers, not only by colours.
     """
 
     width: int = 80
@@ -70,6 +79,7 @@ class PlotLook:
     light: bool = False
     numbered: bool = False
     hidden: frozenset[int] = frozenset()
+    marked: bool = False
 
     @property
     def colors(self) -> tuple[Color, ...]:
@@ -121,7 +131,6 @@ def over_time(
         around = 2 + len(told) + is_named
         room = look.height - around - len(drawn)
         if look.numbered:
-            # On a screen, panels without room are titles too: their values stay visible.
             seen = seen[: max(1, room // LEAST_ROWS)]
         tall = max(LEAST_ROWS, room // max(1, len(seen)))
         # With an odd number of lines, a tick in the middle line is exactly in the middle.
@@ -129,7 +138,11 @@ def over_time(
         # The first panels share the lines that remain, in pairs.
         taller = max(0, room - tall * len(seen)) // 2
     for place, (number, panel) in enumerate(zip(numbers, drawn, strict=True)):
-        text.append_text(_titled(panel, look, number))
+        # On a screen, a panel without room is a title: its values stay visible.
+        hides = place not in seen and not look.hidden.issuperset(
+            range(number, number + len(panel.curves))
+        )
+        text.append_text(_titled(panel, look, number, NO_ROOM if hides else ""))
         if place in seen:
             rows = tall + 2 * (seen.index(place) < taller)
             for line in _drawn(panel, (low, high), shaded, rows, look, number):
@@ -167,7 +180,7 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
     for place, (_, x, y) in enumerate(curves):
         color = colors[place % len(colors)]
         draw_curve(layers[place], (x - left) / wide, (y - bottom) / high, color)
-    dots = merged(layers)
+    is_marked = look.marked and len(curves) > 1
     text = Text(no_wrap=True, overflow="crop")
     for place, (label, x, y) in enumerate(curves):
         holds = np.flatnonzero(np.isfinite(x))
@@ -175,14 +188,19 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
             f"{word} at {axis_number(float(x[at]))} {axis_number(float(y[at]))}"
             for word, at in (("begins", holds[0]), ("ends", holds[-1]))
         )
+        sign = f"{_sign(1 + place)} " if is_marked else ""
         text.append(
-            f"{fitted(f'{visible(label)} {ends}', look.width)}\n",
+            f"{fitted(f'{sign}{visible(label)} {ends}', look.width)}\n",
             _style(colors[place % len(colors)]),
         )
     ticks = round_ticks(bottom, bottom + high, max(2, rows // 4))
     places = [math.floor((bottom + high - tick) / high * rows) for tick in ticks]
     labels = dict(zip(places, tick_labels(ticks), strict=True))
-    for row, cells in enumerate(dots.rows(ascii_only=look.ascii_only)):
+    grid = merged(layers).rows(ascii_only=look.ascii_only)
+    if is_marked:
+        signs = [_sign(1 + place) for place in range(len(curves))]
+        _mark(grid, layers, signs, every=1 if look.ascii_only else MARK_EVERY)
+    for row, cells in enumerate(grid):
         text.append_text(_row(labels.get(row, ""), cells, look))
     edge = axis_labels(left, left + wide, columns, "m")
     text.append(f"{'y, x in m':>{LABELS}} {edge}\n")
@@ -196,19 +214,22 @@ def _span(drawn: Sequence[PlotPanel], shaded: Sequence[RefusedSpan]) -> tuple[fl
     return (low, high) if high > low else (low - 0.5, high + 0.5)
 
 
-def _titled(panel: PlotPanel, look: PlotLook, number: int) -> Text:
-    """Return a panel's title line, with the name and last value of each curve."""
+def _titled(panel: PlotPanel, look: PlotLook, number: int, note: str) -> Text:
+    """Return a panel's title line, with the name and last value of each curve, and a note."""
     line = Text(f"{panel.title}, {panel.unit}", style="bold")
     is_alone = len(panel.curves) == 1 and panel.curves[0].label == panel.title
     for place, one in enumerate(panel.curves):
         holds = np.flatnonzero(np.isfinite(one.values))
         last = float(one.values[holds[-1]]) if len(holds) else math.nan
         value = "" if math.isnan(last) else _value(last, max(map(abs, panel.limits())))
-        key = str(number + place) if look.numbered and number + place < 10 else ""
+        is_marked = look.marked and len(panel.curves) > 1
+        is_key = look.numbered and number + place < 10
+        key = _sign(number + place) if is_key or is_marked else ""
         label = "" if is_alone else visible(one.label)
         is_hidden = number + place in look.hidden
         style = "dim strike" if is_hidden else _style(look.colors[place % len(look.colors)])
         line.append("  ").append(" ".join(filter(None, (key, label, value))), style)
+    line.append(note, "dim")
     line.truncate(look.width, overflow="ellipsis")
     line.append("\n")
     return line
@@ -240,7 +261,9 @@ def _drawn(
     labels[:: (rows - 1) // (len(ticks) - 1)] = reversed(tick_labels(ticks))
     first, last = span
     layers = [Dots(columns, rows)]
+    signs = [" "]
     for place in seen:
+        signs.append(_sign(number + place))
         one = panel.curves[place]
         times, values = thinned(one.times, one.values, 16 * columns)
         layers.append(Dots(columns, rows))
@@ -258,9 +281,29 @@ def _drawn(
             max(0, min(begin, columns - 1)), max(0, min(max(end, begin + 1), columns))
         ):
             shade[column] = ":" if look.ascii_only else "░"
-    for label, cells in zip(labels, merged(layers).rows(ascii_only=look.ascii_only), strict=True):
+    grid = merged(layers).rows(ascii_only=look.ascii_only)
+    if look.marked and len(panel.curves) > 1:
+        _mark(grid, layers, signs, every=1 if look.ascii_only else MARK_EVERY)
+    for label, cells in zip(labels, grid, strict=True):
         below = zip(cells, shade, strict=True)
         yield _row(label, [cell if cell[1] else (sign, "dim") for cell, sign in below], look)
+
+
+def _sign(number: int) -> str:
+    """Return the sign of a curve: its number, or a letter after 9."""
+    return _SIGNS[number % len(_SIGNS)]
+
+
+def _mark(
+    grid: list[list[tuple[str, str]]], layers: Sequence[Dots], signs: Sequence[str], *, every: int
+) -> None:
+    """Write each curve's sign into one of `every` cells that show the curve."""
+    has_dots = np.bitwise_or.reduce([one.masks for one in layers]) > 0
+    owners = np.where(has_dots, owners_of(layers), -1).T
+    for number, sign in enumerate(signs):
+        shown = np.argwhere(owners == number)
+        for column, row in shown[min(every, len(shown)) // 2 :: every].tolist():
+            grid[row][column] = sign, grid[row][column][1]
 
 
 def _ticks(limits: tuple[float, float], rows: int) -> list[float]:

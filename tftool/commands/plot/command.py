@@ -53,8 +53,15 @@ def drawn(
     """
     width = (console.width if console.is_terminal else 80) - margin
     ascii_only = options.ascii_only or console.options.ascii_only
+    has_colors = console.color_system is not None and not console.no_color
     look = view.PlotLook(
-        width, height, ascii_only, options.light, hidden is not None, hidden or frozenset()
+        width,
+        height,
+        ascii_only,
+        options.light,
+        numbered=hidden is not None,
+        hidden=hidden or frozenset(),
+        marked=ascii_only or (console.is_terminal and not has_colors),
     )
     if options.from_above:
         return view.from_above(found, look)
