@@ -1,5 +1,6 @@
 """Tests of `tftool play` as a user types it."""
 
+import re
 import shutil
 
 import pytest
@@ -120,7 +121,11 @@ def test_on_a_terminal_findings_are_marked_and_told(tmp_path, tftool, simulated)
     terminal = Terminal(tmp_path, 100, 20, words, {})
     try:
         terminal.shows("Findings of the doctor")
-        terminal.press("n")
+        terminal.shows("not yet: turtle1 +2")
+        terminal.press("}")
+        # Turtle2 publishes 62.5 times per second, also after ten seconds were skipped.
+        terminal.until(lambda screen: re.search(r"turtle2 .* 6[23]\.\d Hz", screen), "the rate")
+        terminal.press("0", "n")
         terminal.until(lambda screen: "│▸1/" in screen, "the finding")
         terminal.press("q")
         terminal.ended(0)

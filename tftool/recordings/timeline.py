@@ -153,6 +153,12 @@ class Timeline:
     def __len__(self) -> int:
         return len(self.moments)
 
+    @property
+    def frames(self) -> frozenset[str]:
+        """Names of all frames of the recording."""
+        edges = self._transforms.edges
+        return frozenset(name for edge in edges for name in (edge.parent, edge.child))
+
     def place(self, moment: Stamp, *, after: bool = False) -> int:
         """Return the number of the first message at a time or later; with `after`, only later."""
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))

@@ -9,9 +9,11 @@ from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
 from textual.containers import Horizontal
+from textual.content import Content
 
-from tftool.base.plain_text import count
-from tftool.base.stamps import Duration, seconds
+from tftool.base.plain_text import count, visible
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.buffer.sample import FrameInfo
 from tftool.drawing.playback_line import (
     Playback,
     PlaybackMark,
@@ -155,6 +157,13 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         lists.styles.height = rows.styles.height
         rows.styles.height = "1fr"
 
+    def _present(self, now: Stamp, info: FrameInfo) -> FrameInfo:
+        """Return a frame's facts; its rate is not known before a second was played."""
+        # Between n samples are n - 1 periods.
+        is_short = info.buffer_length * info.samples < NEAR * (info.samples - 1)
+        present = super()._present(now, info)
+        return present._replace(samples=1) if is_short and info.samples > 1 else present
+
     def _tree_needs(self) -> int:
         return max(super()._tree_needs(), len(self._topics) + 2)
 
@@ -171,6 +180,11 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
 
     def _draw(self) -> None:
         super()._draw()
+        seen = {info.frame for info in self._seen[0].frames} if self._seen else set()
+        missing = sorted(self._player.frames - seen)
+        later = f"not yet: {visible(missing[0])}" if missing else ""
+        later += f" +{len(missing) - 1}" if len(missing) > 1 else ""
+        self.panel("rows").border_subtitle = Content(later)
         self._draw_playback()
 
     def _draw_playback(self) -> None:
@@ -215,13 +229,13 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         elif key in ("up", "down"):
             player.set_rate(player.rate * (FASTER if key == "up" else 1.0 / FASTER))
         elif key == "left" or sign in _SEEKS:
-            player.seek(player.position + _SEEKS.get(sign, -NEAR))
+            self._seek(player.position + _SEEKS.get(sign, -NEAR))
         elif sign in ("n", "N"):
             now = player.position - player.start
             # During playback, shortly after a finding still counts as being at the finding.
             to = after(self._findings, now) if sign == "n" else before(self._findings, now - AT)
             if to is not None:
-                player.seek(player.start + to)
+                self._seek(player.start + to)
         elif sign in ("0", "r") or key == "home":
             player.seek(player.start)
             if sign == "r":
@@ -229,3 +243,9 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         else:
             return False
         return True
+
+    def _seek(self, moment: Stamp) -> None:
+        # Rates and ages are of the time that was played: not of the time that was skipped.
+        if moment > self._player.position:
+            self.world.buffer.clear()
+        self._player.seek(moment)

@@ -39,6 +39,7 @@ class Player(Node):
         rate: Seconds of the recording per real second.
         is_paused: Whether the player is paused.
         laps: Number of restarts.
+        frames: Names of all frames of the recording.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -79,7 +80,7 @@ class Player(Node):
             feed: Player of the recording's topics other than tf.
         """
         super().__init__(world, name)
-        self._timeline = timeline
+        self._timeline, self.frames = timeline, timeline.frames
         self._pace = pace
         self.start, self.end = span or (timeline.start, timeline.end)
         self.rate = rate
