@@ -6,15 +6,22 @@ else, such as `TransformStamped` and the exceptions, so that their results can b
 
 import importlib
 import os
+import pkgutil
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import tftool
+import tftool.buffer
 from tftool.base.native import SWITCH
 from tftool.buffer.native_kernel import IS_NATIVE
 
 SHARED = {"tftool.buffer.sample", "tftool.buffer._kernel"}
+
+# The names are listed once, as a process has thousands of modules and a test changes over often.
+TWINS = {
+    "tftool.buffer",
+    *(one.name for one in pkgutil.walk_packages(tftool.buffer.__path__, "tftool.buffer.")),
+} - SHARED
 
 REASON = "no native kernel is built here, or TFTOOL_PURE is set: there is one path only"
 
@@ -29,7 +36,7 @@ def is_native() -> bool:
 @contextmanager
 def pure() -> Iterator[None]:
     """Make `tftool.buffer` the plain copy inside this block, for all later imports."""
-    ours = {name: module for name, module in sys.modules.items() if _is_twin(name)}
+    ours = {name: sys.modules[name] for name in TWINS if name in sys.modules}
     package, switch = tftool.buffer, os.environ.get(SWITCH)
     for name in ours:
         del sys.modules[name]
@@ -39,7 +46,7 @@ def pure() -> Iterator[None]:
         tftool.buffer = importlib.import_module("tftool.buffer")
         yield
     finally:
-        _copies.update((name, module) for name, module in sys.modules.items() if _is_twin(name))
+        _copies.update((name, sys.modules[name]) for name in TWINS if name in sys.modules)
         for name in _copies:
             sys.modules.pop(name, None)
         sys.modules.update(ours)
@@ -48,10 +55,6 @@ def pure() -> Iterator[None]:
             del os.environ[SWITCH]
         else:
             os.environ[SWITCH] = switch
-
-
-def _is_twin(name: str) -> bool:
-    return name.split(".")[:2] == ["tftool", "buffer"] and name not in SHARED
 
 
 class Twins:
