@@ -25,7 +25,7 @@ def chain(length, lead="f"):
 
 def test_every_frame_has_one_line_with_short_numbers():
     assert lines(WORLD) == [
-        "at 1012.500       broadcaster     rate    kept    oldest    newest     age",
+        "at 1012.500       broadcaster     rate  stored    oldest    newest     age",
         "world",
         "├── turtle1       b1           62.6 Hz  10.0 s  1002.484  1012.484  0.02 s",
         "│   └── carrot1   publisher     static",
@@ -36,7 +36,7 @@ def test_every_frame_has_one_line_with_short_numbers():
 def test_columns_go_one_by_one_as_the_width_shrinks():
     kept = [set(lines(WORLD, width)[0].split()[2:]) for width in range(100, 29, -1)]
 
-    assert kept[0] == {"broadcaster", "rate", "kept", "oldest", "newest", "age"}
+    assert kept[0] == {"broadcaster", "rate", "stored", "oldest", "newest", "age"}
     assert kept[-1] == {"age"}
     assert all(
         after <= before and len(before) - len(after) <= 1 for before, after in pairwise(kept)

@@ -92,6 +92,7 @@ def test_a_small_terminal_has_all_topics_in_a_line_each():
     assert len(told) < 24
     assert max(map(cell_len, told)) <= 80
     assert sum("5.0 Hz  sender → x" in line for line in told) == 9
+    assert "Topics (10), from → to" in told
     assert "  spawn, turtle1/set_pen" in told
     assert told[-1] == "  and 1 topics, 1 services of parameters and actions (--verbose)"
     assert len(session.lines(found, width=80, height=60)) > 24
@@ -104,5 +105,5 @@ def test_the_arrow_between_long_lists_of_nodes_is_never_cut():
 
     told = [line.plain for line in session.lines(found, width=80, height=24)]
 
-    assert sum(" → " in line for line in told) == 12
+    assert sum(line.count(" +2 → ") and line.endswith(" +2") for line in told) == 12
     assert max(map(cell_len, told)) <= 80

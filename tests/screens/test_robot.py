@@ -105,6 +105,13 @@ def test_arrows_slide_the_chosen_joint_between_its_limits(shown, mover):
     assert mover.given["reach"] == 5.0
 
 
+def test_a_bar_grows_by_half_a_cell(shown):
+    bars = [row(shown("c", "down", *["right"] * steps), "reach") for steps in range(3)]
+
+    assert len(set(bars)) == 3
+    assert {"╾" in bar for bar in bars} == {True, False}
+
+
 def test_small_steps_are_a_tenth(shown, mover):
     shown("down", ".", ".", ",")
 

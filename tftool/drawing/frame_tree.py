@@ -328,7 +328,7 @@ def _rate(info: FrameInfo) -> str:
     return "-" if info.samples < 2 else short_rate(info.rate)
 
 
-_KEPT = _measured(lambda info: short_duration(info.buffer_length))
+_STORED = _measured(lambda info: short_duration(info.buffer_length))
 _OLDEST = _measured(lambda info: time_of_day(info.oldest))
 _NEWEST = _measured(lambda info: time_of_day(info.newest))
 _AGE = _measured(lambda info: short_duration(info.age))
@@ -493,7 +493,7 @@ def _link_columns(
     return [
         TableColumn("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, goes=4),
         TableColumn("rate", rates, stands_right=True, goes=5),
-        TableColumn("kept", cells(_KEPT), stands_right=True, goes=3),
+        TableColumn("stored", cells(_STORED), stands_right=True, goes=3),
         TableColumn("oldest", cells(_OLDEST, "dim"), stands_right=True, goes=1),
         TableColumn("newest", cells(_NEWEST, "dim"), stands_right=True, goes=2),
         TableColumn("age", ages, stands_right=True, goes=6),

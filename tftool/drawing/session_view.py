@@ -8,7 +8,7 @@ from rich.cells import cell_len
 from rich.text import Text
 
 from tftool.base.plain_text import visible
-from tftool.drawing.table_columns import TableColumn, fit, middle_cut, wrap_words
+from tftool.drawing.table_columns import TableColumn, fit, middle_cut, padded, wrap_words
 
 ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
 """Role of a process in the session, in words."""
@@ -106,16 +106,19 @@ def _brief(
     shown = {name: one for name, one in topics.items() if "/_action/" not in name}
     arrow = "->" if ascii_only else "→"
     most = max(16, (writer.width or 80) // 2)
+    room = most - cell_len(arrow) - 2
+    left = [_few(one["publishers"], room // 2, writer.more) for one in shown.values()]
+    widest = max(map(cell_len, left), default=0)
+    right = [_few(one["subscribers"], room - widest, writer.more) for one in shown.values()]
     ways = [
-        (_way(_names(one["publishers"], "-"), _names(one["subscribers"], "-"), arrow, most), "dim")
-        for one in shown.values()
+        (f"{padded(senders, widest)} {arrow} {receivers}", "dim")
+        for senders, receivers in zip(left, right, strict=True)
     ]
-    told = writer.heading("Topics", len(topics)) + writer.rows(
+    rates = [(f"{one['rate']:.1f} Hz", "" if one["rate"] else "dim") for one in shown.values()]
+    told = writer.heading("Topics", len(topics), f", from {arrow} to")
+    told += writer.rows(
         [visible(name) for name in shown],
-        [
-            TableColumn("", [(f"{one['rate']:.1f} Hz", "") for one in shown.values()], True),
-            TableColumn("", ways, caps=(most, 16), goes=1),
-        ],
+        [TableColumn("", rates, True), TableColumn("", ways, caps=(most, 16), goes=1)],
     )
     names = [
         visible(name)
@@ -132,13 +135,14 @@ def _brief(
     return told
 
 
-def _way(senders: str, receivers: str, arrow: str, width: int) -> str:
-    """Return an arrow from senders to receivers; each side is cut, so that the arrow stays."""
-    room = width - len(arrow) - 2
-    left = min(cell_len(senders), max(room // 2, room - cell_len(receivers)))
-    more = "~" if arrow.isascii() else "…"
-    cut = middle_cut(senders, left, more=more), middle_cut(receivers, room - left, more=more)
-    return f" {arrow} ".join(cut)
+def _few(nodes: Iterable[str], width: int, more: str) -> str:
+    """Return the names of nodes; if they are too long, the first name and the number of others."""
+    names = _names(nodes, "-")
+    first, *others = names.split(", ")
+    if others and cell_len(names) > width:
+        rest = f" +{len(others)}"
+        return middle_cut(first, max(1, width - len(rest)), more=more) + rest
+    return middle_cut(names, width, more=more)
 
 
 class _Writer:
@@ -149,9 +153,9 @@ class _Writer:
         self.more = more
 
     @staticmethod
-    def heading(what: str, count: int) -> list[Text]:
+    def heading(what: str, count: int, more: str = "") -> list[Text]:
         """Return a heading with the kind of the listed things and their number."""
-        return [Text(f"{what} ({count})", style="bold")]
+        return [Text.assemble((f"{what} ({count})", "bold"), (more, "dim"))]
 
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()

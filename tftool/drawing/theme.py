@@ -33,6 +33,9 @@ _PALETTE = (
 )
 
 
+_SALT = "371"
+
+
 def blend(start: Color, end: Color, share: float) -> Color:
     """Mix two colours; `share` 0 gives `start`, 1 gives `end`."""
     return Color(
@@ -46,13 +49,18 @@ def of_name(name: str) -> Color:
     """Return a name's colour, the same in every run on every machine.
 
     Names that end in a number use successive colours: `turtle1` and `turtle2` never look alike.
+    `_SALT` was chosen so that neighbours among the usual names differ: map, odom, base_link, world.
     """
     stem = name.rstrip("0123456789")
     number = name[len(stem) :][-9:]
     if number.isascii() and number:
-        start = 0 if stem == "turtle" else zlib.crc32(stem.encode("utf-8", "replace"))
+        start = 0 if stem == "turtle" else _hash(stem)
         return _PALETTE[(start + int(number) - 1) % len(_PALETTE)]
-    return _PALETTE[zlib.crc32(name.encode("utf-8", "replace")) % len(_PALETTE)]
+    return _PALETTE[_hash(name) % len(_PALETTE)]
+
+
+def _hash(name: str) -> int:
+    return zlib.crc32(f"{_SALT}{name}".encode("utf-8", "replace"))
 
 
 def hexadecimal(color: Color) -> str:

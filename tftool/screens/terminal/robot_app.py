@@ -421,10 +421,14 @@ class RobotApp(PanelApp):
 
 def _bar(one: Slider, width: int, look: Look) -> str:
     """Draw a joint's slider, `width` cells wide."""
-    left, right, track, knob = "[]-o" if look.ascii_only else "├┤─●"
+    left, right, track = "[]-" if look.ascii_only else "├┤─"
     room = max(3, width - 2)
     share = one.share
     if share is None:
         return left + track * room + right
-    place = round(share * (room - 1))
-    return left + track * place + knob + track * (room - 1 - place) + right
+    if look.ascii_only:
+        place = round(share * (room - 1))
+        return left + track * place + "o" + track * (room - 1 - place) + right
+    # The heavy line ends in half cells, so that a small step is visible.
+    whole, half = divmod(max(1, round(2 * room * share)), 2)
+    return left + "━" * whole + "╾" * half + track * (room - whole - half) + right

@@ -99,7 +99,7 @@ class SpacePanel(Panel):
             return
         view = self.camera.view(picture, corners_of(picture), width, height)
         follows = f", follows {self.camera.follows}" if self.camera.follows else ""
-        self.border_subtitle = Content(f"{self.camera.name}{follows}")
+        self.border_subtitle = Content(f"view: {self.camera.name}{follows}")
         self.show(self._canvas.lines(picture, view))
 
     def _tones(self) -> Tones:

@@ -101,6 +101,9 @@ KEYS = f"""\
  /            only frames with the letters typed; Esc: all of them
 
 {SPACE_KEYS}
+ stored       time between a frame's oldest and newest transform here
+ age          time since a frame's newest transform
+
  m            light or dark
  ? or Esc     close these keys
  q            quit

@@ -169,6 +169,8 @@ class TurtleApp(PanelApp):
         """Start the regular updates of the screen."""
         self.screen.set_class(not self.setting.colors, "mono")
         self.panel("field").focus()
+        sign = "*" if self.setting.ascii_only else "◎"
+        self.panel("tree").border_subtitle = Content(f"{sign} measured from")
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
 
     def on_resize(self, event: events.Resize) -> None:
