@@ -40,7 +40,7 @@ def test_a_recording_is_drawn_at_eighty_columns(tftool, run):
         "rotation, °  roll 0  pitch 0  yaw 124.2",
     ]
     assert lines[2].startswith("         2│")
-    assert lines[-1].split() == ["0", "10", "20", "s"]
+    assert lines[-1].split() == ["0", "5", "10", "15", "20", "s"]
 
 
 def test_a_recording_is_drawn_as_high_as_the_terminal(run, monkeypatch, capsys):

@@ -334,7 +334,7 @@ def axis_labels(low: float, high: float, columns: int, unit: str = "s") -> str:
     """Format the labels of a horizontal axis: round numbers, and the unit at the end."""
     # A tick slightly outside the data is written at the edge.
     slack = 0.02 * (high - low)
-    found = round_ticks(low, high, max(3, columns // 14))
+    found = round_ticks(low, high, max(3, columns // 12))
     ticks = [tick for tick in found if low - slack <= tick <= high + slack]
     line = [" "] * columns
     end = 0

@@ -36,6 +36,9 @@ Tones = Literal["full", "few", "none"]
 MOST_NAMED: Final = 40
 """Largest number of names that are written."""
 
+LETTERED_FROM: Final = 15
+"""Smallest number of rows of a picture whose axes have letters."""
+
 MOST_LETTERED: Final = 4
 """Most frames whose axes have letters; more letters would hide the frames."""
 
@@ -497,7 +500,7 @@ class SpaceCanvas:
         """Write x, y and z at the ends of the axes of a few frames; return a mask of the cells."""
         written = np.zeros((self.rows, self.columns), bool)
         # On a coloured robot, letters would hide the robot, and the colours name the axes.
-        if self._has_halves and (drawing.depth.owners >= 0).any():
+        if self.rows < LETTERED_FROM or (self._has_halves and (drawing.depth.owners >= 0).any()):
             return written
         for letter, layer in zip("xyz", drawing.layers[-3:], strict=True):
             for start, end in layer.ends[:, :, :2] if len(layer.ends) <= MOST_LETTERED else ():
