@@ -402,6 +402,13 @@ def test_frames_above_each_other_are_labelled_with_their_heights():
     assert "z 3 m" not in drawn(5.0)
 
 
+def test_the_ground_below_high_frames_is_larger_than_two_steps_around_them():
+    frames = SpaceFrame("A", Transform()), SpaceFrame("B", Transform((0, 0, 4.5)), "A")
+    below = text(cells(SpacePicture("A", frames), columns=160, rows=50)[-12:])
+
+    assert sum("\u2800" < sign <= "\u28ff" for sign in below) > 300
+
+
 def test_axes_of_many_frames_are_shorter_so_that_they_overlap_less():
     def blue(count):
         lines = cells(SpacePicture("root", tuple(spread(count))), columns=160, rows=60)

@@ -357,10 +357,12 @@ def _layers(
 def _ground(picture: SpacePicture, view: Viewpoint, *, sparse: bool) -> npt.NDArray[np.float64]:
     """Return the lines of the ground grid under the frames, or its crossings, shape (n, 2, 3)."""
     step = view.grid
-    places = np.array([one.pose.translation[:2] for one in picture.frames]).reshape(-1, 2)
-    places = places if len(places) else np.zeros((1, 2))
-    low = np.floor(places.min(0) / step) - 2
-    high = np.ceil(places.max(0) / step) + 2
+    places = np.array([one.pose.translation for one in picture.frames]).reshape(-1, 3)
+    places = places if len(places) else np.zeros((1, 3))
+    # Below high frames, a small ground would not look like the ground.
+    around = 2 + np.floor(0.2 * np.ptp(places[:, 2]) / step)
+    low = np.floor(places[:, :2].min(0) / step) - around
+    high = np.ceil(places[:, :2].max(0) / step) + around
     # Frames may be kilometres apart: only the part near the middle is drawn.
     middle = view.middle[:2] / step
     low, high = np.maximum(low, np.floor(middle) - 60), np.minimum(high, np.ceil(middle) + 60)
