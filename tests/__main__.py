@@ -11,33 +11,37 @@ import sys
 from pathlib import Path
 
 PYTHON = [sys.executable, "-m"]
-# Many tests wait for other processes, so three at a time keep two processors busy.
-WHOLE = ["-n3", "--dist=worksteal"]
+# Many tests wait for other processes, so five at a time keep two processors busy.
+WHOLE = ["-n5", "--dist=worksteal"]
 COVERAGE = [*WHOLE, "--cov", "--cov-report=term", "--cov-fail-under=90"]
 
 CHECKS = [
     [*PYTHON, "ruff", "format", "--check", "."],
     [*PYTHON, "ruff", "check", "."],
     [str(Path(sys.executable).with_name("lint-imports"))],
-    [*PYTHON, "mypy"],
     [*PYTHON, "tests.prose"],
 ]
+TYPES = [*PYTHON, "mypy"]
 
 
 def main(words: list[str]) -> int:
-    """Run every check, the tests last; stop at the first check that fails."""
+    """Run every check, the tests last; stop at the first that fails, but report the types too."""
     # Several workers share the processors. numpy's BLAS would start a thread for each processor in
     # each process, and these threads wait busily at first.
     environment = {"OPENBLAS_NUM_THREADS": "1", **os.environ}
     root = Path(__file__).resolve().parent.parent
     # A selection of tests covers only a part of the code, so coverage is judged for all tests.
     tests = [*PYTHON, "pytest", *(COVERAGE if words == ["--coverage"] else words or WHOLE)]
-    for command in [*CHECKS, tests]:
-        print("$", *command, flush=True)  # noqa: T201
-        status = subprocess.run(command, cwd=root, env=environment, check=False).returncode
-        if status:
-            return status
-    return 0
+    # The types need a minute of one processor, and the tests leave some of two free.
+    with subprocess.Popen(TYPES, cwd=root, stdout=subprocess.PIPE, text=True) as types:
+        status = 0
+        for command in [*CHECKS, tests]:
+            print("$", *command, flush=True)  # noqa: T201
+            status = subprocess.run(command, cwd=root, env=environment, check=False).returncode
+            if status:
+                break
+        print("$", *TYPES, types.communicate()[0], sep=" ", flush=True)  # noqa: T201
+    return status or types.returncode
 
 
 if __name__ == "__main__":
