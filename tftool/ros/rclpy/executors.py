@@ -308,11 +308,12 @@ class Executor:
             yield from (one for one in seat.entities if not isinstance(one, Timer))
 
     def _is_ready(self, entity: NodeEntity) -> bool:
-        if not self._counts(entity):
+        # Most entities have no work, so that question comes first.
+        if not (entity.ready() and self._counts(entity)):
             return False
         if isinstance(entity, Timer) and self._program.strict and not self._has_turn(entity.due):
             return False
-        return entity.ready() and self._may_run(entity)
+        return self._may_run(entity)
 
     def _counts(self, entity: NodeEntity) -> bool:
         return self.spins_once or not entity.only_ends_spin_once
