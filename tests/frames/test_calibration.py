@@ -66,15 +66,15 @@ def test_mount_join_and_offset_are_within_the_required_figures():
 
 def test_intervals_hold():
     inside = []
-    for seed in range(20):
+    for seed in range(12):
         made = world(seed, seconds=30.0, rates=(50.0, 20.0), noise=(0.01, 0.5))
         found = solved(made)
         shift, turn = errors(found.mount, made.mount)
         inside += list(np.abs(shift) <= found.interval95.translation)
         inside += list(np.abs(turn) <= found.interval95.rotation_deg)
 
-    # The intervals should contain 95 %; fewer than 100 of 120 would be a fault, not bad luck.
-    assert sum(inside) >= 100
+    # The intervals should contain 95 %; fewer than 60 of 72 would be a fault, not bad luck.
+    assert sum(inside) >= 60
 
 
 def test_outliers_lose_their_weight():

@@ -28,8 +28,11 @@ FLAGS = [
     # The browser contacts only the page's own server.
     "--disable-background-networking",
     "--disable-component-update",
-    # Between two pages, Chromium may not recognise 127.0.0.1 as the same machine.
-    "--disable-features=LocalNetworkAccessChecks",
+    # Between two pages, Chromium may not recognise 127.0.0.1 as the same machine; and it would
+    # keep the pages of earlier tests.
+    "--disable-features=LocalNetworkAccessChecks,BackForwardCache",
+    # A page starts sooner in the process of the page before.
+    "--renderer-process-limit=1",
     "--disable-quic",
     "--disable-sync",
     "--no-first-run",
