@@ -214,6 +214,16 @@ def test_axes_and_names_are_drawn_through_solids(picture):
     assert "ball" in text(lines)
 
 
+def test_the_line_from_a_name_does_not_hide_an_axis():
+    robot = """<robot name="a"><link name="base_link"><visual><geometry>
+    <cylinder radius="0.2" length="0.6"/></geometry></visual></link></robot>"""
+    solids, _ = solids_of(parse_description(robot).links.values(), MeshFolders())
+    frames = (SpaceFrame("base_link", Transform()),)
+    lines = cells(SpacePicture("base_link", frames, solids), columns=54, rows=27)
+
+    assert inks(lines, theme.hexadecimal(theme.paper(theme.DARK).x_axis)) >= 3
+
+
 def test_frames_at_one_place_share_a_label(picture):
     shared = next(line for line in text(cells(picture)).splitlines() if "base" in line)
 

@@ -550,12 +550,13 @@ class SpaceCanvas:
             one, _ = named[placed.label.name]
             color = theme.readable(theme.of_name(one.name), palette)
             inks.append(packed(theme.of_age(color, one.age, palette)))
-        # In the colour of its name, up to the origin: a line cut short would point elsewhere.
+        # In the colour of its name, up to the axes at the origin, which the line does not hide.
         leaders = Dots(self.columns, self.rows)
         far = np.array([placed.is_far for placed in found], bool)
         ends = np.array([_leader(placed) for placed in found], float).reshape(-1, 2, 2)
         leaders.draw(ends[far], np.array(inks, np.int64)[far])
-        leaders.masks[letters] = 0
+        axes = self._dotted(drawing, drawing.layers[-3:]).masks > 0
+        leaders.masks[letters | axes] = 0
         sheet.lay(leaders, ascii_only=self._ascii)
         for placed, ink in zip(found, inks, strict=True):
             one, _ = named[placed.label.name]
