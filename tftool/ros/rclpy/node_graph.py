@@ -195,8 +195,9 @@ class NodeGraph:
     # Services
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """Return every service's name with its type, if the type is known."""
-        return self.__look(lambda: _listed(self.__served()))
+        """Return the name of every service that has a server or a client, with the known types."""
+        clients = self._tftool.world.clients
+        return self.__look(lambda: _listed(chain(self.__served(), _held(None, clients, CLIENT))))
 
     def __served(self, by: str | None = None) -> Iterator[tuple[str, str]]:
         """Yield (name, type) of each service, or of the services of one node."""
@@ -245,9 +246,11 @@ class NodeGraph:
 
 
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
-    """Return (name, types) of every action with a server."""
+    """Return (name, types) of every action that has a server or a client."""
     seat = seat_of(node)
-    found: NamesAndTypes = seat.program.ask(lambda: _listed(_served_actions(None, seat)))
+    found: NamesAndTypes = seat.program.ask(
+        lambda: _listed(chain(_served_actions(None, seat), _sought_actions(None, seat)))
+    )
     return found
 
 
@@ -279,11 +282,11 @@ def _node_names(seat: NodeSeat) -> list[str]:
     return [*(one.name for one in seat.world.nodes if one.is_shown), *seat.world.far_nodes]
 
 
-def _held(node: str, ends: Endpoints, role: Role) -> Iterator[tuple[str, str]]:
-    """Yield (name, type) of each topic or service for which a node has an endpoint."""
+def _held(node: str | None, ends: Endpoints, role: Role) -> Iterator[tuple[str, str]]:
+    """Yield (name, type) of each endpoint in one role, of one node or of all (None)."""
     for name in ends.topics():
         for end in ends.of(name, role):
-            if end.node == node:
+            if node in (None, end.node):
                 yield name, end.interface
 
 
@@ -293,7 +296,7 @@ def _served_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]
             yield name, interface_name(offer.kind)
 
 
-def _sought_actions(by: str, seat: NodeSeat) -> Iterator[tuple[str, str]]:
+def _sought_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]:
     for name, kind in _held(by, seat.world.clients, CLIENT):
         if name.endswith("/_action/send_goal"):
             yield name.removesuffix("/_action/send_goal"), kind.removesuffix("_SendGoal")
