@@ -70,7 +70,7 @@ class Page:
 
     def until(self, condition):
         """Wait until `condition()` is true; return its value."""
-        return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.02).until(
+        return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.1).until(
             lambda _: condition()
         )
 

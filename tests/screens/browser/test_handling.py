@@ -369,7 +369,9 @@ OVERPRINTS = """
       // What is cut with an ellipsis ends where its box does.
       const end = Math.min(right, element.getBoundingClientRect().right);
       const seen = document.elementFromPoint((left + end) / 2, (top + bottom) / 2);
-      const covered = seen && !seen.contains(element) && !element.contains(seen);
+      // What lets clicks through, as the banner does, is never found at its own place.
+      const clicks = getComputedStyle(element).pointerEvents !== "none";
+      const covered = clicks && seen && !seen.contains(element) && !element.contains(seen);
       boxes.push({ text: node.data.trim(), left, right: end, top, bottom, covered });
     }
     const bad = boxes
