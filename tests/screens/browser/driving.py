@@ -70,9 +70,7 @@ class Page:
 
     def until(self, condition):
         """Wait until `condition()` is true; return its value."""
-        return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.1).until(
-            lambda _: condition()
-        )
+        return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.1).until(lambda _: condition())
 
     def find(self, selector):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
