@@ -539,3 +539,73 @@ def test_a_sensor_in_an_unknown_frame_by_the_wall_clock_is_no_error():
     kind, rows = made.heard["/told"]
     made.heard["/told"] = (kind, [(*row, "nowhere") for *row, _ in rows])
     assert found(made, "clock-mixture").severity is Severity.WARNING
+
+
+def test_a_slash_that_the_transforms_of_an_old_robot_have_too_is_a_note():
+    for slashed, severity in ((400, Severity.NOTE), (0, Severity.WARNING)):
+        made = Robot(kind="ROS 1 bag")
+        made.moving("odom", "base_link")
+        made.slashed["odom", "base_link", False] = slashed
+        made.hears("/odom", "/odom", kind="nav_msgs/Odometry")
+        assert found(made, "slash-twins").severity is severity
+    assert found(made, "slash-twins").message == "/odom names /odom, tf knows odom"
+
+
+def test_only_a_frame_with_the_name_of_a_mount_lacks_a_static_transform():
+    for frame, told in (("LHR-FD35", "unknown-frame"), ("imu_link", "static-missing")):
+        made = Robot()
+        made.moving("vive", "LHR-0A11")
+        made.hears("/imu", frame, kind="sensor_msgs/Imu")
+        assert ids(made) == [told]
+        texts = [fix.text for fix in found(made, told).fixes]
+        assert any("/tf_static" in text for text in texts) is (told == "static-missing")
+
+
+def test_a_marker_seen_once_among_markers_seen_often_may_be_a_false_detection():
+    made = Robot()
+    made.hears("/image", "camera", kind="sensor_msgs/Image")
+    made.moving("camera", "marker_0")
+    made.sent("camera", "marker_367", 4.0)
+    finding = found(made, "single-sample")
+    assert finding.evidence[0].endswith("; marker_0 400 times")
+    assert "false detection" in finding.fixes[0].text
+
+
+def test_each_frame_that_jumps_has_a_length_of_its_own():
+    made = robot()
+    for child, far in (("arm", 1.0), ("hand", 3.0)):
+        made.moving("base_link", child, pose=lambda t, f=far: (f * (t > 4.0), 0.0, 0.0, *NO_TURN))
+        made.hears(f"/{child}/scan", child)
+    assert found(made, "teleport").message == (
+        "arm in base_link jumps 1.00 m within 20 ms, hand in base_link jumps 3.00 m within 20 ms"
+    )
+
+
+def test_played_data_that_is_over_is_a_note():
+    for node, severity in (("/odometry", Severity.WARNING), ("/play_1473819595216", Severity.NOTE)):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", end=0.6, node=node + "038503" * ("play" in node))
+        made.hears("/scan", "laser", end=0.6)
+        evidence = made.evidence()
+        ended = replace(evidence, end=evidence.start + seconds(20.0))
+        finding = next(one for one in judge(ended).findings if one.id == "edge-stopped")
+        assert finding.severity is severity
+        assert ("a player published it" in finding.fixes[0].text) is (severity is Severity.NOTE)
+
+
+def test_replays_of_several_parts_among_live_data_are_no_loop():
+    made = Robot()
+    made.moving("odom", "base_link")
+    made.moving("base_link", "arm")
+    first = [(edge, list(rows)) for edge, rows in made.records.items()]
+    # The first five seconds come again after 12 s, and the first two after 18 s.
+    for log, length in ((12.0, 5.0), (18.0, 2.0)):
+        for edge, rows in first:
+            for stamp, pose, _ in rows[: round(50 * length)]:
+                at = (stamp - made.log(0.0)) / 1e9
+                made.sent(*edge[:2], log + at, pose, stamp=stamp)
+    finding = found(made, "time-jump-back")
+    assert finding.message == (
+        "time went back by 4.98 s to 7.98 s, 2 times: data was played again among live data"
+    )
+    assert finding.fixes[0].command.startswith("tftool edit RECORDING -o PART --record-time --to")

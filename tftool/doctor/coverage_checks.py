@@ -11,7 +11,7 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.gap_checks import gap, holes
-from tftool.doctor.missing_joins import has_base, is_moving_frame
+from tftool.doctor.missing_joins import has_base, is_mount
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_checks import stands_still
@@ -25,10 +25,10 @@ check = checks_of(Area.COVERAGE)
 @check(
     "static-missing",
     Severity.ERROR,
-    rule="no static topic has a message, and messages are in frames that tf does not know. A "
-    "warning without a scan, a point cloud or a range among them, or without a base frame in tf. "
-    "Not reported if there is no static topic and constants are sent on /tf, as in "
-    "early ROS 1",
+    rule="no static topic has a message, and messages are in frames that tf does not know, and "
+    "that the description or a name such as laser_link shows as mounts. A warning without a scan, "
+    "a point cloud or a range among them, or without a base frame in tf. Not reported if there is "
+    "no static topic and constants are sent on /tf, as in early ROS 1",
     headline="no transform names {frames}: {why}",
     detail="messages are in {frames}, which no transform names",
     consequence="these messages cannot be placed",
@@ -52,7 +52,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
         if heard.is_spatial
         and heard.frame
         and heard.frame.removeprefix("/") not in model.frames
-        and not is_moving_frame(model, heard.frame)
+        and is_mount(model, heard.frame.removeprefix("/"))
     ]
     if not unknown:
         return

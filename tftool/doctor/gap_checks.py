@@ -10,8 +10,8 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
 from tftool.doctor.findings import STOPPED_PERIODS, Area, Fact, Fix, Hit, Severity
 from tftool.doctor.missing_joins import is_world
-from tftool.doctor.model import WARM_UP, Limits, Model
-from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, last_part, rate
+from tftool.doctor.model import WARM_UP, Limits, Model, is_player
+from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, family, last_part, rate
 from tftool.doctor.wording import several
 
 check = checks_of(Area.COVERAGE)
@@ -42,13 +42,12 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
     "share of {share:g}, before the recording's end, while other streams continue; of "
     "{samples:g} samples or more, except detections of a camera that have no children. A warning "
-    "if all moving transforms end, or if a recording has no later scan, point cloud or range in "
-    "the frame or below it; then a note for a frame without children, or a part "
-    "of a robot unless it moved and has been silent for 60 s",
+    "if all moving transforms end (a note if a player's data was over), or if a recording has no "
+    "later scan, point cloud or range in the frame or below it; then a note for a frame without "
+    "children, or a part of a robot unless it moved and has been silent for 60 s",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
-    fixes=(Fix("check whether its publisher still runs: `{publishers} {tf_topic}`"),),
     causes=(
         "a node that crashed",
         "a lost sensor",
@@ -64,7 +63,8 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
 def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
     """A transform ends long before the recording does."""
     length = model.end - model.start
-    alive: list[Track | Heard] = [*model.dynamic, *model.heard]
+    alive: list[Track | Heard] = [*model.dynamic]
+    alive += [heard for heard in model.heard if not heard.type.startswith(_REPORTS)]
     latest = max((int(one.logs[-1]) for one in alive if len(one.logs)), default=model.start)
     for track in model.dynamic:
         if len(track.stamps) < limits["samples"]:
@@ -80,11 +80,16 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if _is_detection(model, track):
             continue
         # If all links end at once, as when a session's host exits, it is not the fault of one link.
-        if latest - last <= least and last - model.start > _AT_ONCE * length:
+        all_end = latest - last <= least
+        if all_end and last - model.start > _AT_ONCE * length:
             continue
+        cure = f"check whether its publisher still runs: `{{publishers}} {track.topics[0]}`"
+        is_played = any(is_player(node) for node in track.nodes)
+        if is_played:
+            cure = "a player published it: look whether the played recording ends there"
         severity, ended = None, int(track.stamps.max())
         if not any(other.logs[-1] - last > least for other in model.dynamic):
-            severity = Severity.WARNING
+            severity = Severity.NOTE if is_played and all_end else Severity.WARNING
         elif model.evidence.recorded and not _needed_in(model, track, ended, NEVER):
             is_part = model.is_minor(track) or (
                 len(model.below(track.child)) == 1 and last_part(track.child) not in BASES
@@ -104,6 +109,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
             until=model.end,
             count=1,
             severity=severity,
+            fixes=(Fix(cure),),
         )
 
 
@@ -124,6 +130,9 @@ def _needed_in(model: Model, track: Track, begin: int, end: int) -> int:
         if last_part(heard.type) in PLACED and heard.frame.removeprefix("/") in below
     )
 
+
+_REPORTS = ("rosgraph_msgs/", "rcl_interfaces/", "diagnostic_msgs/")
+"""Packages of messages about nodes, which go on when the data of a robot is over."""
 
 _SILENT = 60 * NANOSECONDS
 """Silence, nanoseconds, after which a part that moved has stopped without doubt."""
@@ -474,7 +483,7 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="a transform on a dynamic topic was sent once; a note for a frame in map, odom or world "
     "if no message with a position is in it or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
-    detail="{edge}: at {stamp:moment}",
+    detail="{edge}: at {stamp:moment}{beside}",
     consequence="one sample answers only for its own stamp, and only while the cache keeps it",
     causes=("a mount sent with a TransformBroadcaster",),
     why="tf2 interpolates between two samples and never extrapolates from one",
@@ -487,13 +496,31 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame with one sample only."""
     for track in model.dynamic:
         if len(track.stamps) == 1 and len(track.by_stamp) == 1:
+            beside, fixes = "", ()
+            alike = [other for other in model.dynamic if _is_sibling(track, other)]
+            if alike and _is_detection(model, track):
+                names = [f"{one.child} {count(len(one.stamps), 'time')}" for one in alike]
+                beside = f"; {several(names, 3)}"
+                fixes = (Fix("probably a false detection: look whether the object was there"),)
             yield hit_of(
                 track,
-                {"stamp": int(track.stamps[0])},
+                {"stamp": int(track.stamps[0]), "beside": beside},
                 topics=track.topics,
                 count=1,
                 severity=None if _is_used(model, track) else Severity.NOTE,
+                fixes=fixes,
+                group=beside,
             )
+
+
+def _is_sibling(track: Track, other: Track) -> bool:
+    """Whether an edge with many samples has the parent and the kind of name of another."""
+    alike = (other.parent, family(other.child)) == (track.parent, family(track.child))
+    return alike and len(other.stamps) >= _OFTEN
+
+
+_OFTEN = 50
+"""Number of detections of other objects beside which a single detection is suspicious."""
 
 
 @check(

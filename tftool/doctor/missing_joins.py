@@ -1,5 +1,6 @@
 """Proposals for missing transforms, from the data or the robot description."""
 
+import re
 import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -78,7 +79,7 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
         if found is not None:
             return found
     base = next((one for tree in model.trees if (one := base_of(tree))), "")
-    if model.lacks_statics and is_moving_frame(model, name):
+    if model.lacks_statics and not is_mount(model, name):
         return None
     if is_world(name) or not any(last_part(kind) in _MOUNTED for kind in kinds):
         return None
@@ -111,13 +112,20 @@ def has_base(model: Model) -> bool:
     return any(base_of(tree) for tree in model.trees)
 
 
-def is_moving_frame(model: Model, name: str) -> bool:
-    """Whether an unknown frame is probably the robot itself, which no static transform places.
+def is_mount(model: Model, name: str) -> bool:
+    """Whether an unknown frame is probably fixed to the robot, by the description or its name.
 
-    This is so for a robot's base, and for any frame if tf knows no part of the robot.
+    A robot's base is not, and no frame is if tf knows no part of the robot.
     """
     around = all(is_world(frame) or last_part(frame).startswith("odom") for frame in model.frames)
-    return around or last_part(name) in BASES
+    if around or last_part(name) in BASES:
+        return False
+    return name in model.described or _MOUNT.search(last_part(name).lower()) is not None
+
+
+_MOUNT = re.compile(
+    r"link|sensor|laser|lidar|scan|velodyne|imu|cam|optical|depth|gps|gnss|navsat|sonar|radar"
+)
 
 
 def is_world(name: str) -> bool:

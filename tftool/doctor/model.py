@@ -175,8 +175,7 @@ class Model:
     @cached_property
     def was_played(self) -> bool:
         """Whether `rosbag play` published some of the data, by the name of its node."""
-        nodes = (last_part(one.node) for one in self.evidence.publishers)
-        return any(re.fullmatch(r"play_\d{15,}|rosbag2_player", node) for node in nodes)
+        return any(is_player(one.node) for one in self.evidence.publishers)
 
     @cached_property
     def words(self) -> Mapping[str, str]:
@@ -532,6 +531,11 @@ class Model:
         stamps, logs = (np.concatenate(columns) for columns in zip(*kept, strict=True))
         order = np.argsort(logs, kind="stable")
         return np.maximum.accumulate(stamps[order]), logs[order]
+
+
+def is_player(node: str) -> bool:
+    """Whether a node plays a recording, by the name that `rosbag play` and `ros2 bag play` use."""
+    return re.fullmatch(r"play_\d{15,}|rosbag2_player", last_part(node)) is not None
 
 
 def _copies(one: Stream, other: Stream) -> bool:

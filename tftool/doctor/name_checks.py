@@ -49,10 +49,7 @@ MOST_COMPARED = 300_000
     links=threads("Ekumen-OS/andino_gz#43", "ros2/ros2_documentation#5222", "osrf/vrx#876"),
     needs=("headers",),
     why="such lookups fail at every time",
-    because_of=(
-        ("anything", "static-missing"),
-        ("frame", "slash-twins namespace-twins case-twins typo-twins"),
-    ),
+    because_of=(("frame", "static-missing slash-twins namespace-twins case-twins typo-twins"),),
 )
 def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages are in a frame that no transform mentions."""
@@ -196,8 +193,8 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
     "slash-twins",
     Severity.ERROR,
     rule="a frame in a header begins with a slash, and tf knows the name without it. In ROS 1 a "
-    "warning: its tf strips the slash",
-    headline="{topic} names {frame}, tf knows {known}",
+    "warning, as its tf strips the slash; a note if the transforms have the slash too",
+    headline="{topic} names {frame}, {tf}",
     detail="{topic}: {frame}, {count:times}",
     consequence="every direct tf2 lookup refuses (message filters and tf 1 strip the slash): "
     "\"in tf2 frame_ids cannot start with a '/'\"",
@@ -211,17 +208,22 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
 )
 def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages name /x, tf knows x: every direct tf2 lookup refuses."""
+    is_old = is_ros1(model.evidence)
     for heard in model.heard:
-        if heard.frame.startswith("/") and heard.frame[1:] in model.frames:
+        known = heard.frame[1:]
+        if heard.frame.startswith("/") and known in model.frames:
+            slashed = [t.slashed == len(t.all_stamps) for t in model.tracks if known in t.edge]
+            severity = Severity.NOTE if all(slashed) else Severity.WARNING
             yield Hit(
-                frames=(heard.frame, heard.frame[1:]),
+                frames=(heard.frame, known),
                 topics=(heard.topic,),
                 since=int(heard.logs[0]) if len(heard.logs) else None,
                 count=len(heard.stamps),
-                severity=Severity.WARNING if is_ros1(model.evidence) else None,
+                severity=severity if is_old else None,
                 facts={
                     "frame": heard.frame,
-                    "known": heard.frame[1:],
+                    "known": known,
+                    "tf": "as the transforms do" if all(slashed) else f"tf knows {known}",
                     "topic": heard.topic,
                     "count": len(heard.stamps),
                 },

@@ -8,10 +8,10 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Fact, Fix, Hit, Severity
-from tftool.doctor.model import Limits, Model
+from tftool.doctor.model import LAP, Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import Heard, Mask, Places, Track, last_part, unsorted_share
-from tftool.doctor.wording import span
+from tftool.doctor.wording import moment, span
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.CLOCKS)
@@ -264,7 +264,7 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
     "time-jump-back",
     Severity.ERROR,
     rule="within 1 s, at least two streams and half of all step back by more than 1 s",
-    headline="time went back by {back:span}, {count:times}{loop}",
+    headline="time went back by {steps}, {count:times}{loop}",
     detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
     "streams; all that follows is about what came before",
     consequence="{jumped_back}",
@@ -283,10 +283,18 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
     if not model.laps:
         return
     first = model.laps[0]
-    is_loop = _is_played_again(model)
-    text = "look at what stepped at that time: a simulation, a player, or a clock"
-    if is_loop:
-        text = "play it once ({loop_option}), or restart the listeners at each lap"
+    steps = sorted(lap.before - lap.after for lap in model.laps)
+    is_loop = steps[-1] - steps[0] < max(LAP, 0.1 * steps[-1])
+    loop, fix = "", Fix("look at what stepped at that time: a simulation, a player, or a clock")
+    if _is_played_again(model):
+        loop = ": a recording was played in a loop"
+        fix = Fix("play it once ({loop_option}), or restart the listeners at each lap")
+        if not is_loop:
+            loop = f": data was played again{_beside_live_data(model)}"
+            fix = Fix(
+                "cut the recording where time goes back; the first part is:",
+                f"tftool edit RECORDING -o PART --record-time --to {moment(first.log - 1_000_000)}",
+            )
     yield Hit(
         since=first.log,
         until=model.laps[-1].log,
@@ -298,11 +306,19 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
             "back": first.before - first.after,
             "streams": first.streams,
             "count": len(model.laps),
-            "loop": ": a recording was played in a loop" if is_loop else "",
+            "steps": " to ".join(dict.fromkeys((span(steps[0]), span(steps[-1])))),
+            "loop": loop,
         },
-        fixes=(Fix(text),),
+        fixes=(fix,),
         alone=True,
     )
+
+
+def _beside_live_data(model: Model) -> str:
+    """Return words for live data among data that was played again; empty without live data."""
+    late = np.concatenate([track.all_logs - track.all_stamps for track in model.dynamic])
+    shares = float(np.mean(np.abs(late) < LAP)), float(np.mean(late > 10 * LAP))
+    return " among live data" if min(shares) > 0.1 else ""
 
 
 def _is_played_again(model: Model) -> bool:

@@ -153,7 +153,7 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
     "{samples:g} samples or more of one publisher. A note for a part of a robot that no sensor "
     "message is in. Of a localiser, {corrections:g} steps or more that move the robot by "
     "{corrected:g} m, without an initial pose",
-    headline="{where} {concerned:jumps|jump} {far}{how}",
+    headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
     causes=(
@@ -235,16 +235,17 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         worst = int(jumps[np.argmax(turned[jumps])])
     is_odometry = last_part(track.parent).startswith("odom")
     usual = float(np.median(apart[later] / gaps[later]))
+    far = metres(float(apart[worst])) if moved[worst] else f"{np.degrees(turned[worst]):.3g}°"
+    how = f" within {span(gaps[worst] * NANOSECONDS)}"
     return hit_of(
         track,
         {
             "jump": float(apart[worst]),
             "turn": float(turned[worst]),
-            "far": metres(float(apart[worst]))
-            if moved[worst]
-            else f"{np.degrees(turned[worst]):.3g}°",
+            "far": far,
+            "named": f"{track.name} jumps {far}{how}",
             "within": int(gaps[worst] * NANOSECONDS),
-            "how": f" within {span(gaps[worst] * NANOSECONDS)}",
+            "how": how,
             "at": int(track.stamps[others[worst]]),
             "usual": f"; usual {usual:.2g} m/s" if usual else "",
             "after": f"; each at most {span(after)} after a message of {topic}" if topic else "",
@@ -294,14 +295,19 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
         return None
     worst = int(steps[moved[steps].argmax()])
     turned = track.turned(some[[worst]], others[[worst]])
+    far = f"by up to {metres(float(moved[worst]))}"
+    how = (
+        f", {len(steps)} times by more than {limits['corrected']:g} m: its localiser corrects it "
+        "again and again"
+    )
     return hit_of(
         track,
         {
             "jump": float(moved[worst]),
             "turn": float(turned[0]),
-            "far": f"by up to {metres(float(moved[worst]))}",
-            "how": f", {len(steps)} times by more than {limits['corrected']:g} m: its localiser "
-            "corrects it again and again",
+            "far": far,
+            "how": how,
+            "named": f"{track.name} jumps {far}{how}",
             "at": int(track.stamps[others[worst]]),
             "usual": "",
             "after": ", measured at the robot",
