@@ -453,3 +453,23 @@ def test_a_fixed_frame_that_is_not_recorded_names_the_root_that_is():
     made.moving("world", "drone")
     assert "the root of all frames in tf is world" in asked(made, "odom", "drone", 5.0).why
     assert not any("root" in one for one in asked(made, "world", "arm", 5.0).why)
+
+
+def test_a_tree_without_a_map_lacks_the_parent():
+    made = robot()
+    made.moving("map", "odom")
+    for number in range(5):
+        made.moving("camera_frame", f"tag_{number}", 4.0)
+    found = asked(made, "base_link", "tag_0", 4.0)
+    assert found.why[0].startswith("camera_frame has no parent")
+    assert "join camera_frame" in found.remedies[0].text
+
+
+def test_both_unknown_names_are_told_and_a_slash_comes_last():
+    made = robot()
+    made.hears("/gps", "/world", kind="nav_msgs/Odometry")
+    found = asked(made, "world", "gps", 4.0)
+    assert "no transform names gps either" in found.why
+    first, second = (remedy.text for remedy in found.remedies)
+    assert "publishes world: start the node that should" in first
+    assert second.startswith('and set frame_id to "world"')

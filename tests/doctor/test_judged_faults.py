@@ -609,3 +609,29 @@ def test_replays_of_several_parts_among_live_data_are_no_loop():
         "time went back by 4.98 s to 7.98 s, 2 times: data was played again among live data"
     )
     assert finding.fixes[0].command.startswith("tftool edit RECORDING -o PART --record-time --to")
+
+
+def test_a_tag_that_jumps_by_metres_between_detections_is_told():
+    for parent, told in (("camera", ["teleport"]), ("world", [])):
+        made = Robot()
+        made.moving(
+            parent, "tag0", 4.0, lambda t: (0.1 * t, 0.0, 5.0 + int(t) * 1.7 % 4.1, *NO_TURN)
+        )
+        assert ids(made) == told
+        if told:
+            finding = found(made, "teleport")
+            assert "by up to 2.40 m, 7 times by more than 1 m within 1 s" in finding.message
+            assert "seen at 5 m to 8.7" in finding.evidence[0]
+
+
+def test_a_transform_that_falls_behind_for_a_time_is_a_warning_beside_data_in_time():
+    for late, told in ((0.6, ["stale-stamp"]), (0.2, [])):
+        made = robot()
+        made.moving("world", "block", end=3.0)
+        made.moving("world", "block", begin=3.0, end=4.5, latency=late)
+        made.moving("world", "block", begin=4.5)
+        assert [one for one in ids(made) if one == "stale-stamp"] == told
+        if told:
+            finding = found(made, "stale-stamp")
+            assert finding.message.startswith("block in world is dated up to 600 ms before")
+            assert "/scan, base_link in odom arrive in time" in finding.fixes[0].text

@@ -1,5 +1,7 @@
 """Tests of the checks of names, each on a small robot."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 from tests.doctor.judged import found, ids
 from tests.doctor.robots import Robot, robot
 from tftool.doctor.findings import Severity
+from tftool.doctor.judge import judge
 from tftool.doctor.name_checks import distance
 
 
@@ -191,3 +194,12 @@ def test_a_frame_that_only_the_filtered_position_names_is_not_missed():
     assert ids(made, notes=True) == []
     made.hears("/gps/fix", "antenna", kind="sensor_msgs/NavSatFix")
     assert ids(made) == ["unknown-frame"]
+
+
+def test_transforms_of_a_type_that_tf2_does_not_read_are_told():
+    made = robot(scans=False)
+    evidence = made.evidence()
+    for kind, told in (("geometry_msgs/TransformStamped", ["wrong-type"]), ("tf/tfMessage", [])):
+        topics = tuple(replace(topic, type=kind) for topic in evidence.topics)
+        findings = judge(replace(evidence, topics=topics)).findings
+        assert [one.id for one in findings] == told

@@ -117,3 +117,33 @@ def test_a_single_number_that_is_none_is_no_error(wrong, severity):
     nan = (float("nan"), *rows[0][1][1:])
     rows[100 : 100 + wrong] = [(s, nan, m) for s, _, m in rows[100 : 100 + wrong]]
     assert found(made, "nan-transform").severity is severity
+
+
+def test_odometry_that_repeats_its_pose_with_new_stamps_moves_in_steps():
+    for repeats, speed, severity in (
+        (4, 0.5, Severity.WARNING),
+        (4, 0.02, Severity.NOTE),
+        (2, 0.5, None),
+    ):
+        made = robot(odometry=False, scans=False)
+        made.moving(
+            "odom",
+            "base_link",
+            20.0,
+            lambda t, r=repeats, v=speed: (v * (round(20.0 * t) // r) * r / 20.0, 0, 0, *NO_TURN),
+        )
+        told = [one for one in made.judged().findings if one.id == "repeated-pose"]
+        assert [one.severity for one in told] == ([severity] if severity else [])
+        if severity is Severity.WARNING:
+            assert "75 % of the samples" in told[0].message
+            assert "a new pose every 200 ms, 0.10 m" in told[0].evidence[0]
+
+
+def test_a_localiser_that_takes_back_the_odometry_is_told():
+    for share, told in ((1.0, ["odometry-cancelled"]), (0.1, [])):
+        made = robot()
+        made.moving("map", "odom", 10.0, lambda t, s=share: (-0.5 * s * t, 0.0, 0.0, *NO_TURN))
+        assert ids(made) == told
+    made = robot()
+    made.moving("map", "odom", 10.0, lambda t: (-0.5 * t, 0.0, 0.0, *NO_TURN))
+    assert "although it goes 2.00 m in odom" in found(made, "odometry-cancelled").message

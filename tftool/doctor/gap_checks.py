@@ -77,7 +77,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         above = model.parents.get(track.child)
         if above is not None and above.parent != track.parent:
             continue
-        if _is_detection(model, track):
+        if is_detection(model, track):
             continue
         # If all links end at once, as when a session's host exits, it is not the fault of one link.
         all_end = latest - last <= least
@@ -145,7 +145,7 @@ _SEEN = re.compile(
 )
 
 
-def _is_detection(model: Model, track: Track) -> bool:
+def is_detection(model: Model, track: Track) -> bool:
     """Whether an edge is probably an object that a camera detects, such as a marker.
 
     Its child has no children and no messages, and its name or its irregular rate fits a detection.
@@ -496,19 +496,19 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame with one sample only."""
     for track in model.dynamic:
         if len(track.stamps) == 1 and len(track.by_stamp) == 1:
-            beside, fixes = "", ()
+            beside, fixes = "", list[Fix]()
             alike = [other for other in model.dynamic if _is_sibling(track, other)]
-            if alike and _is_detection(model, track):
+            if alike and is_detection(model, track):
                 names = [f"{one.child} {count(len(one.stamps), 'time')}" for one in alike]
                 beside = f"; {several(names, 3)}"
-                fixes = (Fix("probably a false detection: look whether the object was there"),)
+                fixes.append(Fix("probably a false detection: look whether the object was there"))
             yield hit_of(
                 track,
                 {"stamp": int(track.stamps[0]), "beside": beside},
                 topics=track.topics,
                 count=1,
                 severity=None if _is_used(model, track) else Severity.NOTE,
-                fixes=fixes,
+                fixes=tuple(fixes),
                 group=beside,
             )
 

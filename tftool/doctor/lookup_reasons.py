@@ -12,7 +12,7 @@ from tftool.base.stamps import LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, S
 from tftool.doctor.clock_checks import cure_of_offset
 from tftool.doctor.coverage_checks import Waits, waits_of
 from tftool.doctor.gap_checks import edge_stopped
-from tftool.doctor.missing_joins import proposed_frame, proposed_join
+from tftool.doctor.missing_joins import is_world, proposed_frame, proposed_join
 from tftool.doctor.model import Model
 from tftool.doctor.name_checks import alike_frames, is_navsat_output
 from tftool.doctor.ros_words import in_words, is_ros1
@@ -138,6 +138,8 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
         "times"
         for heard in says
     ]
+    both = {trace.question.target, trace.question.source} - {name} - model.frames
+    why += [f"no transform names {other} either" for other in both]
     described = _described(model, name)
     if described is not None:
         return Reason(Cause.UNKNOWN_FRAME, (*why, described))
@@ -153,13 +155,13 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
     if join is not None:
         remedies.append(Remedy("join", join.fix.text, join.fix.command))
         why += [join.why] if join.why else []
-    if slashed:
-        text = f'and set frame_id to "{name}": no frame of tf2 begins with a slash'
-        remedies.append(Remedy("name", text))
     if not remedies:
         where = "this recording" if model.evidence.recorded else f"this {model.evidence.kind}"
         text = f"nothing in {where} publishes {name}: start the node that should, and record /tf"
         remedies.append(Remedy("publisher", text))
+    if slashed:
+        text = f'and set frame_id to "{name}": no frame of tf2 begins with a slash'
+        remedies.append(Remedy("name", text))
     return Reason(
         Cause.UNKNOWN_FRAME, tuple(why), tuple(remedies), ("a timeout: nothing publishes it",)
     )
@@ -170,6 +172,8 @@ def no_join(known: TraceResult) -> Reason:
     model, question = known.trace.model, known.trace.question
     ours, theirs = model.tree_of[question.source], model.tree_of[question.target]
     lesser, main = (ours, theirs) if len(ours.frames) <= len(theirs.frames) else (theirs, ours)
+    if is_world(lesser.root) and not is_world(main.root):
+        lesser, main = main, lesser  # the root of a map needs no parent
     used = sorted({h.topic for h in model.heard if h.frame in lesser.frames})
     by = f" (used by {', '.join(used)})" if used else ""
     join = proposed_join(model, main, lesser)

@@ -485,6 +485,27 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 @check(
+    "wrong-type",
+    Severity.WARNING,
+    rule="transforms on /tf or /tf_static are in messages of a type other than TFMessage",
+    headline="{topics} {topics:has|have} the type {type}, which tf2 does not read",
+    consequence="no listener receives these transforms: tf2 reads tf2_msgs/TFMessage only",
+    fixes=(Fix("send them with a TransformBroadcaster, or on another topic"),),
+    causes=("a publisher of single transforms whose topic was named /tf",),
+)
+def wrong_type(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Transforms on /tf have a type that tf2 does not read."""
+    by_type: dict[str, list[str]] = defaultdict(list)
+    for topic in model.evidence.topics:
+        if topic.transforms and topic.name in _USUAL_TOPICS:
+            by_type[topic.type].append(topic.name)
+    for kind, names in by_type.items():
+        if last_part(kind) == "TransformStamped":
+            facts = {"topics": names, "type": kind}
+            yield Hit(topics=tuple(names), facts=facts, alone=True)
+
+
+@check(
     "awkward-name",
     Severity.NOTE,
     rule="a name has blanks at its ends, invisible characters, a ~, more than {letters:g} "

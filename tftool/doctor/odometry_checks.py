@@ -10,7 +10,7 @@ from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import BASES, Track, last_part
 from tftool.doctor.wording import metres
-from tftool.geometry.rigid_arrays import angles_between, unit
+from tftool.geometry.rigid_arrays import Floats, angles_between, rotate, unit
 
 check = checks_of(Area.VALUES)
 
@@ -203,3 +203,90 @@ def negative_variance(model: Model, limits: Limits) -> Iterator[Hit]:
     for topic, (count, of, least) in model.evidence.negative.items():
         facts = {"topic": topic, "count": count, "of": of, "least": least}
         yield Hit(topics=(topic,), count=count, facts=facts)
+
+
+@check(
+    "repeated-pose",
+    Severity.NOTE,
+    rule="a share of {share:g} or more of a robot's odometry repeats the pose before it while the "
+    "robot moves, with new stamps; {samples:g} changes or more. A warning if the changes are "
+    "{metres:g} m or {degrees:g}° (median)",
+    headline="{where} {concerned:moves|move} in steps: while the robot moves, {repeated:%} of the "
+    "samples repeat the pose before",
+    detail="{edge}: a sample every {period:span}, a new pose every {every:span}, {jump:m} and "
+    "{turn:deg} further (medians)",
+    consequence="between two samples, the robot seems to stand or to move too fast: sensor data is "
+    "placed up to one step off",
+    causes=("a node that sends its last measurement at a higher rate than that of the encoders",),
+    fixes=(
+        Fix("look how often its publisher reads the encoders; stamp a pose when it was measured"),
+    ),
+    limits={"share": 0.6, "samples": 20, "metres": 0.01, "degrees": 2.0},
+    because_of=(("edge", "frozen-stamp repeated-stamp publisher-conflict"),),
+)
+def repeated_pose(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Odometry repeats its poses with new stamps."""
+    for track in model.dynamic:
+        if not last_part(track.parent).startswith("odom") or last_part(track.child) not in BASES:
+            continue
+        places = track.by_stamp
+        turned = track.turned(places[1:], places[:-1])
+        changes = np.flatnonzero((track.strides > 1e-6) | (turned > 1e-6))
+        apart = np.diff(changes)
+        moving = apart[apart <= _STANDS]
+        if len(moving) < limits["samples"]:
+            continue
+        repeated = 1.0 - len(moving) / int(moving.sum())
+        if repeated < limits["share"]:
+            continue
+        far, wide = float(np.median(track.strides[changes])), float(np.median(turned[changes]))
+        is_coarse = far > limits["metres"] or wide > np.radians(limits["degrees"])
+        facts = {
+            "repeated": repeated,
+            "period": track.period,
+            "every": int(np.median(moving)) * track.period,
+            "jump": far,
+            "turn": wide,
+        }
+        yield hit_of(track, facts, severity=Severity.WARNING if is_coarse else None)
+
+
+_STANDS = 8
+"""Number of samples with one pose after which a robot stands."""
+
+
+@check(
+    "odometry-cancelled",
+    Severity.WARNING,
+    rule="a robot gets more than {metres:g} m away in its odometry, and a localiser that changes "
+    "map to odom keeps the robot within {share:g} of that in the map (90 % of the time)",
+    headline="{child} stays within {stays:m} in {map}, although it goes {drives:m} in {odom}",
+    detail="{edge}: it changes against the odometry; {child} is that close to its "
+    "median position for 90 % of the time",
+    consequence="the robot does not move in the map, so that its pose there is wrong",
+    fixes=(Fix("look at the localiser: which pose it computes, and with which odometry"),),
+    limits={"metres": 1.5, "share": 0.05},
+)
+def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A localiser takes back the motion that the odometry measures."""
+    for track in model.dynamic:
+        for below in model.dynamic if track.is_localisation and len(track.by_stamp) else ():
+            if below.parent != track.child or last_part(below.child) not in BASES:
+                continue
+            newest = np.searchsorted(track.sorted_stamps, below.sorted_stamps, side="right") - 1
+            known = newest >= 0
+            rows = track.by_stamp[newest[known]]
+            in_odom = below.translations[below.by_stamp[known]]
+            in_map = track.translations[rows] + rotate(unit(track.rotations[rows]), in_odom)
+            drives, stays = _reach(in_odom, 100), _reach(in_map, 90)
+            if drives > limits["metres"] and stays < limits["share"] * drives:
+                facts = {"child": below.child, "map": track.parent, "odom": below.parent}
+                yield hit_of(track, {**facts, "stays": stays, "drives": drives}, alone=True)
+
+
+def _reach(positions: Floats, share: float) -> float:
+    """Return a percentile of the distances from the median position, metres; 0.0 for none."""
+    if not len(positions):
+        return 0.0
+    away = np.linalg.norm(positions - np.median(positions, axis=0), axis=1)
+    return float(np.percentile(away, share))

@@ -8,10 +8,10 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Fact, Fix, Hit, Severity
-from tftool.doctor.model import LAP, Limits, Model
+from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import Heard, Mask, Places, Track, last_part, unsorted_share
-from tftool.doctor.wording import moment, span
+from tftool.doctor.wording import moment, several, span
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.CLOCKS)
@@ -260,79 +260,6 @@ def sent_twice(model: Model, limits: Limits) -> Iterator[Hit]:
         yield hit_of(track, facts, fixes=(fix,))
 
 
-@check(
-    "time-jump-back",
-    Severity.ERROR,
-    rule="within 1 s, at least two streams and half of all step back by more than 1 s",
-    headline="time went back by {steps}, {count:times}{loop}",
-    detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
-    "streams; all that follows is about what came before",
-    consequence="{jumped_back}",
-    causes=(
-        "play --loop",
-        "a simulation was reset",
-        "NTP set the clock back while running",
-    ),
-    links=threads("ros2/geometry2#606", "ros/geometry2#43"),
-    needs=("log times",),
-    why="a looped recording would trigger forty other checks, so all of them use only the "
-    "first pass",
-)
-def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Time went back: a looped bag, a reset simulation."""
-    if not model.laps:
-        return
-    first = model.laps[0]
-    steps = sorted(lap.before - lap.after for lap in model.laps)
-    is_loop = steps[-1] - steps[0] < max(LAP, 0.1 * steps[-1])
-    loop, fix = "", Fix("look at what stepped at that time: a simulation, a player, or a clock")
-    if _is_played_again(model):
-        loop = ": a recording was played in a loop"
-        fix = Fix("play it once ({loop_option}), or restart the listeners at each lap")
-        if not is_loop:
-            loop = f": data was played again{_beside_live_data(model)}"
-            fix = Fix(
-                "cut the recording where time goes back; the first part is:",
-                f"tftool edit RECORDING -o PART --record-time --to {moment(first.log - 1_000_000)}",
-            )
-    yield Hit(
-        since=first.log,
-        until=model.laps[-1].log,
-        count=len(model.laps),
-        facts={
-            "moment": first.log,
-            "before": first.before,
-            "after": first.after,
-            "back": first.before - first.after,
-            "streams": first.streams,
-            "count": len(model.laps),
-            "steps": " to ".join(dict.fromkeys((span(steps[0]), span(steps[-1])))),
-            "loop": loop,
-        },
-        fixes=(fix,),
-        alone=True,
-    )
-
-
-def _beside_live_data(model: Model) -> str:
-    """Return words for live data among data that was played again; empty without live data."""
-    late = np.concatenate([track.all_logs - track.all_stamps for track in model.dynamic])
-    shares = float(np.mean(np.abs(late) < LAP)), float(np.mean(late > 10 * LAP))
-    return " among live data" if min(shares) > 0.1 else ""
-
-
-def _is_played_again(model: Model) -> bool:
-    """Whether transforms come again, bit for bit, with the stamps that they had before."""
-    fewest = again = 0
-    for track in model.dynamic:
-        rows = np.ascontiguousarray(track.records).view("V64").ravel()
-        parts = np.unique(rows[: track.lap]), np.unique(rows[track.lap :])
-        # The recorder may have begun or ended in the middle of a lap.
-        fewest += min(len(part) for part in parts)
-        again += len(np.intersect1d(*parts, assume_unique=True))
-    return again > 0.9 * fewest > 0
-
-
 _NOETIC = seconds(1_590_000_000)
 """Time since which ROS 1 has a tf2 that prints TF_REPEATED_DATA: May 2020."""
 
@@ -441,9 +368,11 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="the median latency is above {transforms:g} s for a transform or {messages:g} s for "
     "messages. A warning if another topic shows where the delay arises: one with the same stamps, "
     "or one from which the late topic is made, arrives in time, or Odometry brings the poses of a "
-    "transform in time whose latency is above {odometry:g} s",
-    headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
-    detail="{what}: {late:span} late (median){varies}",
+    "transform in time whose latency is above {odometry:g} s; or if one sample in ten of a moving "
+    "transform is later than {tenth:g} s and {often:g} times the median, and other data is in time",
+    headline="{where} {concerned:is|are} dated {upto}{late:span} before {concerned:its|their} "
+    "arrival",
+    detail="{what}: {late:span} late ({of}){varies}",
     consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
     causes=(
         "the stamp is copied from an old measurement",
@@ -451,7 +380,13 @@ def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
         "a slow network",
     ),
     links=threads("cartographer-project/cartographer_ros#143"),
-    limits={"transforms": STALE_AFTER, "messages": 2.0, "odometry": 0.2},
+    limits={
+        "transforms": STALE_AFTER,
+        "messages": 2.0,
+        "odometry": 0.2,
+        "tenth": 0.25,
+        "often": 4.0,
+    },
     needs=("log times",),
     because_of=(
         ("anything", "time-jump-back"),
@@ -472,6 +407,8 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             yield told
         elif track.median_latency > least:
             yield _late(model, track)
+        elif (late := _falls_behind(model, track, limits)) is not None:
+            yield late
     for heard in model.heard:
         # A latched message may be old, and without motion an old message is as good as a new one.
         if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
@@ -479,6 +416,43 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         if heard.median_latency > limits["messages"] * NANOSECONDS and not stands_still(heard):
             yield _late(model, heard)
 
+
+def _falls_behind(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if some samples of a moving transform are late, and other data is in time."""
+    if track.is_localisation or not track.moves or len(track.stamps) < _FEWEST_LATE:
+        return None
+    usual, tenth = (int(one) for one in np.percentile(track.latency, (50, 90)))
+    if tenth < max(limits["tenth"] * NANOSECONDS, limits["often"] * usual):
+        return None
+    late = np.flatnonzero(track.latency >= tenth)
+    others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
+    others += [one for one in model.dynamic if one is not track]
+    prompt = [
+        other.name
+        for other in others
+        if len(other.stamps) > _FEWEST_LATE
+        and 4 * np.abs(np.percentile(other.latency, (5, 95))).max() < tenth
+    ]
+    if not prompt:
+        return None
+    facts: dict[str, Fact] = {
+        "what": track.name,
+        "upto": "up to ",
+        "late": int(track.latency.max()),
+        "of": "at most",
+        "varies": f"; one in ten {span(tenth)} or more, usually {span(usual)}",
+    }
+    when = f"from {moment(int(track.logs[late[0]]))} to {moment(int(track.logs[late[-1]]))}"
+    cure = f"look at its publisher and the network {when}: {several(prompt, 3)} arrive in time"
+    return hit_of(
+        track, facts, severity=Severity.WARNING, count=len(late), fixes=(Fix(cure),), alone=True
+    )
+
+
+_MEDIAN = {"upto": "", "of": "median"}
+
+_FEWEST_LATE = 50
+"""Minimum number of samples of a transform of which one in ten can be late."""
 
 _STEADY = seconds(0.1)
 """Maximum variation, from 10 % to 90 % quantile, of a delay that no queue causes."""
@@ -512,7 +486,7 @@ def _in_time(model: Model, track: Track, least: float) -> Hit | None:
         if np.mean(same[0] | same[1]) < _SAME_POSES:
             continue
         topic = other.topics[0]
-        facts = {"what": track.name, "late": track.median_latency, "varies": ""}
+        facts = {"what": track.name, "late": track.median_latency, "varies": "", **_MEDIAN}
         cure = (
             f"{topic} brings the same poses {span(latency)} after their stamps: the node that "
             "sends both stamps the transform with an older time"
@@ -547,7 +521,7 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
                 f"{other.topic} has the same stamps, {span(other.median_latency)} late: these "
                 "messages wait on their way, and no clock is wrong"
             )
-    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies}
+    facts = {"what": stream.name, "late": stream.median_latency, "varies": varies, **_MEDIAN}
     if not shown:
         return hit_of(stream, facts, fixes=() if varies else (COMPARE_CLOCKS,))
     return hit_of(stream, facts, severity=Severity.WARNING, fixes=(Fix(shown),))

@@ -8,14 +8,15 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.doctor.check import REP103, REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import base_of, quoted
+from tftool.doctor.gap_checks import is_detection
+from tftool.doctor.missing_joins import base_of, is_world, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import BASES, ZERO_QUATERNION, Places, Track, last_part
 from tftool.doctor.wording import metres, span
 from tftool.geometry.quaternions import IDENTITY, Triple, angle_between, multiply, rotate
+from tftool.geometry.rigid_arrays import Floats, rotation_vectors, unit
 from tftool.geometry.rigid_arrays import rotate as rotate_all
-from tftool.geometry.rigid_arrays import rotation_vectors, unit
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.VALUES)
@@ -152,7 +153,8 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
     "after a position message) or {few:g} of them; of "
     "{samples:g} samples or more of one publisher. A note for a part of a robot that no sensor "
     "message is in. Of a localiser, {corrections:g} steps or more that move the robot by "
-    "{corrected:g} m, without an initial pose",
+    "{corrected:g} m, without an initial pose. Of an object that a camera detects, "
+    "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s",
     headline="{named}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
@@ -179,6 +181,7 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
         "samples": 10,
         "corrections": 3,
         "corrected": 0.5,
+        "detected": 1.0,
     },
     why="steady motion has a usual speed; more jumps than that are noise, or two publishers",
     because_of=(
@@ -199,6 +202,7 @@ def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
         for number in (0,) if senders is None else np.unique(senders).tolist():
             places = track.by_stamp if senders is None else track.by_stamp[senders == number]
             hit = _jump(model, track, places, limits) if len(places) >= limits["samples"] else None
+            hit = hit or _poor_detections(model, track, limits)
             if hit is not None:
                 yield hit
 
@@ -293,30 +297,58 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
         steps = steps[1:]
     if len(steps) < limits["corrections"]:
         return None
-    worst = int(steps[moved[steps].argmax()])
-    turned = track.turned(some[[worst]], others[[worst]])
-    far = f"by up to {metres(float(moved[worst]))}"
-    how = (
-        f", {len(steps)} times by more than {limits['corrected']:g} m: its localiser corrects it "
-        "again and again"
+    how = f"{limits['corrected']:g} m: its localiser corrects it again and again"
+    also = "; the localiser may be lost"
+    return _repeated_jumps(track, steps, moved, (how, ", measured at the robot", also))
+
+
+def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Return a hit if an object jumps by metres between its detections; else None."""
+    if is_world(track.parent) or len(track.by_stamp) < 2 or not is_detection(model, track):
+        return None
+    gaps = np.diff(track.sorted_stamps) / NANOSECONDS
+    steps = np.flatnonzero(
+        (track.strides > limits["detected"]) & (track.strides > 2.0 * gaps) & (gaps < 1.0)
     )
+    if len(steps) < limits["corrections"]:
+        return None
+    away = np.linalg.norm(track.translations[track.by_stamp], axis=1)
+    after = f"; seen at {away.min():.3g} m to {metres(float(away.max()))}"
+    return _repeated_jumps(
+        track, steps, track.strides, (f"{limits['detected']:g} m within 1 s", after, "")
+    )
+
+
+def _repeated_jumps(track: Track, steps: Places, moved: Floats, words: tuple[str, str, str]) -> Hit:
+    """Return a hit about several steps of an edge.
+
+    Args:
+        track: The edge.
+        steps: Numbers of the steps.
+        moved: Lengths of all steps in the order of stamps, metres.
+        words: Words about the number of steps, the longest step, and the consequence.
+    """
+    places = track.by_stamp
+    worst = int(steps[moved[steps].argmax()])
+    far = f"by up to {metres(float(moved[worst]))}"
+    how = f", {len(steps)} times by more than {words[0]}"
     return hit_of(
         track,
         {
             "jump": float(moved[worst]),
-            "turn": float(turned[0]),
+            "turn": float(track.turned(places[[worst]], places[[worst + 1]])[0]),
             "far": far,
             "how": how,
             "named": f"{track.name} jumps {far}{how}",
-            "at": int(track.stamps[others[worst]]),
+            "at": int(track.stamps[places[worst + 1]]),
             "usual": "",
-            "after": ", measured at the robot",
+            "after": words[1],
             "count": len(steps),
-            "also": "; the localiser may be lost",
+            "also": words[2],
             "mixed": True,
         },
-        since=int(track.logs[others[steps[0]]]),
-        until=int(track.logs[others[steps[-1]]]),
+        since=int(track.logs[places[steps[0] + 1]]),
+        until=int(track.logs[places[steps[-1] + 1]]),
         count=len(steps),
         fixes=(_list_steps(track),),
     )
