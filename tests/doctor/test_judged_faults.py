@@ -552,7 +552,12 @@ def test_a_slash_that_the_transforms_of_an_old_robot_have_too_is_a_note():
 
 
 def test_only_a_frame_with_the_name_of_a_mount_lacks_a_static_transform():
-    for frame, told in (("LHR-FD35", "unknown-frame"), ("imu_link", "static-missing")):
+    for frame, told in (
+        ("LHR-FD35", "unknown-frame"),
+        ("camera_init", "unknown-frame"),
+        ("imu_link", "static-missing"),
+        ("camera", "static-missing"),
+    ):
         made = Robot()
         made.moving("vive", "LHR-0A11")
         made.hears("/imu", frame, kind="sensor_msgs/Imu")

@@ -124,8 +124,10 @@ def is_mount(model: Model, name: str) -> bool:
 
 
 _MOUNT = re.compile(
-    r"link|sensor|laser|lidar|scan|velodyne|imu|cam|optical|depth|gps|gnss|navsat|sonar|radar"
+    r"link|sensor|laser|lidar|scan(?!match)|range|velodyne|hokuyo|ouster|livox|imu|optical|depth"
+    r"|cam(?!era_init)|stereo|kinect|gps|gnss|navsat|antenna|sonar|ultra|radar|bumper"
 )
+"""Words in the names of mounts; camera_init and scanmatcher_frame are moving frames."""
 
 
 def is_world(name: str) -> bool:
