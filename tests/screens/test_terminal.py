@@ -503,6 +503,25 @@ def test_the_tree_lists_the_frames_that_the_picture_draws(frames, monkeypatch):
     visit(scene, (200, 60), steps)
 
 
+def test_the_numbers_beside_every_picture_belong_to_its_moment(frames, monkeypatch):
+    monkeypatch.setattr(turtle_app, "LOOKS_PER_SECOND", 1e-6)
+    monkeypatch.setattr(turtle_app, "REST", 0.0)
+    scene = frames({})
+    now = scene.world.clock.now()
+
+    async def steps(app, pilot):
+        for place in (1.0, 2.0, 3.0, 4.0):
+            link = TransformStamped(now + seconds(place), "map", "base", Transform((place, 0, 0)))
+            scene.world.broadcast([link], "me")
+            app.look_again()
+            await pilot.pause()
+            beside = "\n".join(told(screen(app)))
+            assert f"xyz   {place:7.3f}" in beside
+            assert f"distance {place:.3f} m" in beside
+
+    visit(scene, (120, 40), steps)
+
+
 def test_frames_that_come_later_get_a_line_of_the_tree(frames):
     scene = frames({"a": ("map", 1.0, 1.0)})
 

@@ -16,7 +16,6 @@ from textual.content import Content
 
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, seconds
-from tftool.drawing import theme
 from tftool.screens.terminal import panel_text as keys
 from tftool.screens.terminal import panel_text as panels
 from tftool.screens.terminal.log_lines import Journal
@@ -31,14 +30,12 @@ from tftool.screens.terminal.text_style import wrapped
 from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 
-LOOKS_PER_SECOND = 15
-PANELS_EVERY = 3
-"""Number of pictures after which the text beside the field is drawn again."""
+LOOKS_PER_SECOND = 12
 
 WITH_WRAPPED_LOG = 36
 """Smallest number of rows with the newest log message wrapped rather than cut."""
 
-REST = 6.0
+REST = 5.0
 """Pause after a picture, in multiples of the time that the picture took. With the terminal's own
 drawing, 0.4 times as long again, the demo stays below a quarter of a core."""
 
@@ -128,9 +125,6 @@ class TurtleApp(PanelApp):
         self._question = SceneQuestion(scene, self.setting.pair)
         self._question.at = self.setting.at
         self._stale = True
-        self._painted: object = None
-        self._aged: dict[str, float] = {}
-        self._count = 0
         self._back = 0
         self._strip = 1
         self._rest_until = 0.0
@@ -216,12 +210,11 @@ class TurtleApp(PanelApp):
         self._rest_until = loop.time() + REST * (loop.time() - began)
 
     def _look(self) -> None:
-        self._count += 1
         if self._idle is not None and (self._question.at is not None or self._is_over()):
             # The turtle draws no curve while the user sees the past, the help or the scenarios.
             self._idle.touch()
         self.scene.look()
-        self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
+        self._draw()
 
     def keys_told(self) -> str:
         """Return the help for the keys that work on this screen."""
@@ -232,9 +225,9 @@ class TurtleApp(PanelApp):
     def redraw(self) -> None:
         """Draw everything that has changed."""
         self._stale = True
-        self.guarded(lambda: self._draw(panels_too=True))
+        self.guarded(self._draw)
 
-    def _draw(self, *, panels_too: bool) -> None:
+    def _draw(self) -> None:
         if not self.is_running or not self.panel("header").is_attached:
             return
         width, height = self.size
@@ -248,11 +241,6 @@ class TurtleApp(PanelApp):
         has_grown = False
         if question.at is None or self._stale or moment is None:
             frames = 0 if moment is None else len(moment.snapshot.frames)
-            simulator = self.scene.simulator
-            painted = simulator.revision if simulator and simulator.turtles else None
-            if not (panels_too or painted != self._painted or painted is None):
-                return
-            self._painted = painted
             moment = question.ask()
             has_grown = len(moment.snapshot.frames) != frames
             if has_grown:
@@ -261,12 +249,9 @@ class TurtleApp(PanelApp):
             moment = question.wait(moment)
         # The tree's new size is only known after the next update.
         self._stale = has_grown
+        # All panels show one moment: never a number beside a picture that has moved on.
         self._draw_field(moment)
-        aged = {name: age // 1 for name, age in moment.ages.items() if theme.is_stale(age)}
-        # The picture and the panels must show the same frames, and the same ages.
-        if panels_too or has_grown or aged != self._aged:
-            self._aged = aged
-            self._draw_panels(moment)
+        self._draw_panels(moment)
 
     def _draw_field(self, moment: SceneMoment) -> None:
         field = self.field
