@@ -77,3 +77,16 @@ def test_nanoseconds_are_refused_with_what_they_are_in_seconds():
         "1750000002.123456789."
     )
     assert moment("1750000002.123456789") == At(1750000002123456789, is_stamp=True)
+
+
+@pytest.mark.parametrize("command", ["demo", "monitor", "play", "plot", "robot", "teleop", "tree"])
+def test_every_command_with_a_screen_has_the_same_options_for_its_terminal(tftool, command):
+    told = tftool(command, "--help").out
+
+    assert "--ascii" in told
+    assert "--light" in told
+
+
+def test_a_tree_is_printed_in_ascii_if_wanted(tftool):
+    assert tftool("tree", "static", "--ascii").out.isascii()
+    assert not tftool("tree", "static").out.isascii()

@@ -25,6 +25,7 @@ from tftool.commands.shared.on_screen import (
     run_app,
     scene_of,
     screen_lacks,
+    screen_setting,
     simulator_of,
 )
 from tftool.commands.shared.options import refuse_long_simulation
@@ -39,7 +40,6 @@ from tftool.scenario.scenario import Scenario
 from tftool.scenario.summary import as_json, play_through, written
 from tftool.screens.still_frames import first_look
 from tftool.screens.terminal.scene import Scene
-from tftool.screens.terminal.screen_options import Setting
 from tftool.world.clock import Phase
 from tftool.world.link.session_world import shared
 from tftool.world.nodes.recorder import recorded
@@ -72,17 +72,13 @@ def _show(
         await live(_end(options, world))
 
     driver = None if connection.read_only else driver_of(world, "turtle1")
-    setting = _setting(options, f"tftool demo, in {found.session.name}")
+    setting = screen_setting(options, f"tftool demo, in {found.session.name}")
     return run_app(scene_of(world), life(), driver, setting)
 
 
 def _end(options: DemoOptions, world: World) -> Stamp | None:
     """Return the end of the demo, counted from now; called when the screen has started."""
     return None if options.lasting is None else world.clock.now() + options.lasting
-
-
-def _setting(options: DemoOptions, title: str) -> Setting:
-    return Setting(title=title, ascii_only=options.ascii_only, light=options.light)
 
 
 def _show_hosted(
@@ -109,7 +105,7 @@ def _show_hosted(
         # When another process joins, the turtle stops, so that only that process drives it.
         idle = IdleDrawing(world, is_alone=lambda: link is None or not link.graph.processes())
     setting = replace(
-        _setting(options, f"tftool demo {chosen.name}"),
+        screen_setting(options, f"tftool demo {chosen.name}"),
         pair=("turtle2", dict(chosen.arguments).get("source_frame", "turtle1")),
         scenarios=None if options.recording is not None else builtin.abouts,
     )
@@ -142,8 +138,8 @@ def _show_recording(connection: Connection, options: DemoOptions, word: str) -> 
         await shown.clock.sleep_until(frames.span[1], Phase.WATCH)
         await asyncio.get_running_loop().create_future()
 
-    setting = _setting(options, f"tftool demo {visible(Path(word).name)}")
-    setting = replace(setting, at=first_look(frames))
+    title = f"tftool demo {visible(Path(word).name)}"
+    setting = screen_setting(options, title, at=first_look(frames))
     scene = Scene(shown)
     if frames.robot is not None:
         robot = frames.robot

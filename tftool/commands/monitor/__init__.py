@@ -4,8 +4,10 @@ from tftool.base.stamps import Duration
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     OUTPUT,
+    Ascii,
     CacheTime,
     Json,
+    Light,
     RunFor,
     argument,
     flag,
@@ -37,5 +39,7 @@ class MonitorOptions(Command, looks_only=True, recordings=True):
     as_tf2: bool = flag(
         "Print the numbers that tf2_monitor prints, with the same errors.", "--tf2", panel=OUTPUT
     )
+    ascii_only: Ascii = False
+    light: Light = False
     for_programs: Json = False
     cache_time: CacheTime = None

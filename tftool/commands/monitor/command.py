@@ -26,7 +26,7 @@ from tftool.commands.monitor import MonitorOptions
 from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import name_frames, notice
-from tftool.commands.shared.on_screen import screen_lacks
+from tftool.commands.shared.on_screen import ScreenOptions, screen_lacks, screen_setting
 from tftool.commands.shared.pair_wait import PairWait
 from tftool.commands.shared.pairs import FramePair
 from tftool.commands.shared.terminal import Redrawing, can_redraw
@@ -38,7 +38,6 @@ from tftool.opener import named
 from tftool.recordings.contract import Stamps
 from tftool.recordings.timeline import Due, Timeline
 from tftool.screens.terminal.panel_text import bar, title_bar
-from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.text_style import Look
 from tftool.world.clock import Phase, pace_of
 from tftool.world.supervisor import beside
@@ -61,13 +60,17 @@ class ReportStyle(Enum):
 class TrafficReport:
     """Received transforms, the delay of one pair of frames, and their output as a report."""
 
-    def __init__(self, frames: tuple[str, str] | None, style: ReportStyle) -> None:
+    def __init__(
+        self, frames: tuple[str, str] | None, style: ReportStyle, options: ScreenOptions
+    ) -> None:
         """Create an empty report.
 
         Args:
             frames: Target and source of the pair to report on; None for all frames.
             style: Output format.
+            options: Options of the screen.
         """
+        self.options = options
         self.frames = frames
         self.style = style
         self.traffic = Traffic()
@@ -107,7 +110,7 @@ class TrafficReport:
         self, console: Console, now: Stamp, began: Stamp, *, is_live: bool = False
     ) -> RenderableType:
         """Return the report as a framed table that fits the terminal."""
-        ascii_only = console.options.ascii_only
+        ascii_only = self.options.ascii_only or console.options.ascii_only
         # A small terminal has no room for a border; the last line is left for the cursor.
         is_framed = console.width >= 60 and console.height >= 12
         shown = view.table(
@@ -121,7 +124,8 @@ class TrafficReport:
         )
         if not is_framed:
             return shown
-        palette = theme.LIGHT if theme.prefers_light(os.environ) else theme.DARK
+        is_light = self.options.light or theme.prefers_light(os.environ)
+        palette = theme.LIGHT if is_light else theme.DARK
         look = Look(palette, ascii_only)
         frame = Panel(
             shown,
@@ -219,8 +223,7 @@ async def _shown(world: World, report: TrafficReport, life: Coroutine[Any, Any, 
     from tftool.screens.terminal.traffic_app import TrafficWatch
     from tftool.screens.terminal.world_app import show
 
-    encoding = sys.stdout.encoding or "ascii"
-    setting = setting_from(os.environ, encoding, Setting(title="tftool monitor"))
+    setting = screen_setting(report.options, "tftool monitor")
     await show(TrafficWatch(world, report.traffic, report.chain, setting), life)
 
 
@@ -440,7 +443,7 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
         style = ReportStyle.TF2
     else:
         style = ReportStyle.TABLE if can_redraw() else ReportStyle.LINES
-    report = TrafficReport(frames, style)
+    report = TrafficReport(frames, style, options)
     if is_recording:
         recording = open_from(connection, place)
         report_recording(

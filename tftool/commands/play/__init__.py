@@ -3,7 +3,16 @@
 from typing import Literal
 
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import RunFor, argument, flag, moment_option, option, within
+from tftool.commands.shared.options import (
+    Ascii,
+    Light,
+    RunFor,
+    argument,
+    flag,
+    moment_option,
+    option,
+    within,
+)
 from tftool.frames.source_options import At
 from tftool.world.link.link_options import REACHES
 
@@ -55,3 +64,5 @@ class PlayOptions(Command, recordings=True):
     )
     force: bool = flag(f"Over {ROBOTS}: play even if /tf already has publishers.")
     run_for: RunFor = None
+    ascii_only: Ascii = False
+    light: Light = False

@@ -1,7 +1,5 @@
 """Run of `tftool play`: play a recording as a live session."""
 
-import os
-import sys
 from collections.abc import Coroutine, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +14,7 @@ from tftool.commands.play import PlayOptions
 from tftool.commands.shared.connection import Connection, open_from
 from tftool.commands.shared.hosting import join_or_host
 from tftool.commands.shared.notices import is_news, notice, tell_record
-from tftool.commands.shared.on_screen import screen_lacks
+from tftool.commands.shared.on_screen import screen_lacks, screen_setting
 from tftool.doctor.evidence import Evidence, evidence_of_recording
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
@@ -121,7 +119,7 @@ async def _play(
         )
         life = beside(live(world), _end_after(world, pace, options.run_for))
         if shown is not None:
-            await _on_screen(options.file, player, timeline.moments - span[0], shown, life)
+            await _on_screen(options, player, timeline.moments - span[0], shown, life)
             return
         stop_telling = world.log.listen(_tell, "console")
         try:
@@ -139,7 +137,7 @@ def _tell(record: "LogRecord") -> None:
 
 
 async def _on_screen(
-    file: str,
+    options: PlayOptions,
     player: Player,
     moments: Stamps,
     shown: tuple[Sequence[PlaybackMark], Sequence[PlayedTopic]],
@@ -147,11 +145,9 @@ async def _on_screen(
 ) -> None:
     """Play on a full screen until q is pressed or the coroutine `life` ends."""
     from tftool.screens.terminal.player_app import PlayerScreen
-    from tftool.screens.terminal.screen_options import Setting, setting_from
     from tftool.screens.terminal.world_app import show
 
-    title = f"tftool play {visible(Path(file).name)}"
-    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting(title=title))
+    setting = screen_setting(options, f"tftool play {visible(Path(options.file).name)}")
     app = PlayerScreen(player, moments, *shown, setting)
 
     def tell(record: "LogRecord") -> None:

@@ -1,6 +1,5 @@
 """Run of `tftool robot`: publish a robot description, whose joints the keys move."""
 
-import os
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,7 +13,7 @@ from tftool.commands.robot import RobotOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.on_screen import screen_lacks
+from tftool.commands.shared.on_screen import screen_lacks, screen_setting
 from tftool.drawing.solids import Solids, solids_of
 from tftool.drawing.space import SpaceFrame, SpacePicture
 from tftool.drawing.space_file import drawn_file
@@ -27,7 +26,7 @@ from tftool.recordings.find import Kind
 from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.screens.terminal.robot_app import RobotApp
-from tftool.screens.terminal.screen_options import Setting, setting_from
+from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.sliders import Sliders
 from tftool.screens.terminal.space_panel import frames_in_space
 from tftool.screens.terminal.world_app import show
@@ -80,7 +79,6 @@ def _show(
             sliders.hear(dict(zip(message.name, message.position, strict=False)))
 
         world.subscribe("sliders", JOINT_STATES, joint_state_type(), hear)
-    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     link, prefix = shown
     app = RobotApp(
         world,
@@ -184,7 +182,7 @@ def run(connection: Connection, options: RobotOptions) -> ExitStatus:
         session.run(session.lasting(options.run_for))
         return ExitStatus.DONE
 
-    setting = Setting(title="tftool robot", ascii_only=options.ascii_only, light=options.light)
+    setting = screen_setting(options, "tftool robot")
     shapes = solids_of(
         described.links.values(),
         folders,

@@ -3,7 +3,7 @@
 import os
 import sys
 from collections.abc import Callable, Coroutine
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import seconds
@@ -35,6 +35,27 @@ def screen_lacks() -> str:
     streams = {"stdin": sys.stdin, "stdout": sys.stdout, "stderr": sys.stderr}
     lacking = [name for name, one in streams.items() if one is None or not one.isatty()]
     return f"{lacking[0]} is none" if lacking else ""
+
+
+class ScreenOptions(Protocol):
+    """Options of every command that has a screen; `Ascii` and `Light` declare them."""
+
+    ascii_only: bool
+    light: bool
+
+
+def screen_setting(options: ScreenOptions, title: str, **further: Any) -> "Setting":
+    """Return the options of a command's screen, restricted to what the terminal can show.
+
+    Args:
+        options: Options of the command.
+        title: Title for the top line.
+        further: Further attributes of `Setting`.
+    """
+    from tftool.screens.terminal.screen_options import Setting, setting_from
+
+    wanted = Setting(title=title, ascii_only=options.ascii_only, light=options.light, **further)
+    return setting_from(os.environ, sys.stdout.encoding or "ascii", wanted)
 
 
 def at_rest(connection: Connection, frames: Frames) -> StillFrames:
@@ -135,11 +156,9 @@ def run_app(
         NodeFailed: If a node raised an error.
         KeyboardInterrupt: If a signal or Ctrl-C ended the display.
     """
-    from tftool.screens.terminal.screen_options import setting_from
     from tftool.screens.terminal.turtle_app import TurtleApp
     from tftool.screens.terminal.world_app import show
 
-    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting, idle)
     run(scene.world.clock, show(app, life))
     return app.chosen

@@ -17,11 +17,11 @@ from tftool.commands.shared.on_screen import (
     run_app,
     scene_of,
     screen_lacks,
+    screen_setting,
     simulator_of,
 )
 from tftool.commands.teleop import TeleopOptions
 from tftool.messages.turtle_messages import Pose
-from tftool.screens.terminal.screen_options import Setting
 from tftool.world.nodes.turtle_drivers import BANNER, KEYS
 from tftool.world.world import World
 
@@ -157,11 +157,6 @@ def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
         scene_of(session.world),
         live(),
         driver,
-        Setting(
-            title=f"tftool teleop {options.turtle}",
-            drive_only=True,
-            ascii_only=options.ascii_only,
-            light=options.light,
-        ),
+        screen_setting(options, f"tftool teleop {options.turtle}", drive_only=True),
     )
     return ExitStatus.DONE

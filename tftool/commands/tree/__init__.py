@@ -6,11 +6,13 @@ from pathlib import Path
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     OUTPUT,
+    Ascii,
     AtOption,
     CacheTime,
     Force,
     From,
     Json,
+    Light,
     RunFor,
     flag,
     option,
@@ -65,4 +67,6 @@ class TreeOptions(Command, looks_only=True, recordings=True, descriptions=True, 
     at: AtOption = None
     watch: bool = flag("Show the tree live; keys scroll, sort and filter.", "--watch", "-w")
     run_for: RunFor = None
+    ascii_only: Ascii = False
+    light: Light = False
     cache_time: CacheTime = None

@@ -31,21 +31,22 @@ Moving = frozenset[str] | None
 """Frames whose joint moves, if the frames are of a robot description; else None."""
 
 
-def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> Iterator[str]:
-    """Yield the tree bit by bit; on a terminal, cut to the terminal's width unless `wide`."""
+def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, options: TreeOptions) -> Iterator[str]:
+    """Yield the tree bit by bit; on a terminal, cut to the terminal's width unless --wide."""
     console = Console()
     if not console.is_terminal:
-        for text, _ in frame_tree.pieces(snapshot, moving=moving, marks=marks):
+        for text, _ in frame_tree.pieces(
+            snapshot, ascii_only=options.ascii_only, moving=moving, marks=marks
+        ):
             yield text
         yield "\n"
         return
-    if wide:
-        picture = frame_tree.render(
-            snapshot, ascii_only=console.options.ascii_only, moving=moving, marks=marks
-        )
+    ascii_only = options.ascii_only or console.options.ascii_only
+    if options.wide or options.output is not None:
+        picture = frame_tree.render(snapshot, ascii_only=ascii_only, moving=moving, marks=marks)
         lines: Sequence[Text] = list(picture.split("\n"))
     else:
-        lines = fitting(snapshot, moving, marks, console)
+        lines = fitting(snapshot, moving, marks, console, options)
     # A few hundred lines at a time: the first appear at once, and rich is not slower.
     for first in range(0, len(lines), LINES_AT_ONCE):
         with console.capture() as capture:
@@ -53,14 +54,16 @@ def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> It
         yield capture.get()
 
 
-def fitting(snapshot: Snapshot, moving: Moving, marks: Marks, console: Console) -> Sequence[Text]:
+def fitting(
+    snapshot: Snapshot, moving: Moving, marks: Marks, console: Console, options: TreeOptions
+) -> Sequence[Text]:
     """Return the lines of a tree at a terminal's width, with columns and names cut to fit."""
     if not snapshot.frames:
         return [Text(NOTHING)]
     found = compact(
         snapshot,
         console.width,
-        ascii_only=console.options.ascii_only,
+        ascii_only=options.ascii_only or console.options.ascii_only,
         moving=moving,
         marks=marks,
         most=MOST_ON_SCREEN,
@@ -119,7 +122,7 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
     if options.watch:
         from tftool.commands.tree.tree_watch import show_changes
 
-        show_changes(connection, options.place, options.run_for, options.cache_time)
+        show_changes(connection, options)
         return ExitStatus.DONE
     frames = open_from(
         connection, options.place, until=options.at, margin=0.0, cache_time=options.cache_time
@@ -135,7 +138,7 @@ def run(connection: Connection, options: TreeOptions) -> ExitStatus:
     # A description that is not published has no messages for the doctor to judge.
     is_silent = form in WITHOUT_MARKS or frames.moving is not None
     marks = {} if is_silent else doctor_marks(buffer, snapshot)
-    _write(snapshot, frames.moving, form, options.output, marks, wide=options.wide)
+    _write(snapshot, frames.moving, form, marks, options)
     for sentence in rivalries(buffer, buffer.frames()):
         notice(sentence)
     return ExitStatus.DONE
@@ -159,15 +162,9 @@ def _form_of(output: Path | None) -> TreeFormat:
 
 
 def _write(
-    snapshot: Snapshot,
-    moving: Moving,
-    form: TreeFormat,
-    output: Path | None,
-    marks: Marks,
-    *,
-    wide: bool,
+    snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, options: TreeOptions
 ) -> None:
-    content = _content(snapshot, moving, form, marks, wide=wide or output is not None)
+    output, content = options.output, _content(snapshot, moving, form, marks, options)
     if output is None or str(output) == "-":
         if isinstance(content, bytes):
             if sys.stdout.isatty():
@@ -184,7 +181,7 @@ def _write(
 
 
 def _content(
-    snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, *, wide: bool
+    snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, options: TreeOptions
 ) -> bytes | Iterable[str]:
     """Return the bytes of a picture, or text bit by bit, so that a large tree appears at once."""
     if form is TreeFormat.json:
@@ -193,7 +190,7 @@ def _content(
     if form is TreeFormat.yaml:
         return [frame_tree.as_yaml(snapshot)]
     if form is TreeFormat.tree:
-        return drawn(snapshot, moving, marks, wide=wide)
+        return drawn(snapshot, moving, marks, options)
     from tftool.drawing.tree_picture import draw
 
     drawing = draw(snapshot, form.value, marks)

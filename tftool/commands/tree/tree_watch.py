@@ -1,23 +1,20 @@
 """Live tree of frames on the terminal, for `tftool tree --watch`."""
 
-import os
-import sys
-
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
 from tftool.base.errors import UsageError
 from tftool.base.plain_text import visible
-from tftool.base.stamps import Duration, seconds
+from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import is_news
-from tftool.commands.shared.on_screen import screen_lacks, take_solids
+from tftool.commands.shared.on_screen import screen_lacks, screen_setting, take_solids
+from tftool.commands.tree import TreeOptions
 from tftool.commands.tree.command import fitting
 from tftool.doctor.frame_marks import marks
 from tftool.drawing.solids import Solids
-from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.tree_app import TreeWatch
 from tftool.screens.terminal.world_app import show
 from tftool.world.clock import Phase, pace_of, run
@@ -27,10 +24,10 @@ from tftool.world.stopper import leave_screen
 from tftool.world.world import World
 
 
-def watch_with_keys(session: Session, duration: Duration | None) -> None:
+def watch_with_keys(session: Session, options: TreeOptions) -> None:
     """Show the tree on a full screen until q is pressed or the duration is over."""
     world = session.world
-    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting(title="tftool tree"))
+    setting = screen_setting(options, "tftool tree")
     app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
 
     def tell(record: LogRecord) -> None:
@@ -42,27 +39,22 @@ def watch_with_keys(session: Session, duration: Duration | None) -> None:
 
     take_solids(world, "tree", take, app.tell)
     world.log.listen(tell, "screen")
-    run(world.clock, show(app, session.along(session.lasting(duration))))
+    run(world.clock, show(app, session.along(session.lasting(options.run_for))))
 
 
-def show_changes(
-    connection: Connection,
-    place: str | None,
-    duration: Duration | None,
-    cache_time: Duration | None,
-) -> None:
+def show_changes(connection: Connection, options: TreeOptions) -> None:
     """Show a live tree: on a full screen with keys if possible, else redrawn in place."""
     console = Console()
     if not console.is_terminal:
         raise UsageError("--watch needs a terminal: leave --watch out to print the tree once.")
-    session = open_session(connection, place, cache_time=cache_time)
+    session = open_session(connection, options.place, cache_time=options.cache_time)
     if screen_lacks():
-        session.run(_redrawn(session.world, duration, console))
+        session.run(_redrawn(session.world, options, console))
     else:
-        watch_with_keys(session, duration)
+        watch_with_keys(session, options)
 
 
-async def _redrawn(world: World, duration: Duration | None, console: Console) -> None:
+async def _redrawn(world: World, options: TreeOptions, console: Console) -> None:
     """Redraw the tree in the event loop; rich's own thread could draw half-finished changes."""
     # Text on stderr is not visible on this screen, so warnings are shown below the tree.
     news = Text(style="yellow")
@@ -76,11 +68,11 @@ async def _redrawn(world: World, duration: Duration | None, console: Console) ->
     with Live(console=console, auto_refresh=False, screen=True) as live:
         pace = pace_of(world.clock)
         due = pace.now()
-        end = None if duration is None else due + duration
+        end = None if options.run_for is None else due + options.run_for
         pace.limit(end)
         while end is None or due <= end:
             snapshot = world.buffer.snapshot(world.clock.now())
-            picture = fitting(snapshot, None, marks(world.buffer, snapshot), console)
+            picture = fitting(snapshot, None, marks(world.buffer, snapshot), console, options)
             live.update(Group(*picture, news), refresh=True)
             due = max(due + seconds(0.5), pace.now())
             await pace.sleep_until(due, Phase.WATCH)
