@@ -1,6 +1,7 @@
 """Tests of the screen of `tftool monitor`: curves of rates and delays."""
 
 import asyncio
+import re
 
 import pytest
 from rich.cells import cell_len
@@ -10,13 +11,15 @@ from tests.world.nodes.harness import new_world
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.buffer.traffic import NetDelay, Traffic
+from tftool.drawing.sparklines import TrafficHistory
+from tftool.drawing.traffic_curves import TrafficLayout, curves
 from tftool.drawing.traffic_view import Chain
 from tftool.geometry.rigid import Transform
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.traffic_app import TrafficWatch
 
 
-def received(frames, now, later=0.0):
+def received(frames, now, later=0.0, plates=1):
     """Return five seconds of messages: the first frame at 10 Hz, the others at half of that.
 
     The first frame's messages end `later` seconds before the messages of the others.
@@ -28,15 +31,18 @@ def received(frames, now, later=0.0):
             arrival = begin + seconds(message * (0.2 if place else 0.1))
             sample = TransformStamped(arrival - seconds(0.02), "map", name, Transform.identity())
             traffic.receive(arrival, [sample], f"node_{place}", is_static=False)
-    fixed = TransformStamped(now, "base", "plate", Transform.identity())
-    traffic.receive(now, [fixed], "static_node", is_static=True)
+    for plate in ("plate", "plate_2")[:plates]:
+        fixed = TransformStamped(now, "base", plate, Transform.identity())
+        traffic.receive(now, [fixed], "static_node", is_static=True)
     return traffic
 
 
-def shown(*keys, frames=("base", "odom"), size=(80, 24), chain=None, later=0.0, **setting):
+def shown(
+    *keys, frames=("base", "odom"), size=(80, 24), chain=None, later=0.0, plates=1, **setting
+):
     """Return the lines of the screen after some keys."""
     world = new_world()
-    traffic = received(frames, world.clock.now(), later)
+    traffic = received(frames, world.clock.now(), later, plates)
     app = TrafficWatch(world, traffic, chain, Setting(title="tftool monitor", **setting))
     lines = []
 
@@ -105,7 +111,8 @@ def test_frames_are_sorted_by_rate():
 
 
 def test_a_silent_sender_has_no_rate_and_no_bar_and_is_sorted_last():
-    lines = shown("s", later=11.0, size=(100, 30))
+    # With two static frames of one publisher, the publishers have a panel of their own.
+    lines = shown("s", later=11.0, size=(100, 30), plates=2)
 
     # The first node sent at 10 Hz until 11 s ago; the second node still sends at 5 Hz.
     first, second = line_of(lines, "│node_0 "), line_of(lines, "│node_1 ")
@@ -156,3 +163,26 @@ def test_bars_have_a_scale_and_small_curves_their_maximum():
     row = lines[line_of(lines, "● link_00 ")]
     assert row.count("20.0 ms") == 1
     assert row.rstrip(" │").endswith("20 ms")
+
+
+def test_publishers_of_one_frame_each_have_no_panel_of_their_own():
+    assert not any("Broadcasters" in line for line in shown())
+    assert any("Broadcasters" in line for line in shown(plates=2))
+
+
+def test_a_spike_at_the_start_is_cut_and_marked_and_its_scale_has_a_whole_unit():
+    traffic, history = Traffic(), TrafficHistory()
+    for place in range(60):
+        now = seconds(1000 + 0.25 * place)
+        late = 60.0 if place == 1 else 1.1
+        sample = TransformStamped(now - seconds(late), "map", "base", Transform.identity())
+        traffic.receive(now, [sample], "node")
+        history.look(now, traffic)
+
+    lines = curves(now, list(traffic.links.values()), history, TrafficLayout(120, 20))
+
+    # The delay is 1.1 s nearly always; the next round numbers above it are 1.2 s to 2 s.
+    top = lines[1].plain
+    assert "▲" in top
+    assert re.search(r"\b(1\.2|1\.5|2) s\b", top)
+    assert re.search(r"\b1[45] s +now\b", lines[-1].plain)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -31,13 +31,13 @@ from tftool.drawing.traffic_view import (
 from tftool.geometry.rigid_arrays import Floats
 
 LONGEST: Final = seconds(60)
-SHORTEST: Final = seconds(5)
+SHORTEST: Final = seconds(1)
 """Shortest time in nanoseconds that the curves show; it grows to a minute."""
 
 NUMBER: Final = 10
 """Width in cells of a number with its unit."""
 
-GUTTER: Final = 7
+GUTTER: Final = 8
 """Cells at the left of a curve for its scale."""
 
 WITH_SCALE: Final = 3
@@ -45,6 +45,9 @@ WITH_SCALE: Final = 3
 
 WITH_MIDDLE: Final = 5
 """Smallest number of lines of a curve whose scale has a label in the middle."""
+
+SPIKE: Final = 4.0
+"""A curve's rare values are cut if they are more than this many times its usual values."""
 
 _STEPS: Final = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
@@ -60,6 +63,7 @@ class TrafficLayout:
         ascii_only: Whether to draw with ASCII only.
         first: Index of the first row to show.
         fills: Whether curves are filled; without colours, a filled curve would be a slab.
+        names: Width in cells of the column of names.
     """
 
     width: int
@@ -68,6 +72,7 @@ class TrafficLayout:
     ascii_only: bool = False
     first: int = 0
     fills: bool = True
+    names: int = 30
 
     @property
     def more(self) -> str:
@@ -75,14 +80,9 @@ class TrafficLayout:
         return "~" if self.ascii_only else "…"
 
     @property
-    def names(self) -> int:
-        """Width in cells of the column of frame names."""
-        return max(10, min(30, self.width // 4))
-
-    @property
     def curve(self) -> int:
         """Width in cells of the rate curve, equal to the delay curve's; 0 if there is no room."""
-        left = self.width - self.names - 2 * NUMBER - 4
+        left = self.width - self.names - 2 * NUMBER - 2
         return left // 2 if left >= 2 * (GUTTER + 6) else 0
 
     def ink(self, color: Color, *, bold: bool = False) -> Style:
@@ -109,6 +109,8 @@ def curves(
     dim = layout.ink(layout.palette.dim)
     if not links:
         return [Text("No transforms yet.", dim)]
+    longest = max(cell_len(word) for one in links for word in _words(one, layout)) + 1
+    layout = replace(layout, names=max(10, min(30, layout.width // 4, longest)))
     window = _window(now, links, history)
     digits = delay_digits(one.series for one in links if not one.is_static)
     lines = [_heading(as_seconds(window), layout)][: layout.height - 1]
@@ -178,7 +180,8 @@ def senders(now: Stamp, traffic: Traffic, layout: TrafficLayout) -> list[Text]:
 
 
 def _window(now: Stamp, links: Sequence[FrameTraffic], history: TrafficHistory) -> Duration:
-    begun = min([looks[0].moment for one in links if (looks := history.looks(one.frame))] or [now])
+    known = [look for one in links for look in history.looks(one.frame) if look.rate is not None]
+    begun = min([one.moment for one in known], default=now)
     return max(SHORTEST, min(LONGEST, now - begun))
 
 
@@ -195,7 +198,7 @@ def _heading(span: float, layout: TrafficLayout) -> Text:
     wide = layout.curve
     words = padded("frame", layout.names)
     for word in ("rate", "mean delay"):
-        words += f"{word:>{NUMBER}}  " + (f"{over:<{wide - 1}} " if wide else "")
+        words += f"{word:>{NUMBER}} " + (f"{over:<{wide - 1}} " if wide else "")
     return Text(fitted(words, layout.width, more=""), layout.ink(layout.palette.dim))
 
 
@@ -218,12 +221,7 @@ def _block(
     # A blank line below keeps tall curves of neighbours apart.
     tall = height - 1 if height > WITH_SCALE else height
     rates, delays = _numbers(now, link, tall, digits)
-    sign = ("!" if late else "+") if layout.ascii_only else "●"
-    words = [
-        f"{' ' if link.is_static else sign} {visible(link.frame)}",
-        f"  in {visible(link.parent)}",
-        f"  from {visible(link.sender)}",
-    ]
+    words = _words(link, layout, is_late=bool(late))
     healthy = layout.ink(layout.state(late) if late else _rate_color(palette))
     drawn = [
         _curve(looks, part, now, window, (layout.curve, tall), ink, layout)
@@ -240,11 +238,26 @@ def _block(
         for texts, cells in zip((rates, delays), drawn, strict=True):
             text = texts[row] if row < len(texts) else ""
             is_dim = row > 0 or link.is_static
-            line.append(f"{text:>{NUMBER}}  ", dim if is_dim else state)
+            line.append(f"{text:>{NUMBER}} ", dim if is_dim else state)
             line.append_text(cells[row] if cells else Text())
         line.truncate(layout.width)
         lines.append(line)
-    return [*lines, *[Text()] * (height - tall)]
+    if tall < height:
+        begin, wide = f"{as_seconds(window):.0f} s", max(0, layout.curve - GUTTER - 1)
+        axis = f"{'':{NUMBER + 1 + GUTTER}}{begin}{'now':>{max(4, wide - len(begin))}} "
+        has_curve = layout.curve > 0 and not link.is_static
+        lines.append(Text(f"{'':{layout.names}}{axis * 2}" if has_curve else "", dim))
+    return lines
+
+
+def _words(link: FrameTraffic, layout: TrafficLayout, *, is_late: bool = False) -> list[str]:
+    """Return a frame's name after a sign of its health, its parent, and its publisher."""
+    sign = ("!" if is_late else "+") if layout.ascii_only else "●"
+    return [
+        f"{' ' if link.is_static else sign} {visible(link.frame)}",
+        f"  in {visible(link.parent)}",
+        f"  from {visible(link.sender)}",
+    ]
 
 
 def _numbers(now: Stamp, link: FrameTraffic, tall: int, digits: int) -> tuple[list[str], list[str]]:
@@ -288,19 +301,30 @@ def _curve(
         last.append(f"{told:>{min(columns, GUTTER)}} ", layout.ink(palette.dim))
         return [*[Text(" " * (columns + 1))] * (rows - 1), last]
     columns -= GUTTER
-    highest = max((one for one in values if one is not None), default=0.0)
+    highest = _highest([one for one in values if one is not None])
     # A scale of a few microseconds would only magnify jitter.
     top = max(1e-3, _above(highest))
     heights = _heights(found, values, now, window, 2 * columns) / top
+    cut = np.unique(np.flatnonzero(heights > 1.0) // 2).tolist()
     shown_top = top * (1e3 if part == 2 else 1.0)
     scale = {0: _short(shown_top, "ms" if part == 2 else "Hz"), rows - 1: "0"}
     if rows >= WITH_MIDDLE and rows % 2:
         scale[rows // 2] = _short(0.5 * shown_top)
     lines = []
     for row, cells in enumerate(_filled(heights, columns, rows, color, layout)):
+        for column in cut if not row else ():
+            cells[column] = "^" if layout.ascii_only else "▲", cells[column][1]
         line = Text(f"{scale.get(row, ''):>{GUTTER - 1}} ", layout.ink(palette.dim))
         lines.append(line.append_text(Text.assemble(*cells)).append(" "))
     return lines
+
+
+def _highest(values: list[float]) -> float:
+    """Return the largest value that a curve shows; rare spikes, as at the start, are left out."""
+    if not values:
+        return 0.0
+    usual = float(np.quantile(values, 0.85))
+    return min(max(values), 1.5 * usual) if max(values) > SPIKE * usual > 0.0 else max(values)
 
 
 def _heights(
@@ -354,4 +378,6 @@ def _above(value: float) -> float:
 
 
 def _short(value: float, unit: str = "") -> str:
-    return f"{three_digits(value)} {unit}".rstrip()[: GUTTER - 1]
+    if value >= 1e3 and unit:
+        value, unit = 1e-3 * value, {"ms": "s", "Hz": "kHz"}[unit]
+    return f"{three_digits(value)} {unit}".rstrip()

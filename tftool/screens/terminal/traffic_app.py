@@ -11,7 +11,7 @@ from tftool.base.stamps import as_seconds
 from tftool.buffer.traffic import FrameTraffic, Traffic
 from tftool.drawing.echo_view import in_words
 from tftool.drawing.sparklines import LOOKS, TrafficHistory
-from tftool.drawing.traffic_curves import LONGEST, TrafficLayout, curves, senders
+from tftool.drawing.traffic_curves import LONGEST, WITH_SCALE, TrafficLayout, curves, senders
 from tftool.drawing.traffic_view import Chain, links_of, milliseconds, present_rate
 from tftool.screens.terminal.panel_text import Hint, footer, title_bar
 from tftool.screens.terminal.screen_options import Setting
@@ -101,9 +101,9 @@ class TrafficWatch(PanelApp):
         frames, below = self.panel("frames"), self.panel("senders")
         # Rows with border and heading; at most a third of the screen.
         wanted = min(len(self._traffic.senders) + 3, self.size.height // 3)
-        below.display = self.size.height >= 16
-        below.styles.height = wanted
         links = self._links()
+        below.display = self.size.height >= 16 and not self._names_senders(links)
+        below.styles.height = wanted
         room = max(1, self.size.height - 5 - wanted * below.display)
         self._first = max(0, min(self._first, len(links) - room + 1 if len(links) > room else 0))
 
@@ -123,6 +123,11 @@ class TrafficWatch(PanelApp):
             Hint("q", "quit"),
         ]
         self.panel("footer").show([footer(hints, self.size.width, look)])
+
+    def _names_senders(self, links: list[FrameTraffic]) -> bool:
+        """Return whether the frames' panel has all data of the publishers, a frame for each."""
+        has_room = WITH_SCALE * len(links) <= self.size.height - 5
+        return has_room and sorted(one.sender for one in links) == sorted(self._traffic.senders)
 
     def _title(self, links: list[FrameTraffic]) -> str:
         chain = self._chain
