@@ -65,7 +65,7 @@ def test_files_are_read_whole_folders_and_what_never_ends_are_refused(tmp_path):
         assert refused(read, tmp_path) == "Is a directory"
     assert (
         refused(read_named, "/dev/zero")
-        == f"the pipe has more than {LARGEST >> 20} MiB: write a file"
+        == f"the pipe has more than {LARGEST >> 20} MiB: save its data to a file"
     )
     assert answered(lambda: read_named("/dev/null")) == b""
 

@@ -253,7 +253,7 @@ def test_only_what_is_below_the_root_is_read_and_only_what_runs_no_code(tmp_path
     assert json.loads(fine.content[0].text)["roots"] == ["base"]
     assert json.loads(option.content[0].text)["roots"] == ["option"]
     assert json.loads(listed.content[0].text) == ["r.urdf"]
-    assert "There is no part 'nothing'. There are:" in part.content[0].text
+    assert "The answer has no part 'nothing', but these:" in part.content[0].text
 
 
 def test_its_tools_say_that_they_only_read(root):

@@ -54,7 +54,9 @@ def open_named(path: Path) -> BinaryIO:
             data += more
     if len(data) > LARGEST:
         raise OSError(
-            errno.EFBIG, f"the pipe has more than {LARGEST >> 20} MiB: write a file", str(path)
+            errno.EFBIG,
+            f"the pipe has more than {LARGEST >> 20} MiB: save its data to a file",
+            str(path),
         )
     return io.BytesIO(data)
 

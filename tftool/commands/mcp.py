@@ -238,7 +238,7 @@ class Questions:
         if part:
             if not isinstance(answer, dict) or part not in answer:
                 keys = ", ".join(answer) if isinstance(answer, dict) else "none"
-                raise UsageError(f"There is no part '{part}'. There are: {keys}.")
+                raise UsageError(f"The answer has no part '{part}', but these: {keys}.")
             answer = answer[part]
         return fitted(answer[skip:] if isinstance(answer, list) else answer)
 

@@ -409,9 +409,10 @@ def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
 
 
 def _ended(known: TraceResult) -> Reason | None:
-    """Return the reason for a refused lookup of the latest time, if an edge ended long ago.
+    """Return the reason why a lookup of the latest time fails if an edge has no new samples.
 
-    The latest common time of the path is then the end of that edge. Return None for other lookups.
+    The latest common time is then that of the edge's last sample, which the other edges no longer
+    have in their caches. Return None for other lookups.
     """
     trace = known.trace
     for track in known.way or ():

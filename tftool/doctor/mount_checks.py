@@ -110,9 +110,9 @@ def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
 
 
 def _outside(shift: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
-    """Return a sentence for each axis on which a mount differs by more than the limit.
+    """Return a sentence for each axis on which `shift`, a mount's error, exceeds its bound.
 
-    An undetermined difference (NaN) never exceeds the limit.
+    The bound is at least that of `limits`. An undetermined error (NaN) never exceeds it.
     """
     said = []
     for place, name in enumerate((*AXES, *ANGLES)):

@@ -212,7 +212,7 @@ class Canvas:
     # Drawn above it
 
     def _mark(self, sheet: CellSheet, picture: PlanePicture) -> Points:
-        """Draw lines to parents, walls and axes; return each cell's cost for a name above them."""
+        """Draw walls, axes and lines to parents; return the cost of a name over each cell."""
         view, field = self._view, picture.field
         links = [
             ends

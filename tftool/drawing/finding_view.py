@@ -249,7 +249,7 @@ def brief(diagnosis: Diagnosis) -> str:
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
-    """Map the check of each cause to the checks of its consequences, with their counts."""
+    """Map the check of each cause to its consequences: checks and numbers of findings."""
     counts: dict[str, dict[str, int]] = {}
     for finding in diagnosis.findings:
         if finding.because_of is not None:

@@ -60,7 +60,8 @@ class DepthBuffer(NamedTuple):
 
     Attributes:
         owners: Index of the triangle at each point; -1 for none. Shape (height, width).
-        depths: Distance towards the viewer at each point, in points; minus infinity if empty.
+        depths: Depth of the surface at each point, larger if nearer to the viewer, in widths
+            of a point; minus infinity without a surface.
     """
 
     owners: Indices

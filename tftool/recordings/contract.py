@@ -169,7 +169,7 @@ class Headers:
         type: Type of the messages.
         stamps: Nanoseconds, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
-        names: The different frame names, as recorded, with leading slashes.
+        names: The different frame names as recorded; leading slashes are kept.
         frames: Frame of each message: an index into `names`, shape (n,).
     """
 

@@ -175,9 +175,9 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
 
 
 def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
-    """Return the frames to compare in the first and the second source, from --pair.
+    """Return the pair of frames to compare in the first input and in the second, from --pair.
 
-    Without --pair both are None, which means the only chain of each source.
+    Without --pair both are None: each input must then have only one chain of frames.
 
     Raises:
         UsageError: If --pair is given more than twice, or a value is not TARGET:SOURCE.

@@ -254,7 +254,7 @@ class Rosbag1(ChunkedReader):
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Yield the offsets of the messages in a chunk; see `ChunkedReader`."""
+        """Yield (connection, log times, offsets, lengths) of a chunk's messages: `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)
@@ -266,7 +266,7 @@ class Rosbag1(ChunkedReader):
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, the same times as publish times, and zeros as sequence numbers."""
+        """Return log times, publish times (equal to them), and sequence numbers (all zero)."""
         sec, nanosec = (words_at(data, starts - n, "<u4").astype(np.int64) for n in (12, 8))
         log_times = sec * NANOSECONDS + nanosec
         return log_times, log_times, np.zeros(len(starts), dtype=np.int64)

@@ -360,7 +360,7 @@ class RegisterEventHandler(Action):
         self.event_handler = event_handler
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """Return (class of the handler, its actions); no actions if a function returns them."""
+        """Return the handler's class and its actions; none if a function computes the actions."""
         return [(type(self.event_handler).__name__, getattr(self.event_handler, "entities", []))]
 
     def execute(self, context: LaunchContext) -> Any:

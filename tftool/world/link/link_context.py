@@ -88,7 +88,7 @@ class LinkContext:
         )
 
     def authority(self, gid: bytes, topic: str) -> str:
-        """Return the name of the node that sent a message, by the message's gid, b"" if unknown."""
+        """Return the name of the node that sent a message; a gid of b"" is not known."""
         entity = self._sender(gid, topic)
         return _unnamed(gid) if entity is None else entity.node
 
