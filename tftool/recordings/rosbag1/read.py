@@ -254,7 +254,7 @@ class Rosbag1(ChunkedReader):
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Yield (connection, log times, offsets, lengths) of a chunk's messages: `ChunkedReader`."""
+        """Yield connection, log times, offsets, lengths of messages; see `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)
