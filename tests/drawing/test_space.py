@@ -4,6 +4,7 @@ import base64
 import re
 import struct
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -454,3 +455,65 @@ def test_links_whose_meshes_are_missing_are_collision_shapes_or_rods_to_their_jo
     assert bounds["arm"][1][2] == pytest.approx(0.5)
     assert max(bounds["arm"][1][:2]) < 0.1
     assert bounds["tip"] is None
+
+
+LYING = """<robot name="r"><link name="root"/><link name="middle"><visual>
+<origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></visual></link>
+<link name="tip"/><joint name="a" type="fixed"><parent link="root"/><child link="middle"/></joint>
+<joint name="b" type="fixed"><parent link="middle"/><child link="tip"/></joint></robot>"""
+
+
+@pytest.fixture
+def lying():
+    """Return the picture of a rod that lies on the ground along x."""
+    solids, _ = solids_of(parse_description(LYING).links.values(), MeshFolders())
+    frames = (
+        SpaceFrame("root", Transform()),
+        SpaceFrame("middle", Transform(), "root"),
+        SpaceFrame("tip", Transform((1.0, 0.0, 0.0)), "middle"),
+    )
+    return SpacePicture("root", frames, solids)
+
+
+def opened(picture, columns=34, rows=19):
+    view = OrbitCamera().view(picture, corners_of(picture), columns, rows)
+    return text(SpaceCanvas(columns, rows).lines(picture, view)).splitlines()
+
+
+def test_a_lying_robot_is_first_shown_from_where_it_fills_the_picture(lying):
+    rows = [line for line in opened(lying) if "▀" in line or "▄" in line]
+
+    assert len(rows) >= 11
+
+
+def test_of_a_robot_the_root_and_the_tips_are_named_first(lying):
+    # The middle link is at the root; its own name would be in the same label.
+    moved = replace(lying.frames[1], pose=Transform((0.5, 0.0, 0.0)))
+    picture = replace(lying, frames=(lying.frames[0], moved, lying.frames[2]))
+
+    few = "".join(opened(picture))
+    assert "root" in few
+    assert "tip" in few
+    assert "middle" not in few
+    assert "middle" in "".join(opened(replace(picture, names_all=True)))
+    assert "middle" in "".join(opened(replace(picture, chosen="middle")))
+
+
+@pytest.mark.parametrize(("height", "name"), [(0.0, "top"), (0.5, "orbit")])
+def test_a_flat_world_is_first_shown_from_above(height, name):
+    frames = tuple(
+        SpaceFrame(f"frame_{x}", Transform((x, 2.0 * x, height * x)), "map" if x else None)
+        for x in range(3)
+    )
+    camera, picture = OrbitCamera(), SpacePicture("frame_0", frames)
+    camera.view(picture, corners_of(picture), 60, 20)
+
+    assert camera.name == name
+
+
+def test_the_ground_has_at_most_ten_steps_to_a_side():
+    frames = (SpaceFrame("a", Transform()), SpaceFrame("b", Transform((9.0, 7.0, 0.0)), "a"))
+    rows = opened(SpacePicture("a", frames), 120, 40)
+
+    # A frame 9 m away: with a grid of 2 m the ground has 4.5 steps, and 2 around them.
+    assert "grid 2 m" in rows[-1]

@@ -328,6 +328,21 @@ def test_joints_have_their_whole_names_beside_the_picture(long_names):
     assert "shoulder_lift_joint ├" in "\n".join(long_names)
 
 
+def test_long_names_of_joints_are_cut_in_the_middle_so_that_they_differ():
+    links = '<link name="{0}"/><joint name="finger_middle_joint_{0}" type="continuous">'
+    text = "".join(
+        f'{links.format(n)}<parent link="base"/><child link="{n}"/></joint>' for n in "12"
+    )
+    robot = Robot(parse_description(f'<robot name="r"><link name="base"/>{text}</robot>'))
+
+    shown = "\n".join(
+        screen_of(RobotApp(new_world(), Sliders(robot, Mover(robot)), setting=Setting()))
+    )
+
+    assert "joint_1 " in shown
+    assert "joint_2 " in shown
+
+
 def test_a_small_terminal_has_joints_alone(arm):
     assert solid_cells(arm(size=(60, 20))) == 0
     assert solid_cells(arm(size=(60, 30))) > 10

@@ -1,7 +1,7 @@
 """Data of a 3-D picture of frames, and the camera that orbits the frames."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, TypeAlias
 
@@ -17,6 +17,16 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 VIEWS: Final = {"orbit": (-60.0, 25.0), "top": (-90.0, 90.0), "front": (0.0, 0.0),
                 "side": (-90.0, 0.0)}  # fmt: skip
 """Azimuth around the vertical axis and elevation above the ground, degrees, by name of the view."""
+
+AZIMUTHS: Final = tuple(range(-60, 300, 15))
+ELEVATIONS: Final = (25.0, 40.0, 55.0)
+"""Directions, degrees, of which the camera chooses one; the first is the usual one."""
+
+BETTER: Final = 0.9
+"""Fraction of the usual scale from which another direction is chosen."""
+
+FLAT: Final = 0.01
+"""Height of a flat scene without solids, as a fraction of its width."""
 
 TURN: Final = math.radians(7.5)
 """Angle in radians of one step around the scene."""
@@ -59,6 +69,8 @@ class SpacePicture:
         lines: Trails and other lines.
         chosen: Name of the frame under the cursor, drawn in bold with a coloured solid.
         pair: Names of two frames that a line connects.
+        names_all: Whether to name all frames of a robot, not only its root, its tips and the chosen
+            frame.
     """
 
     fixed: str = ""
@@ -67,6 +79,7 @@ class SpacePicture:
     lines: ColoredLines = field(default_factory=ColoredLines)
     chosen: str = ""
     pair: tuple[str, str] = ("", "")
+    names_all: bool = False
 
 
 class Viewpoint(NamedTuple):
@@ -96,6 +109,9 @@ class Viewpoint(NamedTuple):
 class OrbitCamera:
     """Camera that orbits a scene, and shows the whole scene until the user zooms or pans.
 
+    Until the user chooses a direction, the camera looks at a flat scene from above, and else from
+    the direction from which the scene is largest.
+
     Until the user zooms or pans, the view grows at once with the scene, and shrinks only when most
     of the view is empty.
 
@@ -104,18 +120,19 @@ class OrbitCamera:
         follows: Name of the frame in the middle; empty for the middle of the scene.
     """
 
-    def __init__(self, name: str = "orbit") -> None:
+    def __init__(self, name: str = "") -> None:
         self.follows = ""
         self._factor = 1.0
         self._shift = (0.0, 0.0)
         self._box: Floats | None = None
         self._scale = 1.0
-        self._fixed = ""
-        self.look_from(name)
+        self._seen: tuple[object, ...] = ("",)
+        self.look_from(name or "orbit")
+        self._is_chosen = bool(name)
 
     def look_from(self, name: str) -> None:
         """Look from the direction of one of `VIEWS`."""
-        self.name = name
+        self.name, self._is_chosen = name, True
         self._azimuth, self._elevation = map(math.radians, VIEWS[name])
 
     def next_view(self) -> None:
@@ -125,7 +142,7 @@ class OrbitCamera:
 
     def turn(self, right: float, up: float) -> None:
         """Orbit the scene by a number of steps to the right and up."""
-        self.name = "orbit"
+        self.name, self._is_chosen = "orbit", True
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi
         self._elevation = min(quarter, max(-quarter, self._elevation + TURN * up))
@@ -152,24 +169,50 @@ class OrbitCamera:
             columns: Width of the picture in cells.
             rows: Height of the picture in cells.
         """
-        if picture.fixed != self._fixed:
-            self._fixed, self._box = picture.fixed, None
-        axes = self._axes()
+        has_solids = picture.solids is not None and len(picture.solids.triangles) > 0
+        seen = picture.fixed, len(picture.frames), has_solids, columns, rows
+        is_new = seen != self._seen
+        if seen[0] != self._seen[0]:
+            self._box = None
+        self._seen = seen
         box = self._box = self._fitted(corners)
         low, high = box
         reach = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
         middle = 0.5 * (low + high)
-        wide, tall = 2.0 * np.abs((reach - middle) @ axes[:2].T).max(0)
-        # Axes and names need some room around the frames.
+        # Axes and names need some room around the frames; a robot has few of them.
         axis = 4.0 * max(1.2, rows / 10.0)
-        across = max(1.0, 2 * columns - max(16.0, 2.4 * axis))
+        across = max(1.0, 2 * columns - (8.0 if has_solids else max(16.0, 2.4 * axis)))
         down = max(1.0, 4 * rows - max(8.0, axis))
-        self._scale = max(float(wide) / across, float(tall) / down, 1e-9) / self._factor
+
+        def scale() -> float:
+            wide, tall = 2.0 * np.abs((reach - middle) @ self._axes()[:2].T).max(0)
+            return max(float(wide) / across, float(tall) / down, 1e-9)
+
+        if is_new and not self._is_chosen:
+            is_flat = not has_solids and high[2] - low[2] < FLAT * (high - low).max()
+            self._aim(scale, is_flat=is_flat and len(picture.frames) > 1)
+        axes = self._axes()
+        self._scale = scale() / self._factor
         for one in picture.frames:
             if one.name == self.follows:
                 middle = np.array(one.pose.translation)
         right, up = self._shift
         return Viewpoint(axes, middle - right * axes[0] - up * axes[1], self._scale)
+
+    def _aim(self, scale: Callable[[], float], *, is_flat: bool) -> None:
+        """Look from above at a flat scene; else from where `scale` is smallest."""
+        self.look_from("top" if is_flat else "orbit")
+        self._is_chosen = False
+        if is_flat:
+            return
+        best = BETTER * scale()
+        chosen = self._azimuth, self._elevation
+        for turned in AZIMUTHS:
+            for raised in ELEVATIONS:
+                self._azimuth, self._elevation = math.radians(turned), math.radians(raised)
+                if (found := scale()) < best - 1e-9:
+                    best, chosen = found, (self._azimuth, self._elevation)
+        self._azimuth, self._elevation = chosen
 
     def _axes(self) -> Floats:
         azimuth, elevation = self._azimuth, self._elevation

@@ -25,6 +25,7 @@ from tftool.drawing.labels import (
     Placer,
     label_text,
 )
+from tftool.drawing.plane import grid_step
 from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length, is_tall
 from tftool.drawing.table_columns import plain
 
@@ -41,6 +42,9 @@ LETTERED_FROM: Final = 15
 
 MOST_LETTERED: Final = 4
 """Most frames whose axes have letters; more letters would hide the frames."""
+
+MOST_GRID: Final = 10
+"""Most steps of the ground's grid to a side; a finer grid would look like a carpet."""
 
 CELLS_PER_NAME: Final = 150
 """Cells of a picture for each name; in a small picture, more names would hide the robot."""
@@ -221,7 +225,7 @@ def drawn(
         (one, name, count, 0.5 * width + x, 0.5 * height - y)
         for one, name, count, (x, y, _) in _named(picture, places.tolist())
     ]
-    ground = _ground(picture, view, sparse=plain)
+    ground, grid = _ground(picture, view, view.scale * max(width, height), sparse=plain)
     layers = [Layer(theme.paper(palette).grid, view.project(ground), is_hidden=True)]
     is_robot = solids is not None and len(solids.triangles) > 0
     is_crowded = len(picture.frames) * CELLS_PER_NAME > columns * rows
@@ -231,7 +235,7 @@ def drawn(
         if not (is_robot and (plain or is_crowded)) or one.name == picture.chosen
     ]
     layers += _layers(picture, view, rows, palette, lined)
-    return DrawnSpace(image, depth, layers, edges, names, view.grid)
+    return DrawnSpace(image, depth, layers, edges, names, grid)
 
 
 def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
@@ -280,6 +284,12 @@ def _outline(found: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
     return found & ~inner
 
 
+def _ends(picture: SpacePicture) -> set[str]:
+    """Return the names of the roots and of the frames without children."""
+    parents = {one.parent for one in picture.frames}
+    return {one.name for one in picture.frames if one.parent is None or one.name not in parents}
+
+
 def _named(
     picture: SpacePicture, places: Sequence[Sequence[float]]
 ) -> list[tuple[SpaceFrame, str, int, Sequence[float]]]:
@@ -288,7 +298,7 @@ def _named(
     The order is: the chosen frame, the pair's frames, frames without children, roots, other frames.
     """
     labels: dict[tuple[int, int], list[int]] = {}
-    parents = {one.parent for one in picture.frames}
+    parents, ends = {one.parent for one in picture.frames}, _ends(picture)
 
     def weight(number: int) -> tuple[bool, bool, bool, bool]:
         one = picture.frames[number]
@@ -308,7 +318,9 @@ def _named(
     has_heights = picture.solids is None and is_tall(picture.frames)
     found = []
     for group in labels.values():
-        group.sort(key=lambda number: (picture.frames[number].name != picture.chosen, number))
+        group.sort(
+            key=lambda number: (weight(number)[0], picture.frames[number].name not in ends, number)
+        )
         names = [plain(picture.frames[number].name) for number in group]
         shown = 2 if len("".join(names[:2])) <= 18 else 1
         more = f" +{len(names) - shown}" if len(names) > shown else ""
@@ -355,11 +367,16 @@ def _layers(
     return layers
 
 
-def _ground(picture: SpacePicture, view: Viewpoint, *, sparse: bool) -> npt.NDArray[np.float64]:
-    """Return the lines of the ground grid under the frames, or its crossings, shape (n, 2, 3)."""
+def _ground(
+    picture: SpacePicture, view: Viewpoint, reach: float, *, sparse: bool
+) -> tuple[npt.NDArray[np.float64], float]:
+    """Return the lines of the ground grid, or its crossings, shape (n, 2, 3), and its step."""
     step = view.grid
     places = np.array([one.pose.translation for one in picture.frames]).reshape(-1, 3)
     places = places if len(places) else np.zeros((1, 3))
+    # Lines that are outside of the picture, after zooming in, do not count.
+    while min(reach, float(np.ptp(places[:, :2], axis=0).max())) > (MOST_GRID - 4) * step:
+        step = grid_step(0.3 * step)
     # Below high frames, a small ground would not look like the ground.
     around = 2 + np.floor(0.2 * np.ptp(places[:, 2]) / step)
     low = np.floor(places[:, :2].min(0) / step) - around
@@ -372,10 +389,10 @@ def _ground(picture: SpacePicture, view: Viewpoint, *, sparse: bool) -> npt.NDAr
     across = np.arange(low[1], high[1] + 0.5) * step
     if sparse:
         crossings = [(x, y, 0.0) for x in along for y in across]
-        return np.repeat(np.array(crossings).reshape(-1, 1, 3), 2, axis=1)
+        return np.repeat(np.array(crossings).reshape(-1, 1, 3), 2, axis=1), step
     lines = [((x, near, 0.0), (x, far, 0.0)) for x in along]
     lines += [((left, y, 0.0), (right, y, 0.0)) for y in across]
-    return np.array(lines).reshape(-1, 2, 3)
+    return np.array(lines).reshape(-1, 2, 3), step
 
 
 class SpaceCanvas:
@@ -427,7 +444,7 @@ class SpaceCanvas:
         dots = self._dotted(drawing, drawing.layers[1:])
         sheet.grounds = np.where(dots.masks > 0, halves, sheet.grounds)
         marked = sheet.lay(dots, ascii_only=self._ascii)
-        self._name(drawing, picture.chosen, sheet, marked, solid)
+        self._name(drawing, picture, sheet, marked, solid)
         if self._tones == "none":
             sheet.inks[:], sheet.grounds[:] = NONE, NONE
         lines = sheet.lines(self._sheet)
@@ -518,7 +535,7 @@ class SpaceCanvas:
     def _name(
         self,
         drawing: DrawnSpace,
-        chosen: str,
+        picture: SpacePicture,
         sheet: CellSheet,
         marked: npt.NDArray[np.bool_],
         solid: npt.NDArray[np.bool_],
@@ -526,9 +543,14 @@ class SpaceCanvas:
         """Write the names of frames into a sheet; omit a name that would cover another name."""
         named: dict[str, tuple[SpaceFrame, int]] = {}
         labels: list[Label] = []
+        # Many names beside a robot would hide the robot.
+        wanted = _ends(picture) | {picture.chosen, *picture.pair}
+        is_sparse = bool(solid.any()) and not picture.names_all
         most = max(3, min(MOST_NAMED, self.columns * self.rows // CELLS_PER_NAME))
         for one, name, count, x, y in drawing.names:
             column, row = int(x // 2), int(y // 4)
+            if is_sparse and one.name not in wanted:
+                continue
             if 0 <= column < self.columns and 0 <= row < self.rows and len(labels) < most:
                 text = label_text(name, one.age, self.columns, 18, ascii_only=self._ascii)
                 labels.append(Label(one.name, text, column, row, 1))
@@ -551,17 +573,17 @@ class SpaceCanvas:
             one, _ = named[placed.label.name]
             color = theme.readable(theme.of_name(one.name), palette)
             inks.append(packed(theme.of_age(color, one.age, palette)))
-        # In the colour of its name, up to the axes at the origin, which the line does not hide.
+        # In the colour of its name, up to a solid or the axes, which the line does not hide.
         leaders = Dots(self.columns, self.rows)
         far = np.array([placed.is_far for placed in found], bool)
         ends = np.array([_leader(placed) for placed in found], float).reshape(-1, 2, 2)
         leaders.draw(ends[far], np.array(inks, np.int64)[far])
         axes = self._dotted(drawing, drawing.layers[-3:]).masks > 0
-        leaders.masks[letters | axes] = 0
+        leaders.masks[solid | axes] = 0
         sheet.lay(leaders, ascii_only=self._ascii)
         for placed, ink in zip(found, inks, strict=True):
             one, _ = named[placed.label.name]
-            text, is_chosen = placed.label.text, one.name == chosen
+            text, is_chosen = placed.label.text, one.name == picture.chosen
             sheet.write(placed.column, placed.row, text, ink, bold=is_chosen, clears=True)
         told = sum(named[placed.label.name][1] for placed in found)
         if told < total:

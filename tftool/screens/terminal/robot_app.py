@@ -14,7 +14,7 @@ from tftool.base.errors import TransformException
 from tftool.base.plain_text import count
 from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpaceFrame, SpacePicture
-from tftool.drawing.table_columns import fitted, padded, rest_of_list
+from tftool.drawing.table_columns import fitted, middle_cut, padded, rest_of_list
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
 from tftool.screens.terminal.panel_text import Hint, footer
@@ -246,7 +246,7 @@ class RobotApp(PanelApp):
         mark = (">" if look.ascii_only else "▸") if one.is_chosen else " "
         ink = look.ink(palette.accent if one.is_chosen else palette.text, bold=one.is_chosen)
         weak = look.ink(palette.dim)
-        name = padded(one.joint.name, name_width, more=look.more)
+        name = padded(middle_cut(one.joint.name, name_width, more=look.more), name_width)
         if one.is_chosen and self.sliders.entry:
             value = f"{self.sliders.entry}_"
         else:

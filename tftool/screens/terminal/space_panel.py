@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from rich.text import Text
 from textual import events
@@ -37,11 +38,12 @@ SPACE_KEYS = """\
  w            another view: orbit, top, front, side
  y            keep the chosen frame in the middle, or the scene
  a            show everything again
+ i            name all frames of a robot, or root, tips and the chosen one
 """
 
 SPACE_BINDINGS = [
     Binding(key, f"space('{key}')", show=False, priority=True)
-    for key in (*_MOVES, "y")
+    for key in (*_MOVES, "y", "i")
     if not key.startswith("shift")
 ]
 """Key bindings of a screen whose `action_space` passes keys to `SpacePanel.press`."""
@@ -66,6 +68,7 @@ class SpacePanel(Panel):
         super().__init__(name, title, can_focus=can_focus)
         self.camera = OrbitCamera()
         self.in_space = False
+        self._names_all = False
         self._picture = SpacePicture()
         self._look = Look()
         self._canvas: SpaceCanvas | None = None
@@ -93,7 +96,7 @@ class SpacePanel(Panel):
             self._canvas = SpaceCanvas(
                 width, height, palette=look.palette, tones=tones, ascii_only=look.ascii_only
             )
-        picture = self._picture
+        picture = replace(self._picture, names_all=self._names_all)
         if not picture.frames:
             self.show([Text("There are no frames yet.", look.ink(look.palette.dim))])
             return
@@ -129,6 +132,8 @@ class SpacePanel(Panel):
             return False
         if key == "y":
             self.camera.follows = "" if self.camera.follows == chosen else chosen
+        elif key == "i":
+            self._names_all = not self._names_all
         elif key in _MOVES:
             _MOVES[key](self.camera)
         else:
