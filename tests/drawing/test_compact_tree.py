@@ -186,3 +186,18 @@ def test_of_a_description_the_joints_are_told():
         "base",
         "└── arm             moving  shoulder",
     ]
+
+
+def test_the_age_of_a_frame_that_stopped_is_yellow_and_red_after_fifteen_seconds():
+    def color(silent, rate=0.0):
+        one = moving("arm", "world", rate=rate, newest=seconds(1012.5) - seconds(silent))
+        (row,) = [
+            row for row in compact(snapshot(root("world"), one), 80).rows if "arm" in row.plain
+        ]
+        at = row.plain.rindex(" s") - 1
+        return next((str(span.style) for span in row.spans if span.start <= at < span.end), "")
+
+    assert color(0.1, rate=50.0) == ""
+    assert color(3.0) == "yellow"
+    assert color(6.0, rate=0.1) == "yellow"
+    assert color(20.0) == "red"

@@ -48,9 +48,9 @@ def test_everything_of_a_kind_stands_in_columns():
     told = lines()
 
     assert told[0] == "Processes (2)"
-    assert told[1].startswith("  tftool demo    process 12    hosts   since ")
+    assert told[1].startswith("  tftool demo    process 12    hosts the world  since ")
     assert told[1].endswith("  a␛[2J, broadcaster1, turtlesim")
-    assert told[2].startswith("  tftool teleop  process 4567  joined  since ")
+    assert told[2].startswith("  tftool teleop  process 4567  joined           since ")
     assert told[2].endswith("  no nodes")
     assert told[3:] == [
         "Other nodes (1)",
@@ -58,7 +58,7 @@ def test_everything_of_a_kind_stands_in_columns():
         "Topics (2)",
         "  tf               125.0 Hz  tf2_msgs/msg/TFMessage   from broadcaster1, to echo",
         "  turtle1/cmd_vel    0.0 Hz  geometry_msgs/msg/Twist  from none, to turtlesim",
-        "Services (3)",
+        "Services (3, 2 shown)",
         "  spawn            turtlesim/srv/Spawn",
         "  turtle1/set_pen  turtlesim/srv/SetPen",
         "  and 1 of parameters and actions (--verbose lists them)",
@@ -92,8 +92,14 @@ def test_a_small_terminal_has_all_topics_in_a_line_each():
     assert len(told) < 24
     assert max(map(cell_len, told)) <= 80
     assert sum("5.0 Hz  sender → x" in line for line in told) == 9
-    assert "Topics (10), from → to" in told
+    assert "Topics (10, 9 shown), from → to" in told
     assert "  spawn, turtle1/set_pen" in told
+    # A blank line is above each list but the first.
+    assert [place for place, line in enumerate(told) if not line] == [
+        told.index("Other nodes (1)") - 1,
+        told.index("Topics (10, 9 shown), from → to") - 1,
+        told.index("Services (3, 2 shown)") - 1,
+    ]
     assert told[-1] == "  and 1 topics, 1 services of parameters and actions (--verbose)"
     assert len(session.lines(found, width=80, height=60)) > 24
 
@@ -107,3 +113,11 @@ def test_the_arrow_between_long_lists_of_nodes_is_never_cut():
 
     assert sum(line.count(" +2 → ") and line.endswith(" +2") for line in told) == 12
     assert max(map(cell_len, told)) <= 80
+
+
+def test_a_topic_names_a_receiver_that_is_not_its_sender():
+    topic = {"publishers": ["drawing", "teleop"], "subscribers": ["drawing", "turtlesim" * 4]}
+    found = FOUND | {"topics": {f"t{n}": topic | {"type": "a/B", "rate": 5.0} for n in range(14)}}
+    told = [line.plain for line in session.lines(found, width=80, height=24)]
+
+    assert sum("→ turtlesim" in line for line in told) == 14

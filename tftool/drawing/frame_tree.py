@@ -24,6 +24,7 @@ from tftool.base.stamps import (
     time_of_day,
 )
 from tftool.buffer.sample import FrameInfo, Snapshot
+from tftool.drawing import theme
 from tftool.drawing.drawn_forest import ASCII, UNICODE, Branch, Forest, Guides, branches, grow
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.drawing.table_columns import GAP, Cell, TableColumn, fit, middle_cut
@@ -483,11 +484,11 @@ def _link_columns(
             last,
         ]
     ages = [
-        (text, _age_style(one.info) if why else style)
+        (text, _age_style(one.info) if why or _is_late(one.info) else style)
         for one, (text, style), (why, _) in zip(rows, cells(_AGE), wrong, strict=True)
     ]
     rates = [
-        (text, style if one.info.rate or one.info.samples < 2 else _age_style(one.info))
+        (text, _age_style(one.info) if _has_stopped(one.info) else style)
         for one, (text, style) in zip(rows, cells(_rate), strict=True)
     ]
     return [
@@ -539,6 +540,16 @@ class _Drawing:
             ),
             default=LEAST_NAME,
         )
+
+
+def _has_stopped(info: FrameInfo) -> bool:
+    return not (info.rate or info.samples < 2 or info.is_static or info.parent is None)
+
+
+def _is_late(info: FrameInfo) -> bool:
+    """Return whether a moving frame has stopped, or is silent for as long as the demo allows."""
+    is_moving = info.parent is not None and not info.is_static
+    return is_moving and (_has_stopped(info) or theme.is_stale(as_seconds(info.age)))
 
 
 def _age_style(info: FrameInfo) -> str:

@@ -10,7 +10,7 @@ from rich.text import Text
 from tftool.base.plain_text import visible
 from tftool.drawing.table_columns import TableColumn, fit, middle_cut, padded, wrap_words
 
-ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
+ROLES = {"host": "hosts the world", "source": "has its own world", "guest": "joined"}
 """Role of a process in the session, in words."""
 
 INDENT = "  "
@@ -80,12 +80,12 @@ def _topics(writer: "_Writer", topics: Mapping[str, Any]) -> list[Text]:
 
 
 def _services(writer: "_Writer", services: Mapping[str, Any], *, verbose: bool) -> list[Text]:
-    told = writer.heading("Services", len(services))
     shown = {
         name: service["type"]
         for name, service in services.items()
         if verbose or not _goes_without_saying(name, service["type"])
     }
+    told = writer.heading("Services", len(services), shown=len(shown))
     types = [(visible(ros_type), "cyan") for ros_type in shown.values()]
     told += writer.rows([visible(name) for name in shown], [TableColumn("", types, goes=1)])
     folded = len(services) - len(shown)
@@ -109,13 +109,16 @@ def _brief(
     room = most - cell_len(arrow) - 2
     left = [_few(one["publishers"], room // 2, writer.more) for one in shown.values()]
     widest = max(map(cell_len, left), default=0)
-    right = [_few(one["subscribers"], room - widest, writer.more) for one in shown.values()]
+    right = [
+        _few(one["subscribers"], room - widest, writer.more, after=one["publishers"])
+        for one in shown.values()
+    ]
     ways = [
         (f"{padded(senders, widest)} {arrow} {receivers}", "dim")
         for senders, receivers in zip(left, right, strict=True)
     ]
     rates = [(f"{one['rate']:.1f} Hz", "" if one["rate"] else "dim") for one in shown.values()]
-    told = writer.heading("Topics", len(topics), f", from {arrow} to")
+    told = writer.heading("Topics", len(topics), f", from {arrow} to", shown=len(shown))
     told += writer.rows(
         [visible(name) for name in shown],
         [TableColumn("", rates, True), TableColumn("", ways, caps=(most, 16), goes=1)],
@@ -125,7 +128,7 @@ def _brief(
         for name, one in services.items()
         if not _goes_without_saying(name, one["type"])
     ]
-    told += writer.heading("Services", len(services))
+    told += writer.heading("Services", len(services), shown=len(names))
     listed = wrap_words(", ".join(names), max(10, (writer.width or 80) - len(INDENT)))
     told += [Text(f"{INDENT}{line}") for line in listed] if names else []
     folded = len(topics) - len(shown), len(services) - len(names)
@@ -135,9 +138,13 @@ def _brief(
     return told
 
 
-def _few(nodes: Iterable[str], width: int, more: str) -> str:
-    """Return the names of nodes; if they are too long, the first name and the number of others."""
-    names = _names(nodes, "-")
+def _few(nodes: Iterable[str], width: int, more: str, *, after: Sequence[str] = ()) -> str:
+    """Return the names of nodes; if they are too long, the first name and the number of others.
+
+    Names in `after` are last, so that a topic names its two sides.
+    """
+    found = sorted(set(nodes), key=lambda node: (node in after, node))
+    names = ", ".join(map(visible, found)) or "-"
     first, *others = names.split(", ")
     if others and cell_len(names) > width:
         rest = f" +{len(others)}"
@@ -152,10 +159,14 @@ class _Writer:
         self.width = width
         self.more = more
 
-    @staticmethod
-    def heading(what: str, count: int, more: str = "") -> list[Text]:
+    def heading(
+        self, what: str, count: int, more: str = "", *, shown: int | None = None
+    ) -> list[Text]:
         """Return a heading with the kind of the listed things and their number."""
-        return [Text.assemble((f"{what} ({count})", "bold"), (more, "dim"))]
+        part = "" if shown in (None, count) else f", {shown} shown"
+        # On a terminal, a blank line keeps the lists apart.
+        above = [Text()] * (self.width is not None and what != "Processes")
+        return [*above, Text.assemble((f"{what} ({count}{part})", "bold"), (more, "dim"))]
 
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()

@@ -194,11 +194,15 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         timeline, findings, topics = map(self.panel, ("timeline", "findings", "topics"))
         timeline.show(lines(now, self._moments, timeline.size.width, **style))
         findings.show(finding_lines(now, *findings.size, **style))
+        unlisted = len(now.marks) - findings.size.height
+        findings.border_subtitle = Content(f"{unlisted} more" if unlisted > 0 else "")
         topics.show(topic_lines(self._topics, now, *topics.size, **style))
         state = ("playing", look.palette.accent)
         if now.is_paused:
             state = ("end" if now.is_over else "paused", look.palette.warning)
-        found = count(len(now.marks), "finding") if now.marks else ""
+        errors = sum(one.is_error for one in now.marks)
+        kinds = (errors, "error"), (len(now.marks) - errors, "warning")
+        found = ", ".join(count(number, kind) for number, kind in kinds if number)
         self.panel("header").show([bar(self.title, found, state, self.size.width, look)])
 
     def _footer(self, width: int) -> Text:
