@@ -61,7 +61,8 @@ def test_curves_in_ascii_are_drawn_with_the_signs_in_the_title(tftool, run):
 
     assert lines[1] == "position, m  1 x 1.654  2 y 1.124  3 z 0.500"
     position = "".join(lines[2:9])
-    assert all(position.count(sign) > 10 for sign in "123")
+    assert all(2 <= position.count(sign) < 12 for sign in "123")
+    assert position.count("-") > 60
     # A curve alone in its panel is drawn with strokes.
     assert next(line for line in lines if line.startswith("distance")).startswith("distance, m  2")
 
@@ -87,7 +88,7 @@ def test_a_panel_without_room_says_how_to_see_its_curve():
     look = PlotLook(80, 12, numbered=True)
     lines = over_time([trajectory_of(still)], 1, chosen([]), look).plain.splitlines()
 
-    assert "turn rate, °/s  9 0  (a taller window shows the curve, or the key i)" in lines
+    assert "turn rate, °/s  9: 0  (a taller window shows the curve, or the key i)" in lines
     assert not any("window" in line for line in lines if line.startswith("position"))
 
 
@@ -400,3 +401,25 @@ def test_noise_does_not_fill_the_height_and_a_hidden_panel_is_a_title():
     lines = one.plain.splitlines()
     assert lines[1].startswith("distance")
     assert len(lines) == pytest.approx(len(both), abs=2)
+
+
+def test_in_ascii_curves_that_coincide_are_an_equals_sign(tftool, run):
+    out = tftool("plot", "map", "car", run, "--only", "roll,pitch,yaw", "--ascii").out
+
+    # Roll and pitch are 0 all the time.
+    assert re.search(r"1=+2=", out)
+
+
+def test_the_curves_of_different_panels_have_different_colours():
+    stamps = np.arange(3) * seconds(1) + 1
+    turns = np.tile([0.0, 0.0, 0.0, 1.0], (3, 1))
+    still = TransformArray("map", "car", stamps, np.zeros((3, 3)), turns, np.ones(3, bool))
+    drawn = over_time([trajectory_of(still)], 1, chosen(["distance", "speed"]), PlotLook(80, 20))
+
+    titles = ["distance, m", "speed, m/s"]
+    ends = [drawn.plain.index(title) + len(title) + 2 for title in titles]
+    colours = [
+        {str(one.style) for one in drawn.spans if one.start <= at < one.end} - {"bold"}
+        for at in ends
+    ]
+    assert colours[0].isdisjoint(colours[1])

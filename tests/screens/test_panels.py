@@ -367,7 +367,7 @@ def test_the_strip_is_the_newest_line_and_says_how_to_see_more():
     line = "   late late late late late late late"
     assert strip(9)[1:] == [line, f"{line}…"]
     assert strip(9, most=1) == [" 5.0 sim: late late late late…    L log "]
-    assert strip(0)[0].startswith(" Nothing was said yet.")
+    assert strip(0)[0].startswith(" Log messages appear here.")
 
 
 def test_a_refused_lookup_is_read_to_its_end_on_80_columns():
@@ -417,7 +417,7 @@ def test_the_log_of_an_earlier_moment_ends_there():
     journal = Journal([record(1, "early"), record(5, "late")])
 
     assert log(journal, until=3) == ["   1.0 sim: early"]
-    assert log(journal, until=0) == ["Nothing was said yet."]
+    assert log(journal, until=0) == ["Log messages appear here."]
 
 
 def test_a_long_line_is_broken_at_blanks_and_cut_after_four():

@@ -1,6 +1,7 @@
 """Tests of the turtles' screen: its contents and its keys."""
 
 import asyncio
+import math
 import re
 
 import pytest
@@ -372,6 +373,8 @@ def test_for_teleop_the_field_fills_the_screen(danced):
     assert "3-D" not in text
     assert "L log" in text
     assert "Tree" not in text
+    pose = danced.simulator.turtles["turtle1"].pose
+    assert f"x {pose.x:.2f}  y {pose.y:.2f}  {math.degrees(pose.theta):z.0f}°" in text
     small = shown(danced, (80, 24), drive_only=True)
     # Title, log and keys have a row each; the picture has all other rows, with its border.
     assert sum(line.startswith("│") for line in small) == 19
@@ -434,7 +437,7 @@ def test_an_empty_world_says_so(frames):
     assert "No frames yet." in text
     assert "there are no frames yet" in text
     assert "turtle1 in turtle2" not in text
-    assert "Nothing was said yet." in text
+    assert "Log messages appear here." in text
 
 
 def test_five_thousand_frames_are_shown(frames):

@@ -34,7 +34,7 @@ LABELS: Final = 10
 """Cells at the left of a panel for the labels of its axis."""
 
 MARK_EVERY: Final = 12
-"""Cells of a curve in braille from one of its signs to the next."""
+"""Cells of a curve from one of its signs to the next."""
 
 _SIGNS: Final = "0123456789abcdefghijklmnopqrstuvwxyz"
 
@@ -85,6 +85,10 @@ class PlotLook:
     def colors(self) -> tuple[Color, ...]:
         """Colours of the curves, in order."""
         return _LIGHT if self.light else _DARK
+
+    def color(self, number: int) -> Color:
+        """Return the colour of a curve by its number, so that panels differ in colour."""
+        return self.colors[(number - 1) % len(self.colors)]
 
     @property
     def bar(self) -> str:
@@ -199,7 +203,7 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
     grid = merged(layers).rows(ascii_only=look.ascii_only)
     if is_marked:
         signs = [_sign(1 + place) for place in range(len(curves))]
-        _mark(grid, layers, signs, every=1 if look.ascii_only else MARK_EVERY)
+        _mark(grid, layers, signs, ascii_only=look.ascii_only)
     for row, cells in enumerate(grid):
         text.append_text(_row(labels.get(row, ""), cells, look))
     edge = axis_labels(left, left + wide, columns, "m")
@@ -224,10 +228,10 @@ def _titled(panel: PlotPanel, look: PlotLook, number: int, note: str) -> Text:
         value = "" if math.isnan(last) else _value(last, max(map(abs, panel.limits())))
         is_marked = look.marked and len(panel.curves) > 1
         is_key = look.numbered and number + place < 10
-        key = _sign(number + place) if is_key or is_marked else ""
         label = "" if is_alone else visible(one.label)
+        key = _sign(number + place) + ":" * (not label) if is_key or is_marked else ""
         is_hidden = number + place in look.hidden
-        style = "dim strike" if is_hidden else _style(look.colors[place % len(look.colors)])
+        style = "dim strike" if is_hidden else _style(look.color(number + place))
         line.append("  ").append(" ".join(filter(None, (key, label, value))), style)
     line.append(note, "dim")
     line.truncate(look.width, overflow="ellipsis")
@@ -271,7 +275,7 @@ def _drawn(
             layers[-1],
             (times - first) / (last - first),
             (values - low) / (high - low),
-            look.colors[place % len(look.colors)],
+            look.color(number + place),
         )
     shade = [" "] * columns
     for refused in shaded:
@@ -283,7 +287,7 @@ def _drawn(
             shade[column] = ":" if look.ascii_only else "░"
     grid = merged(layers).rows(ascii_only=look.ascii_only)
     if look.marked and len(panel.curves) > 1:
-        _mark(grid, layers, signs, every=1 if look.ascii_only else MARK_EVERY)
+        _mark(grid, layers, signs, ascii_only=look.ascii_only)
     for label, cells in zip(labels, grid, strict=True):
         below = zip(cells, shade, strict=True)
         yield _row(label, [cell if cell[1] else (sign, "dim") for cell, sign in below], look)
@@ -295,11 +299,22 @@ def _sign(number: int) -> str:
 
 
 def _mark(
-    grid: list[list[tuple[str, str]]], layers: Sequence[Dots], signs: Sequence[str], *, every: int
+    grid: list[list[tuple[str, str]]],
+    layers: Sequence[Dots],
+    signs: Sequence[str],
+    *,
+    ascii_only: bool,
 ) -> None:
-    """Write each curve's sign into one of `every` cells that show the curve."""
-    has_dots = np.bitwise_or.reduce([one.masks for one in layers]) > 0
-    owners = np.where(has_dots, owners_of(layers), -1).T
+    """Write each curve's sign into some cells that show the curve, a few cells apart.
+
+    In ASCII, the cells between them have "-", and "=" where several curves are.
+    """
+    counts = sum((one.masks > 0).astype(int) for one in layers)
+    owners = np.where(counts > 0, owners_of(layers), -1).T
+    if ascii_only:
+        for column, row in np.argwhere(owners >= 0).tolist():
+            grid[row][column] = "=" if counts[row, column] > 1 else "-", grid[row][column][1]
+    every = MARK_EVERY
     for number, sign in enumerate(signs):
         shown = np.argwhere(owners == number)
         for column, row in shown[min(every, len(shown)) // 2 :: every].tolist():
@@ -395,7 +410,7 @@ def pair_plot(
     ascii_only: bool = False,
     note: str = "",
 ) -> list[Text]:
-    """Draw a pair's distance and yaw; the vertical axes fit the whole path, not only `span`.
+    """Draw a pair's distance, and its yaw if there is room, at the scale of the whole path.
 
     Args:
         path: Poses of the pair, NaN at times without a pose.
@@ -407,10 +422,10 @@ def pair_plot(
         note: Words after the last values, which are then dim, such as "9 s old".
     """
     columns = width - PAIR_LABELS - 1
-    # In a low plot, one title line has both values, and the time if there is no line for it.
+    # A low plot has only the distance: its title has the yaw, and the time if no line has it.
     is_low = LOWEST_SCALED <= height < 2 * TITLED_FROM + 1
     with_axis = height > LOWEST_SCALED and height != SCALED_FROM
-    rows = (height - with_axis - is_low) // 2
+    rows = height - with_axis - 1 if is_low else (height - with_axis) // 2
     if columns < 8 or rows < 1:
         return []
     found = {one.title: one for one in panels([trajectory_of(path)], span.start, _QUANTITIES)}
@@ -424,8 +439,9 @@ def pair_plot(
             found[title], title, unit, color, span, columns, rows, palette, ascii_only, is_low
         )
         if is_low and lines:
-            lines[0].append("  ").append_text(curve.pop(0)).truncate(width)
-        elif is_low or rows >= TITLED_FROM:
+            lines[0].append("  ").append_text(curve[0]).truncate(width)
+            continue
+        if is_low or rows >= TITLED_FROM:
             titles.append(curve[0])
         lines += curve
     for title_line in titles if note else ():

@@ -157,6 +157,11 @@ def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
         scene_of(session.world),
         live(),
         driver,
-        screen_setting(options, f"tftool teleop {options.turtle}", drive_only=True),
+        screen_setting(
+            options,
+            f"tftool teleop {options.turtle}",
+            drive_only=True,
+            pair=("turtle1" if options.turtle == "turtle2" else "turtle2", options.turtle),
+        ),
     )
     return ExitStatus.DONE

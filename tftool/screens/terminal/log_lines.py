@@ -14,6 +14,9 @@ from tftool.world.log import PROBLEMS, LogRecord
 MOST_LINES = 4
 """Most lines of one message."""
 
+EMPTY = "Log messages appear here."
+"""Text of a log without a message."""
+
 _STAMP = re.compile(r"\b(\d+)\.(\d{6})\b")
 """Stamp in the error of a lookup, which differs each time."""
 
@@ -87,7 +90,7 @@ class Journal:
         told = self._told(until)
         told = told[: max(len(told) - back, 1)]
         if not told:
-            return [Text("Nothing was said yet.", look.ink(look.palette.dim))]
+            return [Text(EMPTY, look.ink(look.palette.dim))]
         shown: list[Text] = []
         for entry in reversed(told):
             lines = self._entry(entry, until, start, width, look)
@@ -114,7 +117,7 @@ class Journal:
         dim = look.ink(look.palette.dim)
         more = Text.assemble(("  L", look.ink(look.palette.accent, bold=True)), (" log ", dim))
         room = max(0, width - more.cell_len)
-        lines = [Text("Nothing was said yet.", dim)]
+        lines = [Text(EMPTY, dim)]
         if told:
             lines = self._entry(told[-1], until, start, max(width - 2, 1), look, first=room - 1)
         shown = [Text.assemble(" ", line) for line in lines[:most]]

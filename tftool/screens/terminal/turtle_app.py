@@ -5,6 +5,7 @@ world's time. The number of pictures per real second is fixed, however fast worl
 """
 
 import asyncio
+import math
 from collections.abc import Callable, Sequence
 from typing import ClassVar
 
@@ -261,7 +262,7 @@ class TurtleApp(PanelApp):
         field.border_title = Content(
             panels.field_title(moment, is_chosen=bool(self._question.fixed))
         )
-        told = ""
+        told = self._driven() if self.setting.drive_only else ""
         idle = self._idle
         turtles = {frame.name for frame in moment.picture.frames if frame.is_turtle}
         if idle is not None and idle.is_drawing and idle.turtle in turtles:
@@ -274,6 +275,16 @@ class TurtleApp(PanelApp):
         field.show(
             self._plane.lines(moment.picture, width, height, self.look, colors=self.setting.colors)
         )
+
+    def _driven(self) -> str:
+        """Describe the pose and the speed of the turtle that the keys drive."""
+        simulator = self.scene.simulator
+        turtle = simulator.turtles.get(self.setting.pair[1]) if simulator else None
+        if turtle is None:
+            return ""
+        pose = turtle.pose
+        heading = f"{math.degrees(pose.theta):z.0f}{'d' if self.setting.ascii_only else '°'}"
+        return f"x {pose.x:.2f}  y {pose.y:.2f}  {heading}  {pose.linear_velocity:z.1f} m/s"
 
     @property
     def field(self) -> SpacePanel:
