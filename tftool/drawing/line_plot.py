@@ -309,7 +309,7 @@ def _mark(
 
     In ASCII, the cells between them have "-", and "=" where several curves are.
     """
-    counts = sum((one.masks > 0).astype(int) for one in layers)
+    counts = np.sum([one.masks > 0 for one in layers], axis=0)
     owners = np.where(counts > 0, owners_of(layers), -1).T
     if ascii_only:
         for column, row in np.argwhere(owners >= 0).tolist():
