@@ -564,3 +564,18 @@ def test_the_help_for_the_keys_is_whole_on_a_screen_of_24_rows(danced):
     assert "another scenario" in lines
     assert "close these keys" in lines
     assert re.search(r"q  +quit", lines)
+
+
+def test_a_world_whose_static_frames_arrive_first_is_shown_from_above(frames):
+    scene = frames({})
+    up = TransformStamped(seconds(1000), "base", "laser", Transform((0.0, 0.0, 3.0)))
+    scene.world.broadcast([up], "me", static=True)
+
+    async def steps(app, pilot):
+        assert app.field.in_space
+        now = scene.world.clock.now()
+        scene.world.broadcast([TransformStamped(now, "map", "base", Transform())], "me")
+        await settled(pilot)
+        assert not app.field.in_space
+
+    visit(scene, (80, 24), steps)

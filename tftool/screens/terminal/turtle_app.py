@@ -257,7 +257,9 @@ class TurtleApp(PanelApp):
     def _draw_field(self, moment: SceneMoment) -> None:
         field = self.field
         if not self._is_decided and moment.picture.frames:
-            self._is_decided, field.in_space = True, opens_in_space(moment)
+            field.in_space = opens_in_space(moment)
+            # Static frames may arrive first: a frame that moves shows the world from above.
+            self._is_decided = not field.in_space
         width, height = field.size
         field.border_title = Content(
             panels.field_title(moment, is_chosen=bool(self._question.fixed))
