@@ -384,7 +384,8 @@ def test_both_ends_of_an_action_know_a_goal_by_one_id(ros_runtime, node):
     assert states == [1, 2, 1, 2]
     server.destroy()
     assert not node.get_publishers_info_by_topic("count/_action/status")
-    assert not [name for name, _ in node.get_service_names_and_types() if "_action" in name]
+    served = node.get_service_names_and_types_by_node(node.get_name(), "/")
+    assert not [name for name, _ in served if "_action" in name]
 
 
 def test_a_goal_is_worked_on_to_its_end_when_its_server_is_destroyed_meanwhile(ros_runtime, node):
