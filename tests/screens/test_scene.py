@@ -51,7 +51,10 @@ def test_the_present_is_what_the_simulator_and_the_buffer_say(danced):
         assert (shown.x, shown.y) == pytest.approx((pose.x, pose.y), abs=1e-12)
         assert math.remainder(shown.theta - pose.theta, math.tau) == pytest.approx(0, abs=1e-9)
     assert moment.pair.found == danced.world.buffer.lookup_transform("turtle2", "turtle1")
-    assert moment.picture.pen.strokes[-1] == danced.simulator.trail.segments[-1]
+    assert moment.picture.pen.strokes[-1][:4] == danced.simulator.trail.segments[-1][:4]
+    # Two turtles draw; each one has a colour of its own.
+    inks = {stroke[4] for stroke in moment.picture.pen.strokes}
+    assert inks == {theme.of_name("turtle1"), theme.of_name("turtle2")}
 
 
 def test_an_earlier_moment_is_what_the_buffer_remembers(danced):

@@ -1,8 +1,9 @@
 """State of a world at one time, for screens: the present, or a time still in the buffer."""
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any, NamedTuple, Protocol
 
 from tftool.base.color import Color
@@ -10,6 +11,7 @@ from tftool.base.errors import TransformException
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.buffer.snapshot import rate_of
+from tftool.drawing import theme
 from tftool.drawing.cells import Stroke
 from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
 from tftool.drawing.solids import Solids
@@ -25,9 +27,14 @@ from tftool.screens.terminal.frames_picture import (
     pictured,
 )
 from tftool.world.nodes.trail import Trail
+from tftool.world.nodes.turtle import PEN_COLOR
+from tftool.world.nodes.turtlesim import Turtlesim
 
 FLASH = seconds(0.4)
 """Nanoseconds for which a wall is highlighted after a turtle hit it."""
+
+NEAR = 1e-3
+"""Metres between the end of a turtle's last stroke and the turtle, whose pose is rounded."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,16 +161,23 @@ class Scene:
             # Otherwise the outdated error would remain the newest line of the log.
             self.world.log.info("screen", f"{self.missed} is here now: the keys drive it")
             self.missed = ""
+        turtles = tuple(
+            _SeenTurtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
+            for turtle in simulator.turtles.values()
+        )
         trail = simulator.trail
         before = self._seen[-1] if self._seen else None
         if before is None or (trail.wipes, trail.drawn) != (before.wipes, before.drawn):
             if before is not None and trail.wipes != before.wipes:
                 self._wiped[before.wipes] = before.drawn, self._strokes
-            self._strokes = tuple(trail.segments)
-        turtles = tuple(
-            _SeenTurtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
-            for turtle in simulator.turtles.values()
-        )
+            same = before is not None and trail.wipes == before.wipes
+            known = before.drawn if before is not None and same else 0
+            old = max(0, len(trail.segments) - (trail.drawn - known))
+            new: Sequence[Stroke] = list(islice(trail.segments, old, None))
+            # Strokes of a far simulator arrive later than its poses, so their turtle is not known.
+            if isinstance(simulator, Turtlesim):
+                new = _inked(new, turtles)
+            self._strokes = (*(self._strokes[len(self._strokes) - old :] if same else ()), *new)
         for turtle in simulator.turtles.values():
             if turtle.wall_hits > self._hits.get(turtle.name, 0):
                 self._lit.update(dict.fromkeys(_sides(turtle.pose.x, turtle.pose.y), now))
@@ -375,6 +389,25 @@ class Scene:
         if at is None:
             return self._seen[-1]
         return next((seen for seen in reversed(self._seen) if seen.stamp <= at), self._seen[0])
+
+
+def _inked(strokes: Sequence[Stroke], turtles: Sequence[_SeenTurtle]) -> list[Stroke]:
+    """Return strokes in the colour of their turtle, if its pen has the colour of a new pen.
+
+    Args:
+        strokes: The newest strokes, oldest first; the last one of a turtle ends at the turtle.
+        turtles: Present turtles.
+    """
+    ends = {turtle.name: (turtle.x, turtle.y) for turtle in turtles}
+    found: list[Stroke] = []
+    for x0, y0, x1, y1, color, width in reversed(strokes):
+        near = (name for name, (x, y) in ends.items() if abs(x - x1) + abs(y - y1) < NEAR)
+        name = next(near, None)
+        if name is not None:
+            ends[name] = x0, y0
+            color = theme.of_name(name) if color == PEN_COLOR else color
+        found.append((x0, y0, x1, y1, color, width))
+    return found[::-1]
 
 
 def _sides(x: float, y: float) -> list[str]:
