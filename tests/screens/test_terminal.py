@@ -566,6 +566,24 @@ def test_the_help_for_the_keys_is_whole_on_a_screen_of_24_rows(danced):
     assert re.search(r"q  +quit", lines)
 
 
+def test_new_frames_are_listed_without_another_look(frames, monkeypatch):
+    monkeypatch.setattr(turtle_app, "LOOKS_PER_SECOND", 1e-6)
+    monkeypatch.setattr(turtle_app, "REST", 0.0)
+    scene = frames({})
+
+    async def steps(app, pilot):
+        now = seconds(1000)
+        links = [TransformStamped(now, "map", name, Transform()) for name in "abcdef"]
+        scene.world.broadcast(links, "me", static=True)
+        app.look_again()
+        await pilot.pause()
+        await pilot.pause()
+        listed = [line.split() for line in told(screen(app)) if "static" in line]
+        assert len(listed) == 6
+
+    visit(scene, (120, 40), steps)
+
+
 def test_a_world_whose_static_frames_arrive_first_is_shown_from_above(frames):
     scene = frames({})
     up = TransformStamped(seconds(1000), "base", "laser", Transform((0.0, 0.0, 3.0)))

@@ -246,6 +246,8 @@ class TurtleApp(PanelApp):
             has_grown = len(moment.snapshot.frames) != frames
             if has_grown:
                 self._arrange(width, height)
+                # Not only with the next picture, which may be late on a busy machine.
+                self.call_after_refresh(self.redraw)
         else:
             moment = question.wait(moment)
         # The tree's new size is only known after the next update.
