@@ -89,6 +89,12 @@ def test_numbers_and_origin_of_a_frame_are_beside_its_curves():
     assert "static" in text
 
 
+def test_the_curve_of_delays_is_said_to_show_maxima():
+    (heading,) = (line for line in shown(size=(120, 40)) if "mean delay" in line)
+
+    assert re.search(r"rate last \d+ s .*mean delay max, last \d+ s", heading)
+
+
 def test_more_frames_than_rows_are_counted_and_scrolled():
     many = [f"link_{n:02}" for n in range(60)]
 

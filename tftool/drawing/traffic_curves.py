@@ -194,10 +194,12 @@ def _delay_color(palette: theme.Palette) -> Color:
 
 
 def _heading(span: float, layout: TrafficLayout) -> Text:
-    over = f"last {span:.0f} s"
+    past = f"last {span:.0f} s"
     wide = layout.curve
     words = padded("frame", layout.names)
-    for word in ("rate", "mean delay"):
+    # The curve of delays shows maxima, beside the mean.
+    for word, over in (("rate", past), ("mean delay", f"max, {past}")):
+        over = over if len(over) < wide else past
         words += f"{word:>{NUMBER}} " + (f"{over:<{wide - 1}} " if wide else "")
     return Text(fitted(words, layout.width, more=""), layout.ink(layout.palette.dim))
 
