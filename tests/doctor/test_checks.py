@@ -337,8 +337,9 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     assert finding.severity is Severity.WARNING
     # No data shows where the camera is mounted.
     assert finding.facts["join"] is None
-    assert finding.fixes[0].command == ""
     assert "nothing in the data says where to join camera_link" in finding.fixes[0].text
+    assert "if it is mounted on the robot, measure where" in finding.fixes[0].text
+    assert finding.fixes[0].command.endswith("--frame-id base_link --child-frame-id camera_link")
 
     bare = robot(laser=False, scans=False)
     bare.moving("turret", "gun")
@@ -453,6 +454,7 @@ def test_names_that_are_empty_or_equal():
     assert severities == [Severity.ERROR, Severity.WARNING]
     topics = [one.topics for one in made.judged().findings if one.id == "empty-frame"]
     assert ("/points",) in topics
+    assert found(made, "empty-frame").message == "no frame name in a transform on /tf"
 
 
 def test_a_base_below_map_beside_odom_is_out_of_line():

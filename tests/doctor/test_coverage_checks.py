@@ -231,7 +231,8 @@ def test_what_a_filter_takes_in_is_not_placed_sample_by_sample(kind):
     made.moving("map", "odom", hz=20, pose=stands, begin=4.0)
     # Samples of an IMU contain at least a direction.
     assert ids(made, notes=True) == (["late-start"] if kind != "NavSatFix" else [])
-    del made.records["map", "odom", False]
+    made = late_odometry()
+    made.hears("/imu", "laser", hz=100, kind=f"sensor_msgs/{kind}")
     made.hears("/scan", "laser")
     assert ids(made, notes=True) == ["sensor-outruns-tf"]
 
@@ -506,3 +507,34 @@ def test_a_player_that_pauses_is_no_outage():
         moved = [(stamp, log + pause * (log > later), frame) for stamp, log, frame in rows]
         made.heard[topic] = (kind, moved)
     assert "outage" not in ids(made, notes=True)
+
+
+@pytest.mark.parametrize(("shown", "told"), [(True, ["outage"]), (False, ["gap"])])
+def test_a_recorder_that_stalls_again_and_again_is_an_outage(shown, told):
+    """Check silences of 0.4 s after which `/clock` comes in a burst, or with its usual period."""
+    made = robot(start=100.0, log_from=START, odometry=False, scans=False)
+
+    def held(at: float) -> float:
+        return at + 1.0 - at % 1.0 if at > 1.0 and at % 1.0 > 0.6 else at
+
+    for tick in range(1000):
+        at = tick * 0.02
+        if held(at) == at:
+            made.sent("odom", "base_link", at, (0.1 * at, 0.0, 0.0, *NO_TURN))
+            made.hears("/scan", "laser", 50.0, begin=at, end=at + 0.02)
+        if held(at) == at or (shown and at % 1.0 > 0.8):
+            made.clock.append((seconds(100.0 + at), made.log(held(at)) + tick))
+    finding = found(made, told[0])
+    assert [one for one in ids(made) if one in ("gap", "outage")] == told
+    if shown:
+        assert finding.count == 19
+        assert "/clock" in finding.evidence[0]
+        assert "recorder" in finding.fixes[0].text
+
+
+def test_the_only_transform_of_a_recording_is_a_note():
+    made = Robot()
+    made.sent("kinect", "camera", 1.0)
+    assert found(made, "single-sample").severity is Severity.NOTE
+    made.hears("/image", "camera", kind="sensor_msgs/Image")
+    assert found(made, "single-sample").severity is Severity.WARNING

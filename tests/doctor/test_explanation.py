@@ -1,6 +1,7 @@
 """Tests of the reasons for failed lookups: the edge, the missing time, and the remedies."""
 
 import io
+from dataclasses import replace
 
 import pytest
 from rich.console import Console
@@ -8,7 +9,7 @@ from rich.console import Console
 from tests.doctor.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool import Buffer, Transform, TransformStamped, diagnose, explain
 from tftool.base.errors import InputError
-from tftool.base.stamps import seconds
+from tftool.base.stamps import LATEST, seconds
 from tftool.doctor.explanation import Explanation, over_time, traced
 from tftool.doctor.lookup_reasons import Cause
 from tftool.doctor.model import Model, Settings
@@ -223,7 +224,8 @@ def test_two_clocks_never_meet():
             "odom",
             "camera_link",
             Cause.SPLIT,
-            "nothing in the data says where to join camera_link",
+            "nothing in the data says where to join camera_link; if it is mounted on the robot, "
+            "measure where, and publish it:",
         ),
     ],
 )
@@ -473,3 +475,13 @@ def test_both_unknown_names_are_told_and_a_slash_comes_last():
     first, second = (remedy.text for remedy in found.remedies)
     assert "publishes world: start the node that should" in first
     assert second.startswith('and set frame_id to "world"')
+
+
+def test_transforms_of_a_type_that_no_listener_reads_are_said_to_be_of_no_use():
+    made = robot()
+    evidence = made.evidence()
+    for kind, told in (("geometry_msgs/TransformStamped", True), ("tf2_msgs/TFMessage", False)):
+        topics = tuple(replace(topic, type=kind) for topic in evidence.topics)
+        model = Model(replace(evidence, topics=topics))
+        why = " ".join(traced(model, Question("odom", "base_link", LATEST)).why)
+        assert ("a listener does not receive base_link in odom" in why) is told

@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
@@ -438,6 +440,11 @@ def test_a_late_transform_with_odometry_in_time_does_not_blame_the_clocks():
     cure = found(made, "stale-stamp").fixes[0].text
     assert "/odom brings the same poses 3" in cure
     assert "clocks" not in cure
+    # A driver that negates y in one of the two sends the same poses, too.
+    for rows in made.odometry.records.values():
+        rows[:] = [(stamp, (x, -y, *rest), number) for stamp, (x, y, *rest), number in rows]
+    cure = found(made, "stale-stamp").fixes[0].text
+    assert "/odom brings the same poses (with another sign of y) 3" in cure
 
 
 def test_a_robot_that_the_world_loses_for_seconds_is_a_warning():
@@ -469,7 +476,14 @@ def test_a_localiser_that_corrects_the_robot_again_and_again_is_told():
     assert ids(localised(1.0, 3.0, 5.0)) == []
     told = found(localised(1.0, 3.0, 5.0, 6.0), "teleport")
     assert told.message.startswith("odom in map jumps by up to 0.80 m, 3 times by more than 0.5 m")
-    assert "--steps --pair map:odom" in told.fixes[0].command
+    # The commands print the pose that the finding measured, before and after the jump.
+    assert told.fixes[0].command.startswith("tftool echo map base_link RECORDING --at 17500000")
+    assert "also at" in told.evidence[0]
+    assert told.fixes[0].command != told.fixes[1].command
+    # A command takes small numbers as seconds since the start, not as simulated stamps.
+    made = robot(start=136.0, log_from=START, odometry=False)
+    made.moving("odom", "base_link", pose=lambda t: (2.0 * (t > 4.0), 0.0, 0.0, *NO_TURN))
+    assert found(made, "teleport").fixes[1].command.endswith("RECORDING --at 4.02")
 
 
 def test_a_turn_of_odom_about_the_robot_corrects_nothing():
@@ -596,6 +610,11 @@ def test_played_data_that_is_over_is_a_note():
         finding = next(one for one in judge(ended).findings if one.id == "edge-stopped")
         assert finding.severity is severity
         assert ("a player published it" in finding.fixes[0].text) is (severity is Severity.NOTE)
+    # If /clock goes on, all else should have gone on, too.
+    ticks = evidence.start + np.arange(0, 20, dtype=np.int64) * seconds(1.0)
+    (finding,) = judge(replace(ended, clock=(ticks, ticks))).findings
+    assert (finding.id, finding.severity) == ("edge-stopped", Severity.WARNING)
+    assert finding.fixes[0].text.startswith("all data but /clock ends at")
 
 
 def test_replays_of_several_parts_among_live_data_are_no_loop():

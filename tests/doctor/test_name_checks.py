@@ -2,15 +2,18 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.doctor.judged import found, ids
 from tests.doctor.robots import Robot, robot
+from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
 from tftool.doctor.name_checks import distance
+from tftool.recordings.contract import Publisher
 
 
 def test_a_frame_that_no_transform_names_is_told_with_what_fits():
@@ -203,3 +206,48 @@ def test_transforms_of_a_type_that_tf2_does_not_read_are_told():
         topics = tuple(replace(topic, type=kind) for topic in evidence.topics)
         findings = judge(replace(evidence, topics=topics)).findings
         assert [one.id for one in findings] == told
+
+
+def test_a_slash_on_messages_that_are_older_than_their_frame_says_so():
+    for begin, told in ((3.0, True), (0.0, False)):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", begin=begin)
+        made.hears("/cloud", "/laser", kind="sensor_msgs/PointCloud2", end=1.0)
+        line = found(made, "slash-twins").evidence[0]
+        assert ("before the first sample of base_link in odom" in line) is told
+
+
+def test_messages_without_a_frame_name_are_counted_and_name_their_node():
+    made = robot()
+    made.hears("/points", "", kind="sensor_msgs/PointCloud2")
+    assert found(made, "empty-frame").message == "no frame name in 80 messages on /points"
+    evidence = made.evidence()
+    known = (*evidence.publishers, Publisher("/points", "/lidar"))
+    (finding,) = judge(replace(evidence, publishers=known)).findings
+    assert finding.fixes[0].text == "set header.frame_id in /lidar, which publishes /points"
+
+
+def test_messages_without_a_stamp_and_a_frame_were_not_meant_for_tf():
+    made = robot()
+    made.hears("/sent", "", kind="geometry_msgs/PointStamped")
+    kind, rows = made.heard["/sent"]
+    made.heard["/sent"] = (kind, [(0, log, frame) for _, log, frame in rows])
+    assert found(made, "empty-frame").severity is Severity.NOTE
+
+
+def test_a_publisher_whose_messages_are_empty_is_a_note():
+    made = robot()
+    evidence = made.evidence()
+    transforms = evidence.transforms
+    logs = np.arange(100, dtype=np.int64) * seconds(0.05) + evidence.start
+    sender = np.full(100, len(transforms.publishers), dtype=np.int32)
+    known = (*transforms.publishers, Publisher("/tf", "/vicon"))
+    more = replace(
+        transforms,
+        log_times=np.concatenate([transforms.log_times, logs]),
+        senders=np.concatenate([transforms.senders, sender]),
+        publishers=known,
+    )
+    (finding,) = judge(replace(evidence, transforms=more)).findings
+    assert (finding.id, finding.severity) == ("empty-message", Severity.NOTE)
+    assert finding.evidence[0] == "/tf: 100 of 100 messages of /vicon"

@@ -39,15 +39,20 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "error  split-tree: camera_link is not joined to the tree of odom",
         "       tree 2: camera_link, camera_optical; used by /points (80 messages)",
         "       so:  nothing in it can be placed in odom, and nothing of odom in it",
-        "       fix: nothing in the data says where to join camera_link",
+        "       fix: nothing in the data says where to join camera_link; if it is mounted on the "
+        "robot, measure where, and publish it:",
+        "            ros2 run tf2_ros static_transform_publisher --x X --y Y --z Z --yaw A "
+        "--frame-id base_link --child-frame-id camera_link",
         "",
         "warning  teleport: base_link in odom jumps 2.51 m within 20 ms",
         "       base_link in odom: 2.51 m and 0° at 1750000005.020, once; usual 0.5 m/s",
         "       so:  things placed before and after the jump do not fit together; REP-105 "
         "wants this transform "
         "continuous",
-        "       fix: list the jumps, and compare them with the sensors at these times:",
-        "            tftool doctor RECORDING --steps --pair odom:base_link",
+        "       fix: compare the jump with the sensors; before it:",
+        "            tftool echo odom base_link RECORDING --at 1750000005",
+        "            after it:",
+        "            tftool echo odom base_link RECORDING --at 1750000005.02",
         "",
         "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /points)"
         " · coverage fine · robot description: skipped, no URDF given",
@@ -104,7 +109,7 @@ def test_programs_get_names_as_they_are_and_whole_nanoseconds():
     assert read["summary"]["error"] == 1
     split = next(one for one in read["findings"] if one["id"] == "split-tree")
     assert split["facts"]["join"] is None
-    assert split["fixes"][0]["command"] == ""
+    assert split["fixes"][0]["command"].endswith("--child-frame-id camera_link")
     assert (
         "\x1b[31mred"
         in next(one for one in read["findings"] if one["id"] == "awkward-name")["frames"]

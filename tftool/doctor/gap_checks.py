@@ -1,4 +1,4 @@
-"""Checks of missing transforms: edges that stop, pause or are sent once, and outages of all."""
+"""Checks of missing transforms: edges that stop, pause or are sent once."""
 
 import re
 from collections.abc import Iterator
@@ -8,11 +8,11 @@ import numpy as np
 from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of
-from tftool.doctor.findings import STOPPED_PERIODS, Area, Fact, Fix, Hit, Severity
+from tftool.doctor.findings import STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.missing_joins import is_world
 from tftool.doctor.model import WARM_UP, Limits, Model, is_player
 from tftool.doctor.stamp_stream import BASES, NEVER, PLACED, Heard, Track, family, last_part, rate
-from tftool.doctor.wording import several
+from tftool.doctor.wording import several, span
 
 check = checks_of(Area.COVERAGE)
 
@@ -42,9 +42,9 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
     "share of {share:g}, before the recording's end, while other streams continue; of "
     "{samples:g} samples or more, except detections of a camera that have no children. A warning "
-    "if all moving transforms end (a note if a player's data was over), or if a recording has no "
-    "later scan, point cloud or range in the frame or below it; then a note for a frame without "
-    "children, or a part of a robot unless it moved and has been silent for 60 s",
+    "if all moving transforms end (a note if a player's data was over, without /clock), or if a "
+    "recording has no later scan, point cloud or range in the frame or below it; then a note for a "
+    "frame without children, or a part of a robot unless it moved and has been silent for 60 s",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
@@ -88,7 +88,11 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         if is_played:
             cure = "a player published it: look whether the played recording ends there"
         severity, ended = None, int(track.stamps.max())
-        if not any(other.logs[-1] - last > least for other in model.dynamic):
+        clock = model.evidence.clock[1]
+        if is_played and all_end and bool((clock > last + least).any()):
+            cure = f"all data but /clock ends at {span(last - model.start)}; {cure}"
+            severity = Severity.WARNING
+        elif not any(other.logs[-1] - last > least for other in model.dynamic):
             severity = Severity.NOTE if is_played and all_end else Severity.WARNING
         elif model.evidence.recorded and not _needed_in(model, track, ended, NEVER):
             is_part = model.is_minor(track) or (
@@ -314,128 +318,6 @@ def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
 
 
 @check(
-    "outage",
-    Severity.WARNING,
-    rule="nothing arrives for more than {seconds:g} s and {periods:g} periods on half or more of "
-    "the streams that come at {hz:g} Hz or more, a topic of messages and a transform among them, "
-    "and they go on afterwards, with a gap in their stamps or with data that was held up",
-    headline="nothing arrived for {length:span} on {streams} of {of} streams",
-    detail="from {begin:moment} to {end:moment} (log times): {names}; {lost}",
-    consequence="whatever was stamped then came late, in a burst, or never",
-    fixes=(Fix("look at the network and the recorder at that time"),),
-    causes=(
-        "a network that was gone",
-        "a recorder or a disk that hung",
-    ),
-    limits={"seconds": 2.0, "periods": 10, "hz": 1.0},
-    needs=("log times",),
-)
-def outage(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Most streams stop arriving at once for a time, and go on."""
-    silent: list[tuple[Track | Heard, int, int]] = []
-    count = 0
-    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
-    for stream in streams:
-        steps = np.diff(stream.logs)
-        if len(steps) < 10 or (usual := int(np.median(steps))) * limits["hz"] > NANOSECONDS:
-            continue
-        count += 1
-        place = int(steps.argmax())
-        if steps[place] > max(limits["seconds"] * NANOSECONDS, limits["periods"] * usual):
-            silent.append((stream, int(stream.logs[place]), int(stream.logs[place + 1])))
-    begin = max((begin for _, begin, _ in silent), default=0)
-    end = min((end for _, _, end in silent), default=0)
-    kinds = {type(stream) for stream, _, _ in silent}
-    if len(kinds) < 2 or 2 * len(silent) < count or end - begin < limits["seconds"] * NANOSECONDS:
-        return
-    missed = sum(
-        _is_hole(stream, begin, end, limits["seconds"] * NANOSECONDS) for stream, _, _ in silent
-    )
-    held = [one.latency[one.logs >= end][0] - one.median_latency for one, _, _ in silent]
-    if not missed and 2 * max(held) < end - begin:
-        return  # a player or a simulation paused
-    lost = "all of it came afterwards"
-    if missed:
-        lost = f"on {missed} of them data of that time never came"
-    gone = [one.name for one in streams if begin - NANOSECONDS < one.logs[-1] < end]
-    yield Hit(
-        edges=tuple(stream.edge for stream, _, _ in silent if isinstance(stream, Track)),
-        topics=tuple(stream.topic for stream, _, _ in silent if isinstance(stream, Heard)),
-        since=begin,
-        until=end,
-        facts={
-            "begin": begin,
-            "end": end,
-            "length": end - begin,
-            "streams": len(silent),
-            "of": count,
-            "names": [stream.name for stream, _, _ in silent],
-            "lost": f"{lost}; {several(gone)} never came back" if gone else lost,
-        },
-        alone=True,
-    )
-
-
-def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
-    """Whether a stream's stamps also have a gap at a time when nothing arrived.
-
-    Args:
-        stream: The stream.
-        begin: Log time at which nothing arrived any more.
-        end: Log time at which data arrived again.
-        least: Smallest difference between two stamps that counts as a gap, nanoseconds.
-    """
-    stamps = np.sort(stream.stamps)
-    steps = np.diff(stamps)
-    delay = stream.arrivals - stream.logs
-    near = int(delay[0]) if len(delay) else 0
-    wide = (steps > least) & (stamps[1:] > begin + near) & (stamps[:-1] < end + near)
-    return bool(wide.any())
-
-
-@check(
-    "stall",
-    Severity.NOTE,
-    rule="a regular transform or Odometry topic pauses for {seconds:g} s and {periods:g} periods "
-    "or more, and its next message is older than usual by half of the pause; of {samples:g} "
-    "samples or more",
-    headline="{where} {concerned:stalls|stall} for {length:span}",
-    detail="{what}: {stalls:times}, the longest from {begin:moment} on (log time); usually every "
-    "{period:span}",
-    consequence="the delayed messages arrive late, in one burst",
-    causes=("load", "a network that drops", "a node that waits for another"),
-    limits={"seconds": 0.5, "periods": 10, "samples": 50},
-    needs=("log times",),
-    because_of=(
-        ("anything", "time-jump-back"),
-        ("stream", "outage clock-mixture clock-offset"),
-    ),
-)
-def stall(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A regular stream pauses, and its messages then arrive in a burst."""
-    odometry = (h for h in model.heard if h.type == "nav_msgs/Odometry")
-    streams: list[Track | Heard] = [*model.dynamic, *odometry]
-    for stream in streams:
-        steps = np.diff(stream.logs)
-        if len(steps) < limits["samples"] or stream.families[0]:
-            continue
-        period, usual = int(np.median(np.diff(np.sort(stream.stamps)))), stream.median_latency
-        least = max(limits["periods"] * period, limits["seconds"] * NANOSECONDS)
-        held = stream.latency[1:] - usual > 0.5 * steps
-        places = np.flatnonzero((steps > least) & held)
-        if len(places):
-            place = int(places[steps[places].argmax()])
-            facts: dict[str, Fact] = {
-                "what": stream.name,
-                "length": int(steps[place]),
-                "begin": int(stream.logs[place]),
-                "period": period,
-                "stalls": len(places),
-            }
-            yield hit_of(stream, facts, since=int(stream.logs[place]), count=len(places))
-
-
-@check(
     "coarse-odometry",
     Severity.NOTE,
     rule="the robot turns by more than {degrees:g}° between two samples of its odometry, of "
@@ -480,8 +362,8 @@ def coarse_odometry(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "single-sample",
     Severity.WARNING,
-    rule="a transform on a dynamic topic was sent once; a note for a frame in map, odom or world "
-    "if no message with a position is in it or below it",
+    rule="a transform on a dynamic topic was sent once; a note if the recording holds nothing "
+    "else, or for a frame in map, odom or world if no message with a position is in it or below it",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}{beside}",
     consequence="one sample answers only for its own stamp, and only while the cache keeps it",
@@ -502,12 +384,14 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
                 names = [f"{one.child} {count(len(one.stamps), 'time')}" for one in alike]
                 beside = f"; {several(names, 3)}"
                 fixes.append(Fix("probably a false detection: look whether the object was there"))
+            is_all = len(model.tracks) == 1 and not model.heard
+            is_shown = _is_used(model, track) and not is_all
             yield hit_of(
                 track,
                 {"stamp": int(track.stamps[0]), "beside": beside},
                 topics=track.topics,
                 count=1,
-                severity=None if _is_used(model, track) else Severity.NOTE,
+                severity=None if is_shown else Severity.NOTE,
                 fixes=tuple(fixes),
                 group=beside,
             )

@@ -20,6 +20,7 @@ from tftool.doctor import gap_checks as gaps
 from tftool.doctor import mount_checks as mounts
 from tftool.doctor import name_checks as names
 from tftool.doctor import odometry_checks as odometry
+from tftool.doctor import outage_checks as outages
 from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
 from tftool.doctor import stamp_checks as stamps
@@ -39,7 +40,7 @@ CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
         *(publishers, shape, names, clocks, stamps),
-        *(gaps, coverage, values, odometry, mounts, description),
+        *(gaps, outages, coverage, values, odometry, mounts, description),
     )
     for check in room.check.checks
 }

@@ -12,9 +12,9 @@ from tftool.base.stamps import LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, S
 from tftool.doctor.clock_checks import cure_of_offset
 from tftool.doctor.coverage_checks import Waits, waits_of
 from tftool.doctor.gap_checks import edge_stopped
-from tftool.doctor.missing_joins import is_world, proposed_frame, proposed_join
+from tftool.doctor.missing_joins import is_world, mount_command, proposed_frame, proposed_join
 from tftool.doctor.model import Model
-from tftool.doctor.name_checks import alike_frames, is_navsat_output
+from tftool.doctor.name_checks import alike_frames, is_navsat_output, wrong_type
 from tftool.doctor.ros_words import in_words, is_ros1
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part
@@ -177,7 +177,8 @@ def no_join(known: TraceResult) -> Reason:
     used = sorted({h.topic for h in model.heard if h.frame in lesser.frames})
     by = f" (used by {', '.join(used)})" if used else ""
     join = proposed_join(model, main, lesser)
-    fix = nothing_says(model, lesser.root) if join is None else join.fix
+    mount = mount_command(model, main, lesser.root)
+    fix = nothing_says(model, lesser.root, mount) if join is None else join.fix
     why = [
         f"{lesser.root} has no parent; its tree: {', '.join(sorted(lesser.frames))}{by}",
         f"the tree of {main.root}: {', '.join(sorted(main.frames))}",
@@ -201,8 +202,8 @@ def works(known: TraceResult) -> Reason:
                 ),
                 (Remedy("publisher", "publish one direction only"),),
             )
-    if (dropped := _dropped_by_ros1(known)) is not None:
-        return dropped
+    if (unread := _unread(known) or _dropped_by_ros1(known)) is not None:
+        return unread
     return Reason(
         Cause.WORKS,
         (
@@ -210,6 +211,23 @@ def works(known: TraceResult) -> Reason:
             "waits block its executor, had the buffer time to fill?",
         ),
     )
+
+
+def _unread(known: TraceResult) -> Reason | None:
+    """Return the text about a lookup whose transforms no listener reads; None for others.
+
+    See the check `wrong-type`.
+    """
+    for hit in wrong_type(known.trace.model):
+        for track in known.way or ():
+            if set(track.topics) <= set(hit.topics):
+                why = (
+                    f"a listener does not receive {track.name}: {', '.join(track.topics)} has the "
+                    f"type {hit.facts['type']}, and tf2 reads tf2_msgs/TFMessage only"
+                )
+                cure = "send them with a TransformBroadcaster"
+                return Reason(Cause.WORKS, (why,), (Remedy("publisher", cure),))
+    return None
 
 
 def _dropped_by_ros1(known: TraceResult) -> Reason | None:

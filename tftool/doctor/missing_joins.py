@@ -308,6 +308,20 @@ def static_publisher(
     )
 
 
+def mount_command(model: Model, main: Tree, root: str) -> str:
+    """Return the command that publishes a sensor's mount on a robot; empty for other frames.
+
+    Args:
+        model: The evidence, prepared.
+        main: The robot's tree.
+        root: Root of another tree.
+    """
+    base = base_of(main)
+    if not base or model.lacks_statics or not is_mount(model, root):
+        return ""
+    return static_publisher(base, root, ros1=is_ros1(model.evidence))
+
+
 def quoted(name: str) -> str:
     """Quote a name for a shell's command line."""
     return shlex.quote(name)

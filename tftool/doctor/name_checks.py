@@ -17,6 +17,7 @@ from tftool.doctor.missing_joins import (
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import PLACED, Heard, family, last_part
+from tftool.doctor.wording import span
 
 check = checks_of(Area.NAMES)
 
@@ -195,7 +196,7 @@ def _renames(model: Model, name: str, alike: list[str], heards: list[Heard]) -> 
     rule="a frame in a header begins with a slash, and tf knows the name without it. In ROS 1 a "
     "warning, as its tf strips the slash; a note if the transforms have the slash too",
     headline="{topic} names {frame}, {tf}",
-    detail="{topic}: {frame}, {count:times}",
+    detail="{topic}: {frame}, {count:times}{outside}",
     consequence="every direct tf2 lookup refuses (message filters and tf 1 strip the slash): "
     "\"in tf2 frame_ids cannot start with a '/'\"",
     fixes=(
@@ -214,6 +215,7 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
         if heard.frame.startswith("/") and known in model.frames:
             slashed = [t.slashed == len(t.all_stamps) for t in model.tracks if known in t.edge]
             severity = Severity.NOTE if all(slashed) else Severity.WARNING
+            outside = _outside(model, heard, known)
             yield Hit(
                 frames=(heard.frame, known),
                 topics=(heard.topic,),
@@ -226,8 +228,23 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
                     "tf": "as the transforms do" if all(slashed) else f"tf knows {known}",
                     "topic": heard.topic,
                     "count": len(heard.stamps),
+                    "outside": f"; all are {outside}: lookups fail without the slash, too"
+                    if outside
+                    else "",
                 },
             )
+
+
+def _outside(model: Model, heard: Heard, known: str) -> str:
+    """Return how all messages of a topic are outside of a frame's time; empty if they are not."""
+    path = [track for track in model.above(known) if not track.static and len(track.by_stamp)]
+    for track in path:
+        first, last = int(track.sorted_stamps[0]), int(track.sorted_stamps[-1])
+        if (newest := int(heard.stamps.max())) < first:
+            return f"stamped {span(first - newest)} or more before the first sample of {track.name}"
+        if (oldest := int(heard.stamps.min())) > last:
+            return f"stamped {span(oldest - last)} or more after the last sample of {track.name}"
+    return ""
 
 
 @check(

@@ -511,3 +511,38 @@ def _root(model: Model, frame: str, without: str) -> str:
 def _source(track: Track) -> str:
     by = f" by {', '.join(track.nodes)}" if track.nodes else ""
     return f"{track.name} at {rate(track):.3g} Hz{by}"
+
+
+@check(
+    "empty-message",
+    Severity.NOTE,
+    rule="a publisher sends {times:g} messages or more without a transform, a share of {share:g} "
+    "or more of its messages",
+    headline="{topic} has {empty} messages without a transform",
+    detail="{topic}: {empty} of {of} messages{sender}",
+    consequence="frames that its publisher does not see are not updated meanwhile",
+    causes=("a motion capture or a detector that does not see its objects",),
+    limits={"times": 10, "share": 0.1},
+    needs=("log times",),
+)
+def empty_message(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A publisher sends messages without a transform."""
+    transforms = model.evidence.transforms
+    within = (transforms.log_times >= model.start) & (transforms.log_times <= model.end)
+    empty = within.copy()
+    for edge in transforms.edges:
+        empty[edge.messages] = False
+    for number, publisher in enumerate(transforms.publishers):
+        own = transforms.senders == number
+        of, without = int(np.count_nonzero(own & within)), int(np.count_nonzero(own & empty))
+        if without >= max(1.0, limits["times"], limits["share"] * of):
+            sender = f" of {publisher.node}" if publisher.node else ""
+            yield Hit(
+                topics=(publisher.topic,),
+                publishers=(publisher.node,) if publisher.node else (),
+                since=int(transforms.log_times[own & empty].min()),
+                until=int(transforms.log_times[own & empty].max()),
+                count=without,
+                facts={"topic": publisher.topic, "empty": without, "of": of, "sender": sender},
+                alone=True,
+            )

@@ -3,10 +3,11 @@
 from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
 
+from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import REP105, checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import base_of, proposed_join
+from tftool.doctor.missing_joins import base_of, mount_command, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
 from tftool.doctor.stamp_stream import PLACED, Track, last_part, overlap
 from tftool.doctor.wording import several
@@ -154,8 +155,9 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         is_robot = join is not None and join.edge is None
         if is_short or is_robot or _is_convention(tree, topics):
             severity = Severity.NOTE
-        fix = nothing_says(model, "{named}") if join is None else join.fix
-        used = [f"{topic} ({count} messages)" for topic, count in topics.items()]
+        mount = "" if join is not None else mount_command(model, main, tree.root)
+        fix = nothing_says(model, "{named}", mount) if join is None else join.fix
+        used = [f"{topic} ({number} messages)" for topic, number in topics.items()]
         yield Hit(
             frames=(tree.root, *sorted(tree.frames - {tree.root})),
             topics=tuple(topics),
@@ -174,14 +176,22 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
             },
             fixes=(fix,),
             alone=join is not None,
+            group=mount,
         )
 
 
-def nothing_says(model: Model, root: str) -> Fix:
-    """Return the remedy if no data shows where to connect a root: the nodes to check."""
+def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
+    """Return the remedy if no data shows where to connect a root.
+
+    Args:
+        model: The evidence, prepared.
+        root: Name of the root for the sentence.
+        mount: Command that publishes the mount of a sensor; empty for other roots.
+    """
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
-    return Fix(f"nothing in the data says where to join {root}{static}")
+    measure = "; if it is mounted on the robot, measure where, and publish it:" * bool(mount)
+    return Fix(f"nothing in the data says where to join {root}{static}{measure}", mount)
 
 
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
@@ -234,11 +244,11 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     "empty-frame",
     Severity.ERROR,
     rule="a name is empty: an error in a transform, a warning in the header of a message "
-    "with a position, a note in a transform on a topic of its own, which tf2 does not read",
-    headline="{what} has no frame name",
+    "with a position, a note in a transform on a topic of its own, which tf2 does not read, and "
+    "in messages without a stamp",
+    headline="no frame name in {named}",
     detail="{what}: {detail}, {count:times}",
     consequence="{so}",
-    fixes=(Fix("find its publisher: `{publishers} {topic}`"),),
     causes=(
         "a message that was never filled",
         "a camera whose frame id was never set",
@@ -257,6 +267,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 track,
                 {
                     "what": f"a transform on {', '.join(track.topics)}",
+                    "named": f"a transform on {', '.join(track.topics)}",
                     "topic": track.topics[0],
                     "detail": f"its {which} is empty; the other is {track.parent or track.child!r}",
                     "count": len(track.stamps),
@@ -264,6 +275,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 },
                 topics=track.topics,
                 severity=Severity.ERROR if is_tf else Severity.NOTE,
+                fixes=(_name_it(model, track.topics[0]),),
             )
     for heard in model.heard:
         if heard.frame or not (
@@ -277,15 +289,26 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             frames=("",),
             since=int(heard.logs[0]) if len(heard.logs) else None,
             count=len(heard.stamps),
-            severity=Severity.WARNING,
+            # Commands between two nodes have neither a stamp nor a frame.
+            severity=Severity.WARNING if heard.stamps.any() else Severity.NOTE,
+            fixes=(_name_it(model, heard.topic),),
             facts={
-                "what": f"a message on {heard.topic}",
+                "what": heard.topic,
+                "named": f"{count(len(heard.stamps), 'message')} on {heard.topic}",
                 "topic": heard.topic,
                 "detail": f"{heard.type} with an empty frame_id",
                 "count": len(heard.stamps),
                 "so": "such a message cannot be placed",
             },
         )
+
+
+def _name_it(model: Model, topic: str) -> Fix:
+    """Return the next step for a topic whose messages have no frame name."""
+    nodes = sorted({one.node for one in model.evidence.publishers if one.topic == topic})
+    if all(nodes) and nodes:
+        return Fix(f"set header.frame_id in {several(nodes)}, which publishes {topic}")
+    return Fix(f"find its publisher, and set header.frame_id there: `{{publishers}} {topic}`")
 
 
 @check(

@@ -485,10 +485,14 @@ def _in_time(model: Model, track: Track, least: float) -> Hit | None:
         same = [_are_same(track, own, other, one) for one in near]
         if np.mean(same[0] | same[1]) < _SAME_POSES:
             continue
+        told = other.translations[np.where(same[1], near[1], near[0])]
+        signs = (np.abs(track.translations - told) > _ROUNDED).mean(axis=0) > 0.5
+        axes = [axis for axis, differs in zip("xyz", signs.tolist(), strict=True) if differs]
+        but = f" (with another sign of {', '.join(axes)})" if axes else ""
         topic = other.topics[0]
         facts = {"what": track.name, "late": track.median_latency, "varies": "", **_MEDIAN}
         cure = (
-            f"{topic} brings the same poses {span(latency)} after their stamps: the node that "
+            f"{topic} brings the same poses{but} {span(latency)} after their stamps: the node that "
             "sends both stamps the transform with an older time"
         )
         return hit_of(track, facts, severity=Severity.WARNING, fixes=(Fix(cure),))
@@ -502,11 +506,16 @@ _SAME_POSES = 0.8
 """Minimum share of a transform's samples with the pose of an Odometry message."""
 
 
+_ROUNDED = 1e-4
+"""Difference of coordinates, metres, within which two poses are one."""
+
+
 def _are_same(track: Track, some: Places, other: Track, others: Places) -> Mask:
-    """Return a mask of the pairs of samples with one pose, within rounding."""
-    apart = np.abs(track.translations[some] - other.translations[others]).max(axis=1)
+    """Return a mask of the pairs with one pose, within rounding and the signs of x, y and z."""
+    mine, theirs = np.abs(track.translations[some]), np.abs(other.translations[others])
+    apart = np.abs(mine - theirs).max(axis=1)
     dots = np.einsum("ij,ij->i", track.rotations[some], other.rotations[others])
-    return np.asarray((apart < 1e-4) & (np.abs(dots) > 1.0 - 1e-6))
+    return np.asarray((apart < _ROUNDED) & (np.abs(dots) > 1.0 - 1e-6))
 
 
 def _late(model: Model, stream: "Track | Heard") -> Hit:

@@ -5,15 +5,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.base.stamps import NANOSECONDS, seconds
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp, seconds
 from tftool.doctor.check import REP103, REP105, checks_of, hit_of, threads
-from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.findings import Area, Confidence, Edge, Fix, Hit, Severity
 from tftool.doctor.gap_checks import is_detection
 from tftool.doctor.missing_joins import base_of, is_world, quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.ros_words import is_ros1
 from tftool.doctor.stamp_stream import BASES, ZERO_QUATERNION, Places, Track, last_part
-from tftool.doctor.wording import metres, span
+from tftool.doctor.wording import metres, moment, several, span
 from tftool.geometry.quaternions import IDENTITY, Triple, angle_between, multiply, rotate
 from tftool.geometry.rigid_arrays import Floats, rotation_vectors, unit
 from tftool.geometry.rigid_arrays import rotate as rotate_all
@@ -156,7 +156,7 @@ def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[s
     "{corrected:g} m, without an initial pose. Of an object that a camera detects, "
     "{corrections:g} steps or more of {detected:g} m and 2 m/s within 1 s",
     headline="{named}",
-    detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{usual}{after}",
+    detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}{others}{usual}{after}",
     consequence="things placed before and after the jump do not fit together{also}",
     causes=(
         "encoder overflow",
@@ -251,6 +251,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
             "within": int(gaps[worst] * NANOSECONDS),
             "how": how,
             "at": int(track.stamps[others[worst]]),
+            "others": _others(track, others[jumps], int(others[worst])),
             "usual": f"; usual {usual:.2g} m/s" if usual else "",
             "after": f"; each at most {span(after)} after a message of {topic}" if topic else "",
             "count": len(jumps),
@@ -261,15 +262,31 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
         until=int(track.logs[others[jumps[-1]]]),
         count=len(jumps),
         severity=Severity.NOTE if model.is_minor(track) else None,
-        fixes=(_list_steps(track),),
+        fixes=_look(
+            model, track.edge, int(track.stamps[some[worst]]), int(track.stamps[others[worst]])
+        ),
     )
 
 
-def _list_steps(track: Track) -> Fix:
-    return Fix(
-        "list the jumps, and compare them with the sensors at these times:",
-        f"tftool doctor RECORDING --steps --pair {quoted(':'.join(track.edge))}",
+def _look(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, ...]:
+    """Return the commands that print a pose before and after a jump."""
+    echo = f"tftool echo {quoted(edge[0])} {quoted(edge[1])} RECORDING --at"
+    # A small number is seconds since the start of the recording, not a stamp.
+    begin = model.epoch if after < SIMULATED_BELOW else 0
+    first, then = (
+        f"{(one - begin) // NANOSECONDS}.{(one - begin) % NANOSECONDS:09}".rstrip("0").rstrip(".")
+        for one in (before, after)
     )
+    return (
+        Fix("compare the jump with the sensors; before it:", f"{echo} {first}"),
+        Fix("after it:", f"{echo} {then}"),
+    )
+
+
+def _others(track: Track, places: Places, worst: int) -> str:
+    """Return the stamps of the jumps except the worst one, as a part of a sentence."""
+    others = [moment(int(track.stamps[place])) for place in places.tolist() if place != worst]
+    return f"; also at {several(others)}" if others else ""
 
 
 def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
@@ -281,11 +298,12 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
     if len(places) < limits["samples"] or last_part(track.parent).startswith("odom"):
         return None
     some, others = places[:-1], places[1:]
-    robot = np.zeros((len(others), 3))
+    robot, shown = np.zeros((len(others), 3)), track.edge
     for below in model.dynamic:
         if below.parent == track.child and last_part(below.child) in BASES and len(below.by_stamp):
             near = np.searchsorted(below.sorted_stamps, track.stamps[others])
             robot = below.translations[below.by_stamp[near.clip(max=len(below.by_stamp) - 1)]]
+            shown = track.parent, below.child
     # A turn of odom moves the robot by its distance from the origin of odom.
     before, after = (
         track.translations[one] + rotate_all(unit(track.rotations[one]), robot)
@@ -299,7 +317,8 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
         return None
     how = f"{limits['corrected']:g} m: its localiser corrects it again and again"
     also = "; the localiser may be lost"
-    return _repeated_jumps(track, steps, moved, (how, ", measured at the robot", also))
+    words = how, f", measured at {shown[1]}", also
+    return _repeated_jumps(model, track, steps, moved, words, shown)
 
 
 def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
@@ -314,19 +333,27 @@ def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
         return None
     away = np.linalg.norm(track.translations[track.by_stamp], axis=1)
     after = f"; seen at {away.min():.3g} m to {metres(float(away.max()))}"
-    return _repeated_jumps(
-        track, steps, track.strides, (f"{limits['detected']:g} m within 1 s", after, "")
-    )
+    words = f"{limits['detected']:g} m within 1 s", after, ""
+    return _repeated_jumps(model, track, steps, track.strides, words, track.edge)
 
 
-def _repeated_jumps(track: Track, steps: Places, moved: Floats, words: tuple[str, str, str]) -> Hit:
+def _repeated_jumps(
+    model: Model,
+    track: Track,
+    steps: Places,
+    moved: Floats,
+    words: tuple[str, str, str],
+    shown: Edge,
+) -> Hit:
     """Return a hit about several steps of an edge.
 
     Args:
+        model: The evidence, prepared.
         track: The edge.
         steps: Numbers of the steps.
         moved: Lengths of all steps in the order of stamps, metres.
         words: Words about the number of steps, the longest step, and the consequence.
+        shown: Target and source of the lookup that shows the steps.
     """
     places = track.by_stamp
     worst = int(steps[moved[steps].argmax()])
@@ -341,6 +368,7 @@ def _repeated_jumps(track: Track, steps: Places, moved: Floats, words: tuple[str
             "how": how,
             "named": f"{track.name} jumps {far}{how}",
             "at": int(track.stamps[places[worst + 1]]),
+            "others": _others(track, places[steps + 1], int(places[worst + 1])),
             "usual": "",
             "after": words[1],
             "count": len(steps),
@@ -350,7 +378,7 @@ def _repeated_jumps(track: Track, steps: Places, moved: Floats, words: tuple[str
         since=int(track.logs[places[steps[0] + 1]]),
         until=int(track.logs[places[steps[-1] + 1]]),
         count=len(steps),
-        fixes=(_list_steps(track),),
+        fixes=_look(model, shown, *track.stamps[places[[worst, worst + 1]]].tolist()),
     )
 
 
