@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from tftool.base.stamps import seconds
+from tftool.doctor.findings import Severity
 from tftool.drawing.playback_line import (
     Playback,
     PlaybackMark,
@@ -16,7 +17,7 @@ from tftool.drawing.playback_line import (
 from tftool.drawing.theme import DARK, hexadecimal
 
 HALF = Playback(seconds(10), seconds(20), 1.5)
-GAP = PlaybackMark(seconds(5), seconds(10), "no data", is_error=True)
+GAP = PlaybackMark(seconds(5), seconds(10), "no data", severity=Severity.ERROR)
 STEP = PlaybackMark(seconds(15), seconds(15), "it steps")
 
 
@@ -106,7 +107,7 @@ def test_the_finding_at_the_position_is_lit_in_the_list(done, lit):
 
 
 def test_a_finding_without_a_time_is_only_listed():
-    split = PlaybackMark(0, 0, "two trees", is_error=True, is_timed=False)
+    split = PlaybackMark(0, 0, "two trees", severity=Severity.ERROR, is_timed=False)
     playing = Playback(seconds(0), seconds(20), marks=[split, STEP])
 
     shown = [line.plain for line in finding_lines(playing, 80, 5)]
@@ -115,6 +116,14 @@ def test_a_finding_without_a_time_is_only_listed():
     assert "█" not in drawn(playing, 80)[2].plain
     assert before([split, STEP], seconds(15)) is None
     assert after([split, STEP], -1) == seconds(15)
+
+
+def test_a_note_is_called_a_note():
+    note = PlaybackMark(seconds(3), seconds(3), "one sample", severity=Severity.NOTE)
+
+    (shown,) = finding_lines(Playback(0, seconds(20), marks=[note]), 80, 5)
+
+    assert shown.plain.split()[:3] == ["1/1", "note", "3.00"]
 
 
 def test_a_long_list_of_findings_scrolls_with_the_position():
@@ -148,7 +157,7 @@ def test_a_topic_is_lit_while_it_has_messages():
 
 @pytest.mark.parametrize("ascii_only", [False, True])
 def test_the_head_is_seen_on_a_bar_full_of_findings(ascii_only):
-    whole = PlaybackMark(0, seconds(20), "stops", is_error=True)
+    whole = PlaybackMark(0, seconds(20), "stops", severity=Severity.ERROR)
     playing = Playback(seconds(5), seconds(20), marks=[whole])
 
     bar = drawn(playing, 80, ascii_only=ascii_only)[2].plain

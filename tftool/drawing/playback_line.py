@@ -10,6 +10,7 @@ from rich.text import Text
 from tftool.base.color import Color
 from tftool.base.plain_text import visible
 from tftool.base.stamps import Duration, as_seconds, seconds
+from tftool.doctor.findings import Severity
 from tftool.drawing import theme
 from tftool.drawing.line_plot import axis_labels
 from tftool.drawing.sparklines import sparkline
@@ -45,14 +46,14 @@ class PlaybackMark:
         since: Begin of the finding, nanoseconds from the recording's start.
         until: End of the finding, nanoseconds from the recording's start.
         message: Text of the finding, one line.
-        is_error: Whether the finding is an error, not a warning.
+        severity: Severity of the finding.
         is_timed: Whether the finding has a time; without a time it is only listed.
     """
 
     since: Duration
     until: Duration
     message: str
-    is_error: bool = False
+    severity: Severity = Severity.WARNING
     is_timed: bool = True
 
 
@@ -160,7 +161,7 @@ def _bar(playback: Playback, room: int, ascii_only: bool, palette: theme.Palette
         style = theme.hexadecimal(_color(mark, palette))
         bar[first : last + 1] = [("=" if ascii_only else "═", style)] * (last + 1 - first)
         # One finding may fill the whole bar, so its begin has a sign of its own.
-        bar[first] = ("?!" if ascii_only else "▓█")[mark.is_error], style
+        bar[first] = ("?!" if ascii_only else "▓█")[mark.severity is Severity.ERROR], style
     bar[full] = "|" if ascii_only else "●", f"bold {theme.hexadecimal(palette.text)}"
     return Text.assemble(*bar)
 
@@ -172,7 +173,9 @@ def _place(moment: Duration, playback: Playback, room: int) -> int:
 
 
 def _color(mark: PlaybackMark, palette: theme.Palette) -> Color:
-    return palette.error if mark.is_error else palette.warning
+    if mark.severity is Severity.NOTE:
+        return palette.text
+    return palette.error if mark.severity is Severity.ERROR else palette.warning
 
 
 def finding_lines(
@@ -197,9 +200,9 @@ def finding_lines(
         return []
     head = playback.done
 
-    def distance(mark: PlaybackMark) -> tuple[bool, Duration, Duration, bool]:
+    def distance(mark: PlaybackMark) -> tuple[bool, Duration, Duration, int]:
         away = max(mark.since - head, head - max(mark.since, mark.until), 0)
-        return not mark.is_timed, away, abs(head - mark.since), not mark.is_error
+        return not mark.is_timed, away, abs(head - mark.since), mark.severity.rank
 
     nearest = marks.index(min(marks, key=distance))
     first = max(0, min(nearest - height // 2, len(marks) - height))
@@ -209,7 +212,7 @@ def finding_lines(
         span = f"{as_seconds(mark.since):.2f}{until if mark.until > mark.since else ''} s"
         is_lit = place == nearest and mark.is_timed and distance(mark)[1] <= NEAR
         arrow = (">" if ascii_only else "▸") if is_lit else " "
-        kind = "error" if mark.is_error else "warning"
+        kind = mark.severity.value
         number = f"{place + 1:>{len(str(len(marks)))}}/{len(marks)}"
         words = f"{arrow}{number} {kind:7}  {span if mark.is_timed else 'throughout':>15}  "
         words = fitted(words + visible(mark.message), width, more="~" if ascii_only else "…")

@@ -16,7 +16,6 @@ from tftool.commands.shared.hosting import join_or_host
 from tftool.commands.shared.notices import is_news, notice, tell_record
 from tftool.commands.shared.on_screen import screen_lacks, screen_setting
 from tftool.doctor.evidence import Evidence, evidence_of_recording
-from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
 from tftool.drawing.playback_line import PlaybackMark, PlayedTopic
 from tftool.frames.source_options import At
@@ -187,7 +186,7 @@ def _findings_and_topics(
             (one.since or start) - start,
             (one.until or one.since or start) - start,
             one.message,
-            one.severity is Severity.ERROR,
+            one.severity,
             is_timed=one.since is not None,
         )
         for one in sorted(judge(evidence).findings, key=lambda one: one.severity.rank)

@@ -1,5 +1,6 @@
 """Screen of `tftool play`: timeline, findings, topics and frames of a recording being played."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
@@ -14,6 +15,7 @@ from textual.content import Content
 from tftool.base.plain_text import count, visible
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.buffer.sample import FrameInfo
+from tftool.doctor.findings import Severity
 from tftool.drawing.playback_line import (
     Playback,
     PlaybackMark,
@@ -200,9 +202,8 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         state = ("playing", look.palette.accent)
         if now.is_paused:
             state = ("end" if now.is_over else "paused", look.palette.warning)
-        errors = sum(one.is_error for one in now.marks)
-        kinds = (errors, "error"), (len(now.marks) - errors, "warning")
-        found = ", ".join(count(number, kind) for number, kind in kinds if number)
+        kinds = Counter(one.severity for one in now.marks)
+        found = ", ".join(count(kinds[one], one.value) for one in Severity if kinds[one])
         self.panel("header").show([bar(self.title, found, state, self.size.width, look)])
 
     def _footer(self, width: int) -> Text:
