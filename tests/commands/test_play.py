@@ -122,7 +122,7 @@ def test_on_a_terminal_findings_are_marked_and_told(tmp_path, tftool, simulated)
     try:
         terminal.shows("Findings of the doctor")
         terminal.shows("not yet: turtle1 +2")
-        terminal.shows("1 warning  paused")
+        terminal.shows("1 note  paused")
         terminal.press("}")
         # Turtle2 publishes 62.5 times per second, also after ten seconds were skipped.
         terminal.until(lambda screen: re.search(r"turtle2 .* 6[23]\.\d Hz", screen), "the rate")
