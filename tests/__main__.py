@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 
 PYTHON = [sys.executable, "-m"]
-# Many tests wait for other processes, so five at a time keep two processors busy.
-WHOLE = ["-n5", "--dist=worksteal"]
+# Many tests wait for other processes, so four at a time keep two processors busy.
+WHOLE = ["-n4", "--dist=worksteal"]
 COVERAGE = [*WHOLE, "--cov", "--cov-report=term", "--cov-fail-under=90"]
 
 CHECKS = [
