@@ -239,13 +239,14 @@ def arm(shown):
     described = Robot(parse_description(ARM))
     solids, _ = solids_of(described.links.values(), MeshFolders())
 
-    def show(*keys, at=0.0, size=(100, 30), **setting):
+    def show(*keys, at=0.0, size=(100, 30), missing=(), **setting):
         world = new_world()
         for one in described.transforms({"turn": at}, stamp=1):
             world.broadcast([one], "me", static=True)
         mover = Mover(described)
         setting = Setting(title="tftool robot", **setting)
-        app = RobotApp(world, Sliders(described, mover), setting=setting, solids=solids)
+        sliders = Sliders(described, mover)
+        app = RobotApp(world, sliders, setting=setting, solids=solids, missing=missing)
         lines = []
 
         async def main():
@@ -262,6 +263,12 @@ def arm(shown):
         return lines
 
     return show
+
+
+def test_missing_meshes_are_counted_in_a_narrow_panel_too(arm):
+    lines = arm(size=(80, 24), missing=[f"no mesh {number}" for number in range(12)])
+
+    assert any("simpler: 12 meshes not found" in line for line in lines)
 
 
 @pytest.fixture

@@ -207,9 +207,8 @@ class RobotApp(PanelApp):
             frames = (SpaceFrame(root, Transform()),)
         space.draw(SpacePicture(root, frames, self._solids, chosen=self._chosen_frame()), self.look)
         if self._missing:
-            space.border_subtitle = (
-                f"{len(self._missing)} meshes not found: simpler shapes in their place"
-            )
+            # So short that it is whole in a panel of 32 cells.
+            space.border_subtitle = f"simpler: {len(self._missing)} meshes not found"
 
     def _chosen_frame(self) -> str:
         """Return the frame of the link that the chosen joint moves."""
