@@ -406,6 +406,16 @@ def test_odometry_messages_say_which_transform_is_missing():
     assert fix.command == "tftool echo odom base_link RECORDING --with-odometry"
 
 
+def test_odometry_of_a_frame_with_a_parent_gives_it_no_second_parent():
+    made = robot()
+    made.hears("/ground_truth", "world", kind="nav_msgs/Odometry")
+    made.odometry = Robot()
+    made.odometry.moving("world", "base_link", topic="/ground_truth")
+    (fix,) = found(made, "unknown-frame").fixes
+    assert "base_link has the parent odom, so publish odom in world" in fix.text
+    assert fix.command == "tftool echo world base_link RECORDING --with-odometry"
+
+
 @pytest.mark.parametrize(
     ("main", "root", "edge"),
     [

@@ -157,9 +157,14 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
             continue
         by = ", ".join(Track(edge, odometry).topics)
         why = f"{len(edge):,} Odometry messages ({by}) say {edge.child} in {edge.parent}"
+        mend = f"let the publisher of {by} do it"
+        if edge.child in model.parents:
+            # The odometry's own edge would give the child a second parent.
+            held = model.parents[edge.child].parent
+            mend = f"{edge.child} has the parent {held}, so publish {other.root} in {edge.parent}"
         fix = Fix(
-            f"{why}, and nothing publishes it as a transform: let the publisher of {by} do it; to "
-            "use the messages meanwhile:",
+            f"{why}, and nothing publishes it as a transform: {mend}; to use the messages "
+            "meanwhile:",
             f"tftool echo {quoted(edge.parent)} {quoted(edge.child)} RECORDING --with-odometry",
         )
         return Join((edge.parent, edge.child), why, fix, guess=False)
