@@ -90,7 +90,6 @@ class Simulator(Protocol):
     """Protocol of a source of turtles: a simulator here or in another process."""
 
     trail: Trail
-    revision: int
 
     @property
     def turtles(self) -> Mapping[str, SimulatedTurtle]:

@@ -14,7 +14,7 @@ from tftool.world.clock import Phase
 from tftool.world.log import Level
 from tftool.world.node import Node
 from tftool.world.node_parameters import Value, serve_parameters
-from tftool.world.nodes.trail import DrawingService, Segment, Trail
+from tftool.world.nodes.trail import DrawingService, Trail
 from tftool.world.nodes.turtle import (
     TickQueue,
     Turtle,
@@ -45,7 +45,6 @@ class Turtlesim(Node):
 
     Attributes:
         trail: Lines of the pens.
-        revision: Number that changes whenever the picture does.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE
@@ -75,13 +74,11 @@ class Turtlesim(Node):
         """
         super().__init__(world, name)
         self.trail = Trail()
-        self.revision = 0
         for parameter, value in zip(
             BACKGROUND_PARAMETERS, (background.r, background.g, background.b), strict=True
         ):
             self.declare_parameter(parameter, require_byte(value, parameter))
         self.declare_parameter("holonomic", holonomic)
-        self.parameters.on_change(self._repaint)
         self._prefix = f"{namespace.strip('/')}/" if namespace.strip("/") else ""
         self._initial = tuple(turtles)
         self._turtles: dict[str, Turtle] = {}
@@ -179,15 +176,12 @@ class Turtlesim(Node):
             ports = self._ports.get(name)
             if ports is None:  # a subscriber of a pose has removed the simulator
                 return
-            before = turtle.pose
-            stroke = turtle.update(now, self._say, self._draw)
+            stroke = turtle.update(now, self._say, self.trail.draw)
             ports.pose.publish(turtle.pose)
             if ports.color.subscribers:
                 ports.color.publish(build(ColorMessage, *self.color_under(name)))
             if stroke is not None:
                 self.trail.draw(stroke)
-            if turtle.pose is not before:
-                self.revision += 1
 
     # Turtles come and go
 
@@ -208,7 +202,6 @@ class Turtlesim(Node):
         self._ports[name] = TurtlePorts(
             self.world, self.name, self._prefix, turtle, self._queue, self._say, self._is_holonomic
         )
-        self.revision += 1
         self.info(
             f"Spawning turtle [{name}] at x=[{place.x:f}], y=[{place.y:f}], theta=[{place.theta:f}]"
         )
@@ -236,7 +229,6 @@ class Turtlesim(Node):
         ports = self._ports.pop(name)
         ports.close()
         ports.remove_topics()
-        self.revision += 1
 
     # Requests to the simulator
 
@@ -258,7 +250,7 @@ class Turtlesim(Node):
     async def _on_clear(self, _: Any) -> None:
         def clear(_: Stamp) -> None:
             self.info("Clearing turtlesim.")
-            self._wipe()
+            self.trail.wipe()
 
         await self._queue.ask(clear)
 
@@ -269,7 +261,7 @@ class Turtlesim(Node):
                 self._remove(name)
             self._counter = 0
             self._spawn(Placement(CENTRE, CENTRE, 0.0), "", tick)
-            self._wipe()
+            self.trail.wipe()
 
         await self._queue.ask(reset)
 
@@ -277,17 +269,6 @@ class Turtlesim(Node):
 
     def _is_holonomic(self) -> bool:
         return bool(self.get_parameter("holonomic"))
-
-    def _wipe(self) -> None:
-        self.trail.wipe()
-        self.revision += 1
-
-    def _repaint(self, name: str, value: Value) -> None:
-        self.revision += 1
-
-    def _draw(self, segment: Segment) -> None:
-        self.trail.draw(segment)
-        self.revision += 1
 
     def _say(self, level: Level, text: str) -> None:
         self.world.log.add(level, self.name, text)
