@@ -145,10 +145,9 @@ def _few(nodes: Iterable[str], width: int, more: str, *, after: Sequence[str] = 
     """
     found = sorted(set(nodes), key=lambda node: (node in after, node))
     names = ", ".join(map(visible, found)) or "-"
-    first, *others = names.split(", ")
-    if others and cell_len(names) > width:
-        rest = f" +{len(others)}"
-        return middle_cut(first, max(1, width - len(rest)), more=more) + rest
+    if len(found) > 1 and cell_len(names) > width:
+        rest = f" +{len(found) - 1}"
+        return middle_cut(visible(found[0]), max(1, width - len(rest)), more=more) + rest
     return middle_cut(names, width, more=more)
 
 
