@@ -452,7 +452,7 @@ def _falls_behind(model: Model, track: Track, limits: Limits) -> Hit | None:
 _MEDIAN = {"upto": "", "of": "median"}
 
 _FEWEST_LATE = 50
-"""Minimum number of samples of a transform of which one in ten can be late."""
+"""Minimum number of samples for a judgement of the latest tenth."""
 
 _STEADY = seconds(0.1)
 """Maximum variation, from 10 % to 90 % quantile, of a delay that no queue causes."""

@@ -20,7 +20,7 @@ VIEWS: Final = {"orbit": (-60.0, 25.0), "top": (-90.0, 90.0), "front": (0.0, 0.0
 
 AZIMUTHS: Final = tuple(range(-60, 300, 15))
 ELEVATIONS: Final = (25.0, 40.0, 55.0)
-"""Directions, degrees, of which the camera chooses one; the first is the usual one."""
+"""Candidate directions of the camera, degrees; the first azimuth and elevation are the usual."""
 
 BETTER: Final = 0.9
 """Fraction of the usual scale from which another direction is chosen."""

@@ -192,7 +192,7 @@ class SimClock(Clock):
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that blocks simulated time for STANDSTILL seconds; none if `until` is None."""
+        """End a node that blocks simulated time for 20 s; end no node if `until` is None."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 

@@ -88,7 +88,7 @@ class LinkContext:
         )
 
     def authority(self, gid: bytes, topic: str) -> str:
-        """Return the name of the node that sent a message; a gid of b"" is not known."""
+        """Return the name of the node that sent a message, or `publisher_GID` if it is unknown."""
         entity = self._sender(gid, topic)
         return _unnamed(gid) if entity is None else entity.node
 
