@@ -1,4 +1,4 @@
-"""Texts of errors in users' code, and of errors about names that tftool does not provide."""
+"""Error texts for exceptions in users' programs, and for ROS names that tftool does not provide."""
 
 import builtins
 import inspect
@@ -56,7 +56,7 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
 
 
 def undeclared(parameter: str, known: Iterable[str]) -> str:
-    """Return the warning about a parameter with a given value that its node never declared.
+    """Return the warning that a parameter was set at the start of a node that never declares it.
 
     Args:
         parameter: Name of the parameter.
@@ -67,9 +67,14 @@ def undeclared(parameter: str, known: Iterable[str]) -> str:
 
 
 def near_keyword(keyword: str, called: Any) -> str:
-    """Return "; did you mean …" with the parameter of `called` nearest to a wrong keyword.
+    """Return a hint "; did you mean …" with the parameter of `called` most similar to `keyword`.
 
-    Return "" if no parameter is similar.
+    Args:
+        keyword: Keyword argument that `called` does not accept.
+        called: Function or class that the user's code called.
+
+    Returns:
+        The hint; "" if no parameter has a similar name.
     """
     kinds = getattr(called, "__mro__", None)
     known: set[str] = set()
@@ -82,7 +87,7 @@ def near_keyword(keyword: str, called: Any) -> str:
 
 
 def missing_module(name: str) -> str:
-    """Return the error text for importing a module that tftool's part of a ROS package lacks."""
+    """Return the error text for importing a submodule that tftool's copy of a ROS package lacks."""
     package = name.partition(".")[0]
     known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
     near = near_names(name, known, alike=0.8)
@@ -91,7 +96,11 @@ def missing_module(name: str) -> str:
 
 
 def missing_package(name: str) -> str:
-    """Return a remedy for importing a package neither installed nor provided by tftool."""
+    """Return advice for a failed import of a package that tftool does not provide.
+
+    Args:
+        name: Name of the package, such as "cv_bridge".
+    """
     packages = sorted(
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )
@@ -121,7 +130,7 @@ def _sentence(text: str) -> str:
 
 
 def error_sentence(error: BaseException) -> str:
-    """Return an error's text with the place in the user's code: file, line, function, source."""
+    """Return the error's text and, on a second line, the line of the user's code that raised it."""
     if isinstance(error, SyntaxError):
         return syntax_sentence(error)
     if isinstance(error, InputError | UsageError | StuckError):
@@ -141,7 +150,7 @@ _KEYWORD = re.compile(r"\b(\w+)\s*=(?!=)")
 
 
 def _keywords_of_call(trace: TracebackType | None) -> list[str]:
-    """Return the keyword arguments in the source of the call that failed."""
+    """Return the names of the keyword arguments in the source lines of the call that failed."""
     last = traceback.extract_tb(trace)[-1]
     # Before Python 3.11 only the first line of the call is known.
     first = last.lineno or 0
@@ -151,7 +160,7 @@ def _keywords_of_call(trace: TracebackType | None) -> list[str]:
 
 
 def _near_name(error: BaseException) -> str:
-    """Return "; did you mean …" for the misspelt name in an error of Python.
+    """Return a hint "; did you mean …" if Python reports a name, attribute or keyword as unknown.
 
     Return "" for other errors, and if no similar name exists where the error occurred.
     """

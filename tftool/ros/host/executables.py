@@ -1,4 +1,4 @@
-"""Start of packages' programs: a user's console script or file, or a node of tftool itself."""
+"""Executables of ROS packages that tftool can start: users' Python programs and built-in nodes."""
 
 import shlex
 from collections.abc import Callable, Mapping, Sequence
@@ -39,12 +39,15 @@ T = TypeVar("T")
 
 
 class HasItsOwnCommand(UsageError):
-    """Error for a program that reads the keyboard; the text names tftool's command for it."""
+    """Error for an executable that needs a separate terminal.
+
+    The error's text contains the tftool command to run in that terminal.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """Request to start one of tftool's own nodes, as `ros2 run` would.
+    """Request to start one of tftool's built-in nodes as `ros2 run` would start the ROS node.
 
     Attributes:
         world: World that the node joins.
@@ -64,14 +67,20 @@ class Asked:
     options: RosOptions
 
     def text(self, name: str, default: str) -> str:
-        """Remove the value of a text parameter and return it; without a value, `default`."""
+        """Remove a text parameter from `parameters` and return its value; see `take`."""
         return str(self.parameters.pop(name, default))
 
     def take(self, name: str, default: T, fits: Callable[[Any], bool], what: str) -> T:
-        """Remove the value of a parameter and return it; without a value, return `default`.
+        """Remove a parameter from `parameters`; return its value, or `default` if it was not set.
+
+        Args:
+            name: Name of the parameter.
+            default: Value of a parameter that was not set.
+            fits: Function that returns whether a value is valid.
+            what: Description of valid values for the error's text, such as "a number".
 
         Raises:
-            UsageError: If `fits` rejects the value; `what` describes valid values.
+            UsageError: If `fits` rejects the value.
         """
         value: T = self.parameters.pop(name, default)
         if isinstance(value, bool) is not isinstance(default, bool) or not fits(value):
@@ -79,11 +88,11 @@ class Asked:
         return value
 
     def flag(self, name: str, default: bool) -> bool:
-        """Remove the value of a boolean parameter and return it; see `take`."""
+        """Remove a boolean parameter from `parameters` and return its value; see `take`."""
         return self.take(name, default, lambda _: True, "true or false")
 
     def number(self, name: str, default: float) -> float:
-        """Remove the value of a parameter, a finite number, and return it; see `take`."""
+        """Remove a parameter with a finite number from `parameters` and return it; see `take`."""
 
         def fits(value: Any) -> bool:
             return isinstance(value, int | float) and isfinite(value)
@@ -91,7 +100,7 @@ class Asked:
         return float(self.take(name, default, fits, "a number"))
 
     def channel(self, name: str, default: int) -> int:
-        """Remove the value of a colour channel, 0 to 255, and return it; see `take`."""
+        """Remove a colour channel, 0 to 255, from `parameters` and return its value; see `take`."""
 
         def fits(value: Any) -> bool:
             return isinstance(value, int) and 0 <= value <= 255
@@ -99,7 +108,7 @@ class Asked:
         return self.take(name, default, fits, "a whole number from 0 to 255")
 
     def remapped(self, *names: str) -> list[str]:
-        """Return the full names of topics after remapping."""
+        """Return the full names of topics after applying the node's remapping rules."""
         return [
             self.options.remapped(expand(one, self.name, self.namespace), self.name, self.namespace)
             for one in names
@@ -156,12 +165,13 @@ def _mimic(asked: Asked) -> Node:
 
 
 def _robot_of(asked: Asked) -> "Robot | None":
-    """Return the robot in the parameter robot_description, or in the URDF file of an argument.
+    """Return the robot model for a node that publishes joint states or transforms of links.
 
-    Return None if neither is given.
+    The model comes from the parameter robot_description, or from the URDF file whose path is the
+    first argument. Return None if the request contains neither.
 
     Raises:
-        UsageError: If the description is not valid; the text lists the mistakes.
+        UsageError: If the robot description is not valid; the text lists the mistakes.
     """
     # This imports numpy, which the other nodes do not need.
     from tftool.robots.robot_model import Robot, load_urdf
@@ -279,7 +289,10 @@ OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
 
 
 def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
-    """Return every known program as (package, name), with its file if it has one."""
+    """Return the executables that tftool can start, as (package, executable) with a Python file.
+
+    The file is None for tftool's built-in nodes.
+    """
     found: dict[tuple[str, str], Path | None] = dict.fromkeys(_OURS)
     for package in workspace.packages.values():
         found |= {(package.name, name): file for name, file in package.programs.items()}
@@ -327,7 +340,7 @@ def start(
     options: RosOptions,
     on_exit: Callable[[Program], object] | None = None,
 ) -> Node:
-    """Start a program in a world: a user's, or one of tftool's own nodes.
+    """Start an executable in a world: a user's Python program, or one of tftool's built-in nodes.
 
     Args:
         world: World to join.

@@ -54,7 +54,7 @@ class EndedError(TftoolError):
 
 
 class StuckError(TftoolError):
-    """Error for a callback that ran too long while simulated time waited for it."""
+    """Error for user code that did not pause or end in time and was therefore stopped."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class CodeLine:
 
 
 def user_line(frame: FrameType | None) -> CodeLine | None:
-    """Return the innermost line of a stack that is in a user's file."""
+    """Return the innermost line of a call stack that is in a user's file; None if no line is."""
     while frame is not None:
         file = frame.f_code.co_filename
         if is_users_file(file):
@@ -89,7 +89,7 @@ def user_line(frame: FrameType | None) -> CodeLine | None:
 
 
 def user_line_of_error(trace: TracebackType | None) -> CodeLine | None:
-    """Return the innermost line of a traceback that is in a user's file."""
+    """Return the innermost line of a traceback that is in a user's file; None if no line is."""
     found = None
     while trace is not None:
         code = trace.tb_frame.f_code
@@ -108,14 +108,15 @@ class Fiber:
 
     Attributes:
         name: Name of the program whose code the fiber runs.
-        interrupted: Whether the fiber was asked to end; each of its waits then raises
+        interrupted: Whether the fiber was asked to end. Each wait of the code then raises
             KeyboardInterrupt.
-        error: Exception that ended the code; a StuckError if tftool stopped the code because the
-            code did not end at the end of the run; None otherwise.
+        error: Exception that ended the code; None if there was none. A StuckError means that tftool
+            stopped code that was still running at the end of the run.
         ended: Whether the code has ended.
-        owner: Program that the fiber belongs to, for `current`.
-        end: Function that returns the exception that waits raise after the fiber was asked to end.
-        on_interrupt: Function called once in the fiber's thread, before the first such exception.
+        owner: Program that the fiber belongs to.
+        end: Function that returns the exception to raise in waits of an interrupted fiber.
+        on_interrupt: Function called once in the fiber's thread, before that exception is first
+            raised.
     """
 
     def __init__(
@@ -129,19 +130,18 @@ class Fiber:
         give_up: float | None = None,
         clock: Clock | None = None,
     ) -> None:
-        """Create a fiber that runs `body`; `drive` starts it.
+        """Create a fiber that runs `body`; the method `drive` starts the thread.
 
         Args:
             name: Name of the program, for log messages.
             body: Function to run.
             strict: Whether the event loop waits while the thread runs.
-            on_busy: Called once, on the loop's thread, when the code has not paused for
-                `patience` real seconds (by default `PATIENCE`).
-            patience: See `on_busy`.
-            give_up: Real seconds after which busy code is stopped in strict mode (by default
-                `GIVE_UP`).
-            clock: Clock of the world. The clock reports a signal at once; the event loop, which
-                is blocked in strict mode, handles the signal only when the thread pauses.
+            on_busy: Function called once, on the event loop's thread, when the code has not paused
+                for `patience` seconds. Its argument is the line of code that runs at that time.
+            patience: Limit for `on_busy` in real seconds; None for `PATIENCE`.
+            give_up: Limit in real seconds for busy code in strict mode; None for `GIVE_UP`.
+            clock: Clock of the world, which reports signals such as Ctrl-C at once. In strict mode
+                the event loop itself would notice a signal only after the code has paused.
         """
         self.name = name
         self.interrupted = False
@@ -174,7 +174,10 @@ class Fiber:
 
     @classmethod
     def adopt(cls, name: str) -> "Fiber":
-        """Make the calling thread a fiber; a loop in another thread then calls `drive`."""
+        """Return a fiber for the calling thread, driven by an event loop in another thread.
+
+        The calling thread continues to run; a later call of `release` ends the fiber.
+        """
         fiber = cls(name, lambda: None, strict=True)
         # The caller's own thread runs the code, so there is no thread to start or to interrupt.
         fiber._thread = None
@@ -183,20 +186,20 @@ class Fiber:
         return fiber
 
     def release(self) -> None:
-        """End an adopted fiber; the thread is an ordinary thread from now on."""
+        """End an adopted fiber; its thread continues as an ordinary thread."""
         _local.fiber = None
         self._post(None)
 
     # The fiber's side.
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Call `request` in the event loop's thread; block until its result arrives, and return it.
+        """Call `request` in the event loop's thread, wait for the result and return the result.
 
-        If the result is awaitable, the loop awaits it. Call this in the fiber's own thread only.
+        The event loop awaits an awaitable result. Call this method in the fiber's own thread only.
 
         Raises:
-            KeyboardInterrupt: If the fiber was asked to end while it waited.
-            Exception: Any that `request` raises.
+            KeyboardInterrupt: If the fiber is interrupted during the wait.
+            Exception: Any exception that `request` raises.
         """
         __tracebackhide__ = True
         self._answer = (None, None)
@@ -241,7 +244,7 @@ class Fiber:
     # The loop's side.
 
     async def drive(self) -> None:
-        """Run the fiber's code to its end, and execute the code's requests in the event loop.
+        """Start the thread, and execute the code's requests in the event loop until the code ends.
 
         If this coroutine is cancelled, the code's present or next wait raises KeyboardInterrupt, as
         after Ctrl-C in a ROS node. Requests are still executed until the code has ended.
@@ -289,7 +292,7 @@ class Fiber:
         self._leave_alone()
 
     def _leave_alone(self) -> None:
-        """Abandon a fiber whose code ignored the interruption; its thread ends with the process."""
+        """Abandon a fiber whose code ignored KeyboardInterrupt; its daemon thread keeps running."""
         self.ended = True
         self.error = StuckError(
             f"'{self.name}' did not stop at the end of the run. It is at: "
@@ -301,7 +304,8 @@ class Fiber:
 
         Args:
             answer: Result and exception of the thread's last request.
-            go: Whether the thread waits for `answer`; false at an adopted thread's first turn.
+            go: Whether to wake the thread with `answer`; false at the first turn of an adopted
+                thread, which already runs.
         """
         if self._strict:
             self._hand_over(answer, go)
@@ -354,7 +358,10 @@ class Fiber:
         )
 
     def _rests_within(self, limit: float) -> bool:
-        """Wait until the thread pauses; return False after `limit` real seconds or at a signal."""
+        """Wait at most `limit` real seconds for a pause of the thread; return whether it paused.
+
+        A signal such as Ctrl-C ends the wait early.
+        """
         while limit > 0.0 and not self._clock.interrupted:
             # Wait in short parts, so that a signal meanwhile is noticed.
             part = min(limit, GRACE)
@@ -364,7 +371,10 @@ class Fiber:
         return self._rest.acquire(blocking=False)
 
     def _end_now(self) -> None:
-        """Stop code that was busy when a signal arrived; abandon code that does not stop."""
+        """Raise KeyboardInterrupt in code that was busy when a signal arrived.
+
+        Code that still does not stop is abandoned.
+        """
         if not self.interrupted:
             self.interrupted = True
             self._raise_in_thread(KeyboardInterrupt)
@@ -372,7 +382,11 @@ class Fiber:
             self._leave_alone()
 
     async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Interrupt a running thread: at its next request to the event loop, or in its own code."""
+        """Interrupt a thread that is running now.
+
+        The code's next request to the event loop raises KeyboardInterrupt. If no request comes in
+        time, the exception is raised in the running code.
+        """
         self.interrupted = True
         # After Ctrl-C a person waits, so busy code is interrupted; at the end of --for busy code is
         # a fault.
@@ -402,7 +416,7 @@ class Fiber:
         self._on_busy(self.place())
 
     def place(self) -> CodeLine | None:
-        """Return the line of the user's code that this fiber is executing."""
+        """Return the line of the user's code that this fiber is executing; None for other code."""
         if self._thread is None or self._thread.ident is None:
             return None
         return user_line(sys._current_frames().get(self._thread.ident))
@@ -427,13 +441,16 @@ def _taken_lock() -> threading.Lock:
 
 
 def finish(future: "asyncio.Future[None]", _: object = None) -> None:
-    """Set a future's result to None unless it is done; usable as another future's callback."""
+    """Set a future's result to None, unless the future is done.
+
+    The second argument is ignored, so that this function can be a done callback of another future.
+    """
     if not future.done():
         future.set_result(None)
 
 
 def discard(awaitable: Any) -> None:
-    """Close or cancel an awaitable that will not be awaited."""
+    """Close a coroutine, or cancel a future, that nobody will await."""
     close = getattr(awaitable, "close", None) or getattr(awaitable, "cancel", None)
     if close is not None:
         close()

@@ -1,15 +1,17 @@
-"""Table of the ROS 2 modules and names that tftool provides, and where each is implemented.
+"""Table of the ROS 2 modules and names that tftool provides, with the implementing modules.
 
 An entry has the form "ROS modules: tftool's module: names". A name that differs between ROS and
 tftool is written `rosname=ourname`; "*" means all public names of the module. Angle brackets
-contain the tags of an action in XML and YAML launch files, or of a substitution, `$(tag …)`.
+after a name contain tags of launch files: the tags of an action in XML and YAML, or the tag of a
+substitution `$(tag …)`.
 
-tftool's module is a path below `tftool.ros`, such as `rclpy.node`. With a leading dot, the path is
-below `tftool`. With a slash, the entry is a package and kind of interfaces instead.
+tftool's module is a path below `tftool.ros`, such as `rclpy.node`. A path with a leading dot is
+below `tftool`. A path with a slash, such as `std_srvs/srv`, is a package of interfaces and a kind
+of interface.
 
 As in ROS 2, each class of some modules can also be imported from a module with the class's name,
 such as `launch.actions.execute_process`. Packages of interfaces, such as geometry_msgs, need no
-entry: their modules follow from their definitions.
+entry: their modules are derived from the interface definitions.
 """
 
 import re
@@ -343,13 +345,13 @@ WHOLE_PACKAGES = (
 
 
 def snake_case(name: str) -> str:
-    """Convert a class's name to snake case: "ExecuteProcess" to "execute_process"."""
+    """Convert a class's name to snake case: "ExecuteProcess" becomes "execute_process"."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 @dataclass(frozen=True, slots=True)
 class ImportedName:
-    """Implementation of one name of a ROS 2 module.
+    """Object in tftool that implements one name of a ROS 2 module.
 
     Attributes:
         module: Path of tftool's module below `tftool.ros`, or "package/kind" for an interface.
@@ -367,9 +369,9 @@ _ENTRY = re.compile(r"(?P<shown>\w+|\*)(?:=(?P<real>\w+))?(?:<(?P<tags>[^>]*)>)?
 
 @cache
 def table() -> Mapping[str, Mapping[str, ImportedName]]:
-    """Return the names in every ROS 2 module that tftool provides, by the module's ROS name.
+    """Return the names that tftool provides: from a module's ROS name to the module's names.
 
-    A package that only contains other modules has no names.
+    A package that only contains other modules has an empty entry.
     """
     found: dict[str, dict[str, ImportedName]] = {}
     for entry in re.split(r"\n(?! )", _TABLE.strip()):
@@ -397,7 +399,7 @@ def _imports() -> Mapping[str, Sequence[str]]:
 
 
 def imported_by(module: str) -> Sequence[str]:
-    """Return the modules from which a module of ROS 2 imports names."""
+    """Return the ROS 2 modules from which the ROS 2 module `module` imports names."""
     if any(other.startswith(f"{module}.") for other in table()):
         return ()  # A package, such as launch.actions, shows only its own names.
     package = module.partition(".")[0]
@@ -406,6 +408,6 @@ def imported_by(module: str) -> Sequence[str]:
 
 @cache
 def tagged() -> Mapping[str, ImportedName]:
-    """Return the implementation of each tag in XML and YAML launch files: "node", or "$var"."""
+    """Return the class behind each tag of XML and YAML launch files, such as "node" or "$var"."""
     names = (one for names in table().values() for one in names.values())
     return {tag: one for one in names for tag in one.tags}

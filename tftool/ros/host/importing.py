@@ -33,10 +33,10 @@ _OURS = Path(__file__).resolve().parents[2]
 
 
 def real_ros() -> str:
-    """Return the folder of rclpy in a sourced ROS 2; "" if no ROS 2 is sourced.
+    """Return the path of rclpy in a sourced ROS 2; "" if no ROS 2 is sourced.
 
-    `ROS_DISTRO` alone is no proof: tftool also sets it for users' programs and their child
-    processes.
+    The variable `ROS_DISTRO` alone proves nothing, because tftool sets it too for users' programs
+    and their child processes.
     """
     if not (os.environ.get("ROS_DISTRO") or os.environ.get("AMENT_PREFIX_PATH")):
         return ""
@@ -52,7 +52,7 @@ _LOADING = threading.RLock()
 
 
 class _StandInModule(ModuleType):
-    """Module with the name of a ROS 2 module; it loads tftool's implementation at first use."""
+    """Module with the name of a ROS 2 module, which loads each object from tftool at first use."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name, f"{name}, as far as it runs without ROS.")
@@ -61,9 +61,10 @@ class _StandInModule(ModuleType):
         return sorted({*vars(self), *_entries(self.__name__), *self._modules()} - {"*"})
 
     def _modules(self) -> list[str]:
-        """Return the names of submodules that a program may use after importing the package only.
+        """Return the submodules that ROS 2 itself imports together with this package.
 
-        Return an empty list for packages whose submodules a program must import, as in ROS 2.
+        A program may use these submodules without importing them. The list is empty for a package
+        whose submodules a program must import.
         """
         if self.__name__ not in import_table.WHOLE_PACKAGES:
             return []
@@ -104,7 +105,7 @@ _PARTS: Mapping[str, Sequence[str]] = MappingProxyType(
 
 
 def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
-    """Return the implementation of each name in a ROS 2 module, such as `std_msgs.msg`."""
+    """Return the names in a ROS 2 module, such as `std_msgs.msg`, with their objects in tftool."""
     package, _, below = module.partition(".")
     if package not in INTERFACES.packages():
         return import_table.table()[module]
@@ -126,7 +127,7 @@ def _is_import_from(frame: Any) -> bool:
 
 
 class _StandInLoader(Loader):
-    """Loader that creates the modules with ROS 2 names."""
+    """Import loader that creates modules with the names of ROS 2 modules."""
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
         return _StandInModule(spec.name)
@@ -138,7 +139,7 @@ class _StandInLoader(Loader):
 
 
 def load(imported: import_table.ImportedName) -> Any:
-    """Load the object that an entry of the import table refers to."""
+    """Return the object that an entry of the import table names, importing its module if needed."""
     package, _, kind = imported.module.partition("/")
     if kind:
         name, _, part = imported.name.partition("_")
@@ -148,7 +149,10 @@ def load(imported: import_table.ImportedName) -> Any:
 
 
 def _defined(ours: ModuleType) -> dict[str, Any]:
-    """Return the public names that one of tftool's modules defines itself, with their values."""
+    """Return the public names defined in one of tftool's modules, with their values.
+
+    Names that the module only imports are left out.
+    """
     return {
         name: value
         for name, value in vars(ours).items()
@@ -158,14 +162,19 @@ def _defined(ours: ModuleType) -> dict[str, Any]:
 
 
 def _names_in(package: str, below: str) -> list[str]:
-    """Return the interfaces in a module such as `package.msg` or `package.msg._string`."""
+    """Return the names of the interfaces in a module of a package of interfaces.
+
+    Args:
+        package: Name of the package, such as "std_msgs".
+        below: Path of the module in the package, such as "msg" or "msg._string".
+    """
     kind, _, own = below.partition(".")
     names = INTERFACES.names(package, kind) if kind else []
     return [one for one in names if not own or own == f"_{import_table.snake_case(one)}"]
 
 
 class _Finder(MetaPathFinder):
-    """Import hook that finds modules with ROS 2 names, and users' modules in a workspace."""
+    """Import hook that finds tftool's versions of ROS 2 modules, and modules in users' folders."""
 
     def __init__(self) -> None:
         self.roots: list[Path] = []
@@ -198,7 +207,7 @@ class _Finder(MetaPathFinder):
     def _own(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Return the spec of a module in the user's folders; None if there is no such module."""
+        """Return the import spec of a module in a user's folders; None if no such module exists."""
         if self.tested is not None:
             return self._tested(fullname, path, target)
         if fullname.partition(".")[0] not in TAKEN:
@@ -226,10 +235,10 @@ class _Finder(MetaPathFinder):
     def _tested(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Return the spec of a module; None if there is no such module.
+        """Return the import spec of a module while tests run; None if no such module exists.
 
-        In a module below the tests' folder, statements such as `import time` give tftool's
-        versions: that module gets builtins of its own.
+        Modules below the tests' folder get replaced builtins: in these modules `import time`, for
+        example, imports tftool's version of `time`.
         """
         for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
             spec = finder.find_spec(fullname, path, target)
@@ -247,9 +256,9 @@ class _Finder(MetaPathFinder):
 
 
 def _dotted_test(fullname: str, path: Sequence[str]) -> importlib.machinery.ModuleSpec | None:
-    """Return the spec of a test file such as `x.test.py`, which pytest imports as `x_test`.
+    """Return the import spec of a test file with dots in its name; None if there is no such file.
 
-    pytest does so with `--import-mode=importlib`. Return None if there is no such file.
+    With `--import-mode=importlib`, pytest imports the file `x.test.py` as the module `x_test`.
     """
     name = fullname.rpartition(".")[2]
     files = (file for folder in path for file in Path(folder).glob("*.*.py"))
@@ -266,7 +275,10 @@ def _spec(name: str) -> importlib.machinery.ModuleSpec:
 
 
 class _UserLoader(importlib.machinery.SourceFileLoader):
-    """Loader of a user's module, in which `import time` and the like give tftool's versions."""
+    """Import loader for a user's module: `import time` in the module imports tftool's `time`.
+
+    The same holds for the other modules that `shims` replaces.
+    """
 
     def exec_module(self, module: ModuleType) -> None:
         module.__dict__["__builtins__"] = builtins_for_users()
@@ -277,9 +289,9 @@ class _UserLoader(importlib.machinery.SourceFileLoader):
 
 
 class _TestedLoader(Loader):
-    """Loader for tests: it calls another loader after replacing the module's builtins.
+    """Import loader for tests, which wraps another loader and replaces the module's builtins.
 
-    With these builtins, `import time` and the like give tftool's versions.
+    With the replaced builtins, `import time` in the module imports tftool's `time`.
     """
 
     def __init__(self, loader: Loader) -> None:
@@ -297,7 +309,7 @@ class _TestedLoader(Loader):
 
 
 class _Arguments(UserList[str]):
-    """Replacement of `sys.argv`: a list that shows each program its own arguments."""
+    """Replacement of `sys.argv`: a list in which each program sees its own arguments."""
 
     def __init__(self, otherwise: list[str]) -> None:
         super().__init__()
@@ -305,14 +317,17 @@ class _Arguments(UserList[str]):
 
     @property
     def data(self) -> list[str]:
-        """Arguments of the calling thread's program; tftool's own arguments without a program."""
+        """Arguments of the program that the calling thread belongs to.
+
+        A thread that belongs to no program sees the arguments of tftool itself.
+        """
         fiber = fibers.current()
         owner = fiber.owner if fiber is not None else None
         return self._otherwise if owner is None else owner.argv
 
     @data.setter
     def data(self, value: list[str]) -> None:
-        """Do nothing: each program has its own list of arguments."""
+        """Ignore the new value, because each program has its own list of arguments."""
 
     # A slice must be a plain list, because pytest shows all arguments for a list of this class.
 
@@ -342,10 +357,10 @@ _finder: _Finder | None = None
 
 @contextmanager
 def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
-    """Provide ROS 2's modules inside this block, if no real ROS 2 is sourced.
+    """Make ROS 2's modules importable until the end of the `with` block.
 
     Args:
-        force: Whether to provide the modules even if a real ROS 2 is sourced.
+        force: Whether to replace the modules of a sourced ROS 2.
 
     Raises:
         UsageError: If a real ROS 2 is sourced and `force` is false.
@@ -362,10 +377,10 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
 
 @contextmanager
 def environment() -> Iterator[None]:
-    """Set environment variables as a sourced ROS 2 does, inside this block.
+    """Set the environment variables of a sourced ROS 2 until the end of the `with` block.
 
     `ROS_DISTRO`, which launch files read, keeps an existing value. `PATH` begins with the folder of
-    tftool's `ros2` command, so that a child process finds this command.
+    tftool's `ros2` command, so that child processes find this command.
     """
     commands = f"{Path(__file__).parent / 'bin'}{os.pathsep}{os.environ.get('PATH', '')}"
     wanted = {
@@ -387,7 +402,7 @@ def environment() -> Iterator[None]:
 
 @contextmanager
 def own_arguments() -> Iterator[None]:
-    """Let every program have a separate `sys.argv` inside this block."""
+    """Give every program its own `sys.argv` until the end of the `with` block."""
     argv = sys.argv
     if not isinstance(argv, _Arguments):
         sys.argv = _Arguments(argv)  # type: ignore[assignment]
@@ -399,7 +414,7 @@ def own_arguments() -> Iterator[None]:
 
 @contextmanager
 def ros_modules() -> Iterator["_Finder"]:
-    """Provide ROS 2's modules inside this block, even if a real ROS 2 is sourced."""
+    """Make ROS 2's modules importable until the end of the `with` block; ignore a sourced ROS 2."""
     global _finder
     if _finder is not None:
         yield _finder
@@ -431,12 +446,12 @@ def _file_of(module: ModuleType) -> Path:
 
 
 def _place(file: str | None, folders: Iterable[str] | None) -> Path:
-    """Return the file of a module, or the first folder of a package without a file."""
+    """Return `file`, the file of a module, or the first of `folders` if a package has no file."""
     return Path(file or next(iter(folders or ()), ""))
 
 
 def _is_users(file: Path, roots: Iterable[Path]) -> bool:
-    """Return whether a file is a user's module: below `roots`, not in a virtual environment."""
+    """Return whether a module's file is below one of `roots` and outside virtual environments."""
     if file.is_relative_to(_OURS):
         return False
     below = (file.relative_to(root) for root in roots if file.is_relative_to(root))
@@ -444,15 +459,16 @@ def _is_users(file: Path, roots: Iterable[Path]) -> bool:
 
 
 def look_in(root: Path) -> None:
-    """Add a folder in which imports look for users' modules, before all other folders."""
+    """Make `root` the first folder in which imports look for users' modules."""
     if _finder is not None and _finder.roots[:1] != [root]:
         _finder.roots = [root, *(one for one in _finder.roots if one != root)]
 
 
 def forget_in(folder: Path) -> None:
-    """Forget users' modules from elsewhere that have the name of a file or folder in `folder`.
+    """Remove from `sys.modules` users' modules that would hide a file or folder in `folder`.
 
-    The next import finds the one in `folder`: two programs may have modules of the same name.
+    Two programs may have modules of the same name. Without the removal, an import for the second
+    program would return the module of the first.
     """
     names = {one.stem for one in folder.iterdir()}
     roots = [] if _finder is None else _finder.roots
@@ -469,19 +485,19 @@ def look_behind(roots: Callable[[], Iterable[str]]) -> None:
     """Add folders in which imports look for users' modules, after the programs' own folders.
 
     Args:
-        roots: Function that returns the folders; it is called at the first import that needs them.
+        roots: Function that returns the folders; called at the first import of a user's module.
     """
     if _finder is not None:
         _finder.behind.append(roots)
 
 
 def import_fresh(module: str, root: Path) -> ModuleType:
-    """Import a user's module from a folder and execute it again, as a new process would.
+    """Import a user's module from the folder `root`; execute an imported module again.
 
-    Two programs made from one file thus share no global variables.
+    Two programs that run the same module therefore share no global variables.
 
     Raises:
-        ImportError: If the module, or one that it imports, does not exist.
+        ImportError: If the module, or a module that it imports, does not exist.
     """
     with IMPORTING:
         look_in(root)

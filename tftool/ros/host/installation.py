@@ -1,4 +1,7 @@
-"""Check of a package's files, without running them: would ROS 2 find its parts after a build?"""
+"""Check whether ROS 2 would find a package's nodes and launch files after a build.
+
+The check only reads the package's files; nothing is built.
+"""
 
 import ast
 import re
@@ -26,12 +29,12 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 @dataclass(frozen=True, slots=True)
 class InstalledPart:
-    """Part of a package that must be declared in its build files for ROS 2 to find it.
+    """Part of a package that ROS 2 finds only if a build file declares the part.
 
     Attributes:
-        subject: The part and its declaration: "chase/node.py: an entry point in setup.py".
+        subject: The part and the declaration, such as "chase/node.py: an entry point in setup.py".
         file: File of the part.
-        fault: Reason why ROS 2 would not find the part, with the remedy; "" if it would.
+        fault: Reason why ROS 2 would not find the part, with the remedy; "" without a fault.
     """
 
     subject: str
@@ -40,7 +43,7 @@ class InstalledPart:
 
 
 def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[InstalledPart]:
-    """Yield the parts of a package that ROS 2 must find: nodes, launch files, dependencies.
+    """Yield the nodes, launch files and dependencies of a package with their declarations' faults.
 
     Args:
         package: Package to check.
@@ -59,9 +62,14 @@ def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[
 
 
 def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> list[str]:
-    """Return the reasons why ROS 2 would not find one node or launch file, or its imports.
+    """Return the reasons why ROS 2 would not find one node or launch file, or a dependency of it.
 
-    For a launch file, nodes whose names its text contains are checked as well.
+    For a launch file, the faults of the nodes named in the file are included.
+
+    Args:
+        package: Package that contains the file.
+        file: Path of the node or launch file.
+        siblings: Names of all packages in the same workspace.
     """
     try:
         parts = list(installed_parts(package, siblings))
@@ -75,7 +83,12 @@ def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> 
 
 
 def entry_point_fault(package: Package, name: str) -> str:
-    """Return why a console script cannot start, with the nearest name; "" if it can start."""
+    """Return the reason why a console script cannot start; "" if the script can start.
+
+    Args:
+        package: Package whose setup.py declares the script.
+        name: Name of the script.
+    """
     module, _, function = package.scripts[name].partition(":")
     path = package.path.joinpath(*module.split("."))
     if not path.with_suffix(".py").is_file() and not (path / "__init__.py").is_file():
@@ -191,7 +204,10 @@ def _module(package: Package, file: Path) -> str:
 
 
 def _tree(file: Path) -> ast.Module:
-    """Parse a Python file; return an empty module for invalid Python, which fails when run."""
+    """Parse a Python file; return an empty module if the file is unreadable or not valid Python.
+
+    Running such a file reports the error.
+    """
     try:
         return ast.parse(read_text(file), str(file))
     except (InputError, SyntaxError, ValueError, RecursionError, MemoryError):
@@ -199,7 +215,7 @@ def _tree(file: Path) -> ast.Module:
 
 
 def _globals(file: Path) -> set[str]:
-    """Return the names of a module's functions, classes and imports."""
+    """Return the names of the functions, classes and imports in a Python file."""
     found: set[str] = set()
     for statement in ast.walk(_tree(file)):
         match statement:

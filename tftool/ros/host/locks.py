@@ -32,7 +32,7 @@ class StateMonitor:
         self._wakers: list[Callable[[], object]] = []
 
     def change(self, update: Callable[[], T]) -> T:
-        """Change the state by calling `update`, and wake every waiting thread to check the state.
+        """Change the state by calling `update`, then wake every waiting thread to check the state.
 
         Returns:
             The result of `update`; its exceptions pass through.
@@ -45,10 +45,10 @@ class StateMonitor:
                     wake()
 
     def wait(self, take: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Block until `take`, which checks and may change the state, returns True.
+        """Block until `take` returns True; call it at once and after every change of the state.
 
         Args:
-            take: Function called while the mutex is held.
+            take: Function that checks the state and may change it; called while the mutex is held.
             timeout: Longest wait in seconds: of tftool's clock in a program's thread, of real time
                 in any other thread. None for no limit, 0 to check once.
 
@@ -56,7 +56,7 @@ class StateMonitor:
             Whether `take` returned True in time.
 
         Raises:
-            KeyboardInterrupt: If the program was asked to end while it waited.
+            KeyboardInterrupt: If the program is interrupted during the wait.
         """
         with self._mutex:
             if take():
@@ -72,9 +72,12 @@ class StateMonitor:
         return bool(owner.ask(lambda: self._wait(owner, take, length)))
 
     def sleep(self, owner: Any, length: Duration, is_over: Callable[[], bool]) -> None:
-        """Block a thread of the program `owner` for nanoseconds of tftool's clock.
+        """Block a thread of a program for a time, or until a function returns True.
 
-        Return earlier if `is_over`, called after every change of the state, returns True.
+        Args:
+            owner: Program that the thread belongs to.
+            length: Longest wait in nanoseconds of tftool's clock.
+            is_over: Function called after every change of the state; True ends the wait.
         """
         if not owner.interrupted:
             owner.ask(lambda: self._wait(owner, is_over, max(0, length)))
@@ -106,7 +109,10 @@ class StateMonitor:
                     self._wakers.remove(wake)
 
     def _block(self, take: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait in real time, in a thread that belongs to no user's program."""
+        """Wait until `take` returns True, at most `timeout` real seconds; return whether it did.
+
+        Only threads that belong to no user's program wait in real time.
+        """
         changed = threading.Event()
         while True:
             with self._mutex:
@@ -225,7 +231,7 @@ class UserCondition(threading.Condition):
                 self._waiters.remove(waiter)
 
     def wait_for(self, predicate: Callable[[], T], timeout: float | None = None) -> T:
-        """Block until a predicate returns a true value; return the predicate's last value."""
+        """Block until `predicate` returns a true value or time is up; return its last value."""
         owner = running_program()
         start = 0 if owner is None else owner.now()
         left, result = timeout, predicate()
@@ -261,7 +267,7 @@ class UserSemaphore(threading.Semaphore):
 
 
 class UserBoundedSemaphore(UserSemaphore, threading.BoundedSemaphore):
-    """Replacement of `threading.BoundedSemaphore` that waits on tftool's clock."""
+    """Replacement of `threading.BoundedSemaphore` with timeouts in seconds of tftool's clock."""
 
 
 class UserEvent(threading.Event):

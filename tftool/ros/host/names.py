@@ -1,4 +1,4 @@
-"""Names in ROS 2: rules, expansion, remapping, and the options after `--ros-args`.
+"""ROS 2 names: rules for valid names, expansion, remapping, and the options after `--ros-args`.
 
 Topic names in tftool are full names without the leading slash.
 """
@@ -21,7 +21,7 @@ _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
 
 
 class Fault(NamedTuple):
-    """Reason why a name is invalid.
+    """Rule of ROS 2 that a name breaks, and the position in the name.
 
     Attributes:
         reason: Rule that the name breaks.
@@ -33,7 +33,7 @@ class Fault(NamedTuple):
 
 
 def named_twice(name: str) -> str:
-    """Return the warning that another process already has a node with this name."""
+    """Return the warning that another process already has a node named `name`."""
     return (
         f"another process of this session has a node named '{name}': both publish and answer. "
         "End one, or give this one a name of its own: --ros-args -r __node:=…"
@@ -42,7 +42,7 @@ def named_twice(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Remap:
-    """Remapping rule `node:old:=new`; a rule without a node applies to all nodes."""
+    """Remapping rule `node:old:=new`; a rule whose `node` is None applies to all nodes."""
 
     node: str | None
     old: str
@@ -54,11 +54,11 @@ class RosOptions:
     """Options after `--ros-args` on a program's command line.
 
     Attributes:
-        name: New name for the program's nodes (`__node:=`), if given.
-        namespace: Namespace (`__ns:=`), if given.
+        name: New name for the program's nodes (`__node:=`); None to keep their names.
+        namespace: New namespace for the nodes (`__ns:=`); None to keep their namespaces.
         remaps: Rules for topics, services and actions; the first matching rule applies.
-        parameters: Tuples (node pattern, name, value); later ones override earlier ones.
-        levels: Log levels by logger name; "" stands for all loggers.
+        parameters: Tuples (node pattern, name, value); later tuples override earlier ones.
+        levels: Log levels by logger name; the name "" means all loggers.
         logs_to_rosout: Whether nodes publish their log messages on `/rosout`.
     """
 
@@ -70,7 +70,7 @@ class RosOptions:
     logs_to_rosout: bool = True
 
     def parameters_for(self, name: str, namespace: str) -> dict[str, Any]:
-        """Return the parameter values that these options give to one node, by parameter name."""
+        """Return the parameter values in these options for one node, by parameter name."""
         full = join(namespace, name)
         return {key: value for node, key, value in self.parameters if _fits(node, full, name)}
 
@@ -139,7 +139,10 @@ def namespace_fault(namespace: str) -> Fault | None:
 
 
 def topic_name_fault(name: str) -> Fault | None:
-    """Return the rule of ROS 2 that a topic's name, before expansion, breaks; None if valid."""
+    """Return the rule of ROS 2 that a topic's name breaks; None if the name is valid.
+
+    The name is checked before expansion and may contain "~" and substitutions such as "{node}".
+    """
     strange = _STRANGE_IN_TOPIC.search(name)
     if not name:
         return Fault("it must not be empty", 0)
@@ -166,10 +169,10 @@ def _fault_of_parts(name: str) -> Fault | None:
 
 
 def check_node_name(name: str) -> None:
-    """Raise an error if ROS 2 does not accept a node name.
+    """Raise an error if a node name breaks a rule of ROS 2.
 
     Raises:
-        UsageError: If ROS 2 refuses the name.
+        UsageError: If the name is not valid; the text contains the rule.
     """
     fault = node_name_fault(name)
     if fault is not None:
@@ -177,10 +180,10 @@ def check_node_name(name: str) -> None:
 
 
 def check_namespace(namespace: str) -> None:
-    """Raise an error if ROS 2 does not accept a namespace.
+    """Raise an error if a namespace breaks a rule of ROS 2.
 
     Raises:
-        UsageError: If ROS 2 refuses the namespace.
+        UsageError: If the namespace is not valid; the text contains the rule.
     """
     fault = namespace_fault(f"/{namespace.strip('/')}")
     if fault is not None:
@@ -285,7 +288,7 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
 
 
 def add_parameter(options: RosOptions, text: str) -> None:
-    """Add a parameter, given as `name:=value` or `node:name:=value`, to the options."""
+    """Add the parameter in `text`, which is `name:=value` or `node:name:=value`, to the options."""
     name, found, value = text.partition(":=")
     if not found or not name:
         raise UsageError(f"'{text}' is not a valid parameter assignment: write name:=value")
@@ -294,7 +297,10 @@ def add_parameter(options: RosOptions, text: str) -> None:
 
 
 def add_remap(options: RosOptions, text: str) -> None:
-    """Add a rule `old:=new` or `node:old:=new`; the rules `__node` and `__ns` rename the node."""
+    """Add the remapping rule in `text`, which is `old:=new` or `node:old:=new`, to the options.
+
+    The rules `__node:=new` and `__ns:=new` rename the node and set its namespace.
+    """
     old, found, new = text.partition(":=")
     if not found or not old or not new:
         raise UsageError(f"'{text}' is not a valid remapping: write old:=new")
@@ -345,7 +351,7 @@ def strict_yaml_value(text: str) -> Any:
 
 @cache
 def _loader() -> Any:
-    """Return a YAML loader with ROS 2's rules for numbers: `12:30` and `2024-01-05` are texts."""
+    """Return a YAML loader that reads `12:30` and `2024-01-05` as texts, as ROS 2 does."""
     import yaml
 
     # ROS 2 reads with libyaml too, which permits a tab after a value.
@@ -371,7 +377,7 @@ def _loader() -> Any:
 def read_parameters(
     path: Path, substitute: Callable[[str], str] = str
 ) -> list[tuple[str, str, Any]]:
-    """Read a ROS 2 parameter file; return (node, name, value) of each parameter.
+    """Read a ROS 2 parameter file; return a tuple (node pattern, name, value) for each parameter.
 
     Args:
         path: Path of the file.
@@ -406,7 +412,14 @@ def read_parameters(
 
 
 def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
-    """Yield (node, name, value) from YAML nodes, in which a key may occur more than once."""
+    """Yield (node pattern, name, value) for each parameter below a YAML node.
+
+    Working on YAML nodes instead of mappings preserves keys that occur more than once.
+
+    Args:
+        tree: YAML node of a parameter file.
+        node: Pattern of ROS node names that the keys above `tree` form.
+    """
     import yaml
 
     from tftool.base import yaml_guard
@@ -422,7 +435,7 @@ def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
 
 
 def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:
-    """Return nested mappings as a list of (dotted name, value)."""
+    """Return the values in nested mappings as a list of (name, value); dots join the keys."""
     found: list[tuple[str, Any]] = []
     for key, value in tree.items() if isinstance(tree, Mapping) else ():
         if isinstance(value, Mapping):

@@ -1,4 +1,7 @@
-"""Facts about a package from package.xml, setup.py and other files, read without running them."""
+"""Facts about a package, read from package.xml, setup.py, CMakeLists.txt and other files.
+
+No setup.py is executed.
+"""
 
 import ast
 import configparser
@@ -24,14 +27,14 @@ class Package:
     Attributes:
         name: Name of the package.
         path: Source folder, also used as the package's share directory.
-        scripts: Console scripts, from name to "module:function".
-        installed: Files that setup.py or CMakeLists.txt installs under another path in
-            the share directory than their source path: from installed path to file.
+        scripts: Console scripts: from name to "module:function".
+        installed: Files with a different path in the share directory than in the source folder:
+            from the installed path to the source file.
         modules: Folders of Python packages that CMakeLists.txt installs
             (`ament_python_install_package`), relative to the source folder.
         programs: Python files that CMakeLists.txt installs (`install(PROGRAMS …)`), by name.
-        data_files: Files that setup.py installs; None if the list is not a plain list of texts,
-            so that only running setup.py would give the files.
+        data_files: Files that setup.py installs; None if only running setup.py would give the
+            list.
     """
 
     name: str
@@ -43,9 +46,13 @@ class Package:
     data_files: frozenset[str] | None = None
 
     def script_file(self, name: str) -> Path | None:
-        """Return the Python file of a node by the file's name, for packages without setup.py.
+        """Return the Python file of an executable in a package without setup.py.
 
-        Return None if there is no such file.
+        Args:
+            name: Name of the executable, which is the file's name with or without ".py".
+
+        Returns:
+            Path of the file; None if there is no such file.
         """
         if name in self.programs:
             return self.programs[name]
@@ -57,11 +64,11 @@ class Package:
         return None
 
     def place_of_script(self, name: str) -> Path:
-        """Return the path of a console script as if it were installed below the source folder."""
+        """Return the path of a console script for an install prefix equal to the source folder."""
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
-        """Return the name of the executable at a path; None if there is no executable."""
+        """Return the name of the executable in the file `path`; None if it is no executable."""
         if path.name in self.scripts and path == self.place_of_script(path.name):
             return path.name
         is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()
@@ -115,7 +122,7 @@ def read_package(folder: Path) -> Package | None:
 
 
 def _listed_files(data_files: Any) -> frozenset[str] | None:
-    """Return the files in a setup.py's `data_files`; None if a part of the value is unknown."""
+    """Return the files in the `data_files` of a setup.py; None if not all of the value is known."""
     if not isinstance(data_files, list):
         return None
     listed: set[str] = set()
@@ -169,7 +176,13 @@ def _modules_of_cmake(text: str) -> list[str]:
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
-    """Yield (installed path, file) for files that setup.py installs under another path."""
+    """Yield (installed path, file) for each file whose path in the share directory differs.
+
+    Args:
+        folder: Source folder of the package.
+        share: Path of the package's share directory, such as "share/turtles".
+        data_files: Value of `data_files` in setup.py.
+    """
     for entry in data_files if isinstance(data_files, list) else ():
         if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
             continue
@@ -201,7 +214,7 @@ def read_text(path: Path) -> str:
 
 
 def _from_setup_py(path: Path) -> tuple[str, dict[str, str], Any]:
-    """Return name, console scripts and data files from a setup.py, without running it."""
+    """Return the name, console scripts and data files in a setup.py, without executing the file."""
     try:
         tree = ast.parse(read_text(path), str(path))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -230,9 +243,9 @@ def _called(function: ast.expr) -> str:
 
 
 class _Literals:
-    """Evaluator of simple expressions in a setup.py, without running it.
+    """Evaluator of simple expressions in a setup.py, which does not execute the file.
 
-    It evaluates literals, names, joined texts, and the calls `glob` and `os.path.join`.
+    The evaluator covers literals, variables, joined texts, and calls of `glob` and `os.path.join`.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -309,7 +322,7 @@ def _from_setup_cfg(path: Path) -> tuple[str, dict[str, str]]:
 
 
 def _from_pyproject(path: Path) -> tuple[str, dict[str, str]]:
-    """Return name and console scripts from a pyproject.toml; empty values for invalid TOML."""
+    """Return the name and console scripts in a pyproject.toml; empty values for invalid TOML."""
     try:
         project = tomllib.loads(read_text(path)).get("project", {})
     except (tomllib.TOMLDecodeError, RecursionError):

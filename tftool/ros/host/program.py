@@ -1,4 +1,4 @@
-"""User's program, run inside tftool's process in place of a process that `ros2 run` would start.
+"""User's program, which runs inside tftool's process instead of a process of its own.
 
 A program has its own arguments, its own rclpy context and a thread (fiber) on which its `main`
 runs. In tftool's world the program is a node; the rclpy nodes that it creates are further nodes.
@@ -52,7 +52,7 @@ _living: "set[Program]" = set()
 
 
 class ProgramNode(Node):
-    """Node that a user's program creates: its name, subscriptions and services in the world."""
+    """Node of tftool's world for one rclpy node of a user's program."""
 
     _is_passive: ClassVar[bool] = True
 
@@ -70,17 +70,17 @@ class Program(Node):
         options: Options after `--ros-args`.
         strict: Whether time stops while the program's code runs: true on the simulated clock.
         broadcasts: Whether the program publishes transforms.
-        listens: Whether the program looks up transforms. In one instant, timers of programs that
-            only publish run before those of other programs.
+        listens: Whether the program looks up transforms.
         failure: Exception that ended the program; None if the program has not failed.
         status: Exit status once the program has ended; None before.
-        nodes: State (`rclpy.seat.NodeSeat`) of each rclpy node; removed at the end.
-        unserved: Destroyed nodes, with the number of callbacks that no executor ever served.
-        event_loops: Event loops of asyncio that the program created, closed at the end.
-        lines_with_angles: Lines of code whose angles were already checked for degrees.
+        nodes: State (`rclpy.seat.NodeSeat`) of each rclpy node; empty after the program's end.
+        unserved: Destroyed nodes, with the number of callbacks that no executor ever called.
+        event_loops: Event loops of asyncio that the program created, closed at its end.
+        lines_with_angles: Lines of code that were already checked for angles in degrees.
         advice: Functions called at the end of the run; each returns a hint about the program's
             transform lookups, or "".
-        on_print: Function that receives printed text, and whether it went to standard output.
+        on_print: Function called with each printed text, and whether the text went to standard
+            output.
     """
 
     is_shown: ClassVar[bool] = False
@@ -103,8 +103,8 @@ class Program(Node):
             body: Function to run as the program's `main`; None if the caller's thread runs it.
             argv: The program's `sys.argv`.
             options: Options after `--ros-args`.
-            on_exit: Function called in the event loop's thread when the program has ended; without
-                it, a program that fails ends the run.
+            on_exit: Function called in the event loop's thread when the program has ended. Without
+                this function, the failure of the program ends the run.
         """
         self.world = world  # The fiber is created before the node joins.
         self.label = name
@@ -154,14 +154,15 @@ class Program(Node):
     def turn(self) -> Phase:
         """Phase of each simulated instant in which the program's timers run.
 
-        Programs that only publish transforms run first, so that lookups see their data.
+        Programs that only publish transforms run first, so that lookups in the same instant find
+        the transforms.
         """
         return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
 
     # The loop's side.
 
     async def run(self) -> None:
-        """Run the program's code to its end, then close everything that it left open.
+        """Run the program's code to its end, then close its threads, nodes and event loops.
 
         Raises:
             BaseException: The program's error, if it failed and has no `on_exit`.
@@ -206,7 +207,7 @@ class Program(Node):
         self.event_loops.clear()
 
     def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
-        """Start a further thread of this program; called in the event loop's thread."""
+        """Start a fiber as a further thread of this program; call it in the event loop's thread."""
         self._own(fiber)
         task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
         self._others.add(task)
@@ -214,7 +215,13 @@ class Program(Node):
         return task
 
     def new_fiber(self, name: str, body: Callable[[], object], **settings: Any) -> Fiber:
-        """Create a further thread for this program, which is not started yet."""
+        """Create a fiber that can run `body` as a further thread of this program; do not start it.
+
+        Args:
+            name: Name of the thread.
+            body: Function to run.
+            settings: Further arguments of `Fiber`.
+        """
         return Fiber(name, body, strict=self.strict, clock=self.world.clock, **settings)
 
     def _fiber_ended(self, task: "asyncio.Task[None]") -> None:
@@ -233,13 +240,22 @@ class Program(Node):
         self.say("WARN", self.name, text)
 
     def say(self, level: Level, speaker: str, text: str) -> None:
-        """Log a message of this program; called in the event loop's thread."""
+        """Add a message of this program to the log; call this in the event loop's thread.
+
+        Args:
+            level: Level of the message.
+            speaker: Name of the logger.
+            text: The message.
+        """
         self.world.log.add(level, speaker, text, program=self.label)
 
     # The fibers' side.
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Call `request` in the event loop's thread, from any thread; see `Fiber.ask`."""
+        """Call `request` in the event loop's thread and return its result, as `Fiber.ask` does.
+
+        This method can be called from any thread.
+        """
         __tracebackhide__ = True
         fiber = fibers.current()
         if fiber is not None:
@@ -270,18 +286,23 @@ class Program(Node):
         return self.clock.now()
 
     def looked_in_vain(self, *, must_keep_pace: bool = True) -> None:
-        """Count a query that failed at once, to recognise a loop that only polls.
+        """Count a query that failed at once, such as a lookup, to recognise a loop that only polls.
+
+        Such a loop would stop simulated time, so tftool advances time a little after many queries.
 
         Args:
-            must_keep_pace: Whether the loop may execute callbacks or use transforms, so that ticks
-                must stay short.
+            must_keep_pace: Whether these steps of time must stay short, because the loop may
+                execute callbacks or use transforms.
         """
         if must_keep_pace:
             self._ticks = 0
         self._count(1.0 / POLLS)
 
     def sleep(self, duration: Duration) -> None:
-        """Block this thread for a duration; return at once if the program was asked to end."""
+        """Block the calling thread for nanoseconds of tftool's clock.
+
+        Return at once if the program was asked to end.
+        """
         if self.interrupted:
             return
         self.ask(partial(self.clock.sleep, max(0, duration), self.turn, self.rank))
@@ -292,11 +313,11 @@ class Program(Node):
         until: Stamp | None = None,
         phase: Phase | None = None,
     ) -> bool:
-        """Wait in the event loop until one of some futures is done, without cancelling any future.
+        """Wait in the event loop until one of the futures `waits` is done; cancel none of them.
 
         Args:
             waits: Futures to wait for.
-            until: Time at which to stop waiting; None for no limit.
+            until: Time at which to stop waiting, in nanoseconds; None for no limit.
             phase: Phase within the instant `until`; None for this program's phase (see `turn`).
 
         Returns:
@@ -331,7 +352,7 @@ class Program(Node):
             self._note_polling(now)
 
     def _note_polling(self, start: Stamp) -> None:
-        """Log a warning, once, if the code has polled in a loop for `GIVE_UP` real seconds.
+        """Log one warning when the code has polled in a loop for `GIVE_UP` real seconds.
 
         Args:
             start: Time on tftool's clock at which this poll began, nanoseconds.
@@ -358,7 +379,10 @@ class Program(Node):
 
 
 def exit_status(error: SystemExit) -> int:
-    """Return the exit status that a process would have after SystemExit."""
+    """Return the exit status of a process that ends with this SystemExit.
+
+    A text in the exception is written to standard error, and the status is then 1.
+    """
     code = error.code
     if code is None:
         return 0
@@ -374,10 +398,10 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
 
 
 def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
-    """Set the function that returns the program of a thread that has no fiber.
+    """Set a function that returns the program for threads that are no fibers.
 
     Args:
-        found: The function, which may return None; None removes the function set before.
+        found: The function, which may return None for no program; None removes an earlier function.
     """
     global _outsiders
     _outsiders = found

@@ -1,4 +1,4 @@
-"""Functions of rosidl_runtime_py: message classes by name, messages as mappings, YAML, CSV."""
+"""Functions of rosidl_runtime_py: find interface classes by name, and convert messages to text."""
 
 import math
 from collections import OrderedDict
@@ -12,7 +12,11 @@ from tftool.messages.schema import FLOATS
 
 
 def interface(name: str, kind: str) -> Any:
-    """Return the class of a message, service or action: "package/srv/Name" or "package/Name".
+    """Return the class of the interface named `name`.
+
+    Args:
+        name: Name such as "std_srvs/srv/Trigger" or "std_srvs/Trigger".
+        kind: Kind of the interface: "msg", "srv" or "action".
 
     Raises:
         UsageError: If the interface is unknown; the text has the nearest name.
@@ -31,7 +35,7 @@ def interface(name: str, kind: str) -> Any:
 
 
 def definition(name: str) -> str:
-    """Return the text of a message, service or action definition.
+    """Return the text of an interface's .msg, .srv or .action file.
 
     Raises:
         UsageError: If the interface is unknown.
@@ -50,7 +54,11 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
 def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:
-    """Return the full names of the interfaces of some kinds, in one package or in all.
+    """Return the full names of the interfaces of the given kinds.
+
+    Args:
+        package: Name of the package; None for all packages.
+        kinds: Kinds of interfaces: "msg", "srv" or "action".
 
     Raises:
         UsageError: If there is no such package; the text names a similar one.
@@ -67,9 +75,9 @@ def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) 
 
 
 def prototype(name: str) -> Any:
-    """Return a new message of an interface, with every field at its default value.
+    """Return a new message with default values in all fields.
 
-    For a service, the result is a request message; for an action, a goal message.
+    The message is a request for the name of a service, and a goal for the name of an action.
 
     Raises:
         UsageError: If there is no such interface; the text names a similar one.
@@ -83,6 +91,11 @@ def prototype(name: str) -> Any:
 
 def fill(message: Any, values: Any, where: str = "") -> None:
     """Set a message's fields from values parsed from YAML.
+
+    Args:
+        message: Message to change.
+        values: Mapping from field names to values; None and "" change nothing.
+        where: Path of the message in the outermost message, for error texts.
 
     Raises:
         UsageError: If a field is unknown, or a value has the wrong type; the text names the field.
@@ -171,7 +184,7 @@ def plain(
 
 
 def _summary(value: Any, kind: str) -> str:
-    """Return the text "<sequence type: double, length: 3>" for a list, as ROS 2 prints it."""
+    """Return ROS 2's text for a list, without its values: "<sequence type: double, length: 3>"."""
     if not kind.startswith("sequence<"):
         return f"<array type: {kind}>"
     element = kind.removeprefix("sequence<").removesuffix(">")
@@ -180,7 +193,7 @@ def _summary(value: Any, kind: str) -> str:
 
 
 def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
-    """Return a result of `plain` as YAML text that ends with a line end."""
+    """Return `shown`, a result of `plain`, as YAML text that ends with a line end."""
     import yaml  # Imported late, to keep command lines fast.
 
     if not isinstance(shown, dict | list):
@@ -196,7 +209,7 @@ def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
 
 
 def as_csv(shown: Any) -> str:
-    """Return the single values in a result of `plain`, separated by commas."""
+    """Return all single values in `shown`, a result of `plain`, separated by commas."""
     return ",".join(str(value) for value in _single_values(shown))
 
 
@@ -235,7 +248,7 @@ def message_to_csv(msg: Any, **options: Any) -> str:
 
 
 def get_message_slot_types(msg: Any) -> "OrderedDict[str, str]":
-    """Return the type of each field of a message, by name."""
+    """Return a mapping from the name of each field of a message to the field's type."""
     return OrderedDict(msg.get_fields_and_field_types())
 
 
@@ -264,16 +277,28 @@ def get_message(identifier: str) -> Any:
 
 
 def get_service(identifier: str) -> Any:
-    """Return the class of a service by "package/srv/Name"; raises as `get_message` does."""
+    """Return the service class with the full name "package/srv/Name".
+
+    Raises:
+        UsageError: If there is no such service; the text names a similar one.
+    """
     return interface(identifier, "srv")
 
 
 def get_action(identifier: str) -> Any:
-    """Return the class of an action by "package/action/Name"; raises as `get_message` does."""
+    """Return the action class with the full name "package/action/Name".
+
+    Raises:
+        UsageError: If there is no such action; the text names a similar one.
+    """
     return interface(identifier, "action")
 
 
 def get_interface(identifier: str) -> Any:
-    """Return the class of any interface by its full name; raises as `get_message` does."""
+    """Return the class of a message, service or action with a name such as "package/msg/Name".
+
+    Raises:
+        UsageError: If there is no such interface; the text names a similar one.
+    """
     parts = identifier.split("/")
     return interface(identifier, parts[1] if len(parts) == 3 else "msg")

@@ -1,14 +1,14 @@
-"""Replacements of five standard modules, and of `print`, in users' files.
+"""Replacements of five standard modules and of `print` for users' programs.
 
-Users' files that import these modules get a version that works with tftool's clock:
+A user's file that imports one of these modules gets a version that works with tftool's clock:
 
 - `time`: `sleep` and the clocks use tftool's time.
-- `threading`: threads take turns, and locks wait in tftool's time.
-- `queue`: the standard queues, with these locks.
-- `asyncio`: event loops wait in tftool's time.
-- `signal`: handlers belong to one program instead of the process.
+- `threading`: threads take turns, and the timeouts of locks count seconds of tftool's clock.
+- `queue`: the standard queues, based on these locks.
+- `asyncio`: timers of event loops use tftool's time.
+- `signal`: a handler belongs to one program instead of the process.
 
-Modules that are not users' files import Python's own versions.
+All other files, such as those of libraries, get Python's standard modules.
 """
 
 import asyncio
@@ -38,7 +38,7 @@ _REAL_PRINT = print
 
 
 class _Shim(ModuleType):
-    """Version of a standard module with some names replaced."""
+    """Copy of a standard module in which some functions and classes are replaced."""
 
     def __init__(self, real: ModuleType, replaced: dict[str, Any]) -> None:
         super().__init__(real.__name__, real.__doc__)
@@ -73,7 +73,7 @@ def _elapsed_ns() -> int:
 
 
 def _print(*values: object, **options: Any) -> None:
-    """Print as Python does, and pass the text to the program's `on_print`, if it is set."""
+    """Print as Python does, and call the program's `on_print`, if it is set, with the text."""
     _REAL_PRINT(*values, **options)
     owner = running_program()
     if owner is None or owner.on_print is None:
@@ -84,12 +84,15 @@ def _print(*values: object, **options: Any) -> None:
 
 
 class UserThread(threading.Thread):
-    """Replacement of `threading.Thread` that runs as a further fiber of the user's program."""
+    """Replacement of `threading.Thread` that runs as a fiber of the calling user's program."""
 
     _fiber: Fiber | None = None
 
     def start(self) -> None:
-        """Start the thread as a fiber of the calling program; without a program, as in Python."""
+        """Start the thread as a fiber of the calling program.
+
+        If the caller belongs to no program, start an ordinary Python thread.
+        """
         owner = running_program()
         if owner is None:
             super().start()
@@ -100,7 +103,7 @@ class UserThread(threading.Thread):
         (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def _run_told(self) -> None:
-        """Run the thread's function; log its exception, which ends only this thread."""
+        """Run the thread's function and log its exception; the program's other threads continue."""
         try:
             self.run()
         except Exception as error:
@@ -142,7 +145,7 @@ def _handler_of(number: int) -> Any:
 
 
 def _set_handler(number: int, handler: Any) -> Any:
-    """Set the calling program's handler of a signal; return the previous handler.
+    """Set the calling program's handler for the signal `number`; return the previous handler.
 
     The program's handler of SIGINT is called when tftool asks the program to end.
     """
@@ -200,7 +203,7 @@ def _shims() -> dict[str, ModuleType]:
 
 @cache
 def _queues() -> ModuleType:
-    """Return a copy of the module `queue` that uses tftool's locks and time."""
+    """Return a copy of the module `queue` whose timeouts count seconds of tftool's clock."""
     spec = importlib.util.find_spec("queue")
     if spec is None or spec.loader is None:
         return queue
@@ -226,7 +229,11 @@ def _is_imported(name: str, fromlist: Any) -> bool:
 
 @cache
 def builtins_for_users() -> dict[str, Any]:
-    """Return builtins whose `import` gives tftool's time, threading, asyncio and queue."""
+    """Return Python's builtins with a different `print` and `import`.
+
+    A user's module with these builtins imports tftool's versions of time, threading, queue, asyncio
+    and signal.
+    """
     shims = _shims()
 
     def import_(
@@ -250,7 +257,7 @@ SLICE: Duration = seconds(0.01)
 
 
 class _WorldSelector(selectors.DefaultSelector):
-    """Selector of an event loop that waits on tftool's clock, as `time.sleep` does."""
+    """Selector for event loops of asyncio that waits on tftool's clock, as `time.sleep` does."""
 
     def select(self, timeout: float | None = None) -> Any:
         ready = super().select(0)
@@ -264,16 +271,16 @@ class _WorldSelector(selectors.DefaultSelector):
 
 
 class UserEventLoop(asyncio.SelectorEventLoop):
-    """Event loop of a user's program; its time is the time of tftool's clock."""
+    """Event loop of asyncio for a user's program; the loop's time is the time of tftool's clock."""
 
     def __init__(self) -> None:
-        """Create a loop for the calling program, which closes the loop at its end."""
+        """Create an event loop for the calling program; the loop is closed at the program's end."""
         super().__init__(_WorldSelector())
         self._owner = running_program()
         self._owner.event_loops.append(self)
 
     def time(self) -> float:
-        """Return the seconds of tftool's clock since its start."""
+        """Return the seconds that have passed on tftool's clock since the run started."""
         return float(self._owner.now() - self._owner.clock.epoch) / NANOSECONDS
 
 
@@ -282,9 +289,9 @@ _replaced: list[asyncio.AbstractEventLoop] = []
 
 
 def _get_event_loop() -> asyncio.AbstractEventLoop:
-    """Return the thread's event loop; create a loop if the thread has none.
+    """Return the calling thread's event loop; in a user's program, create a loop if there is none.
 
-    Python itself creates a loop in the main thread only, but a program runs in another thread.
+    Python itself creates loops in the main thread only, but a program runs in another thread.
     """
     owner = running_program()
     try:
@@ -304,7 +311,7 @@ def _get_event_loop() -> asyncio.AbstractEventLoop:
 
 
 def _new_event_loop() -> asyncio.AbstractEventLoop:
-    """Return a new event loop: on tftool's clock in a user's program, else Python's own."""
+    """Return a new event loop: on tftool's clock in a user's program, otherwise Python's own."""
     return asyncio.new_event_loop() if running_program() is None else UserEventLoop()
 
 

@@ -1,4 +1,4 @@
-"""Loading of users' Python files, and functions that run them as programs."""
+"""Loading of users' Python files, and conversion of these files to functions that run them."""
 
 import inspect
 from collections.abc import Callable
@@ -15,10 +15,10 @@ from tftool.ros.host.shims import builtins_for_users
 
 
 def file_body(path: Path) -> Callable[[], None]:
-    """Return a function that runs a node's file as `python3 FILE` would.
+    """Return a function that runs a Python file as `python3 FILE` would.
 
-    The tutorials' files define `main` for a console script, but call neither `main` nor
-    `rclpy.init` themselves. For such a file, the returned function calls `main`.
+    Many files of ROS tutorials only define `main`, for a console script, and call neither `main`
+    nor `rclpy.init` themselves. For such a file, the returned function calls `main`.
 
     Raises:
         InputError: If the file cannot be read or is not valid Python; the text shows the line.
@@ -43,7 +43,7 @@ def file_body(path: Path) -> Callable[[], None]:
 
 
 def load_module(path: Path, name: str = "", code: CodeType | None = None) -> ModuleType:
-    """Execute a user's file in the running program, and return the file's module.
+    """Execute a user's file as a module of the running program, and return the module.
 
     Args:
         path: Path of the file.
@@ -75,7 +75,12 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
 
 
 def _reads(code: CodeType, name: str) -> bool:
-    """Return whether a file's own statements, outside functions, read a global name."""
+    """Return whether a file's top-level statements read the global variable `name`.
+
+    Args:
+        code: Compiled code of the file.
+        name: Name of the variable.
+    """
     import dis  # Needed only for programs without a node.
 
     return any(
@@ -107,7 +112,13 @@ def compile_file(path: Path) -> CodeType:
 
 
 def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
-    """Return a function that imports a module from `root` and calls a console script's function."""
+    """Return a function that runs the console script `module:function` of a package.
+
+    Args:
+        module: Name of the module.
+        function: Name of the function in the module, which may contain dots.
+        root: Folder from which the module is imported.
+    """
 
     def body() -> None:
         try:
@@ -133,13 +144,13 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
 
 
 def _end_with(status: object) -> None:
-    """Raise SystemExit with the value that a console script's function returned, unless None."""
+    """Raise SystemExit with the value that a console script's function returned; ignore None."""
     if status is not None:
         raise SystemExit(status)
 
 
 def _warn_of_unserved(owner: program.Program) -> None:
-    """Warn about nodes of a program that ended without ever spinning them."""
+    """Log a warning for each node of a program that ended without spinning the node."""
     waiting = [*owner.unserved, *((node.name, node.unserved()) for node in owner.nodes)]
     for name, count in () if owner.interrupted else waiting:
         if count and not name.startswith("_"):
@@ -152,9 +163,9 @@ def _warn_of_unserved(owner: program.Program) -> None:
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:
-    """Wrap a program's function so that a program asked to end destroys its nodes.
+    """Return a function that calls `body`, then warns about nodes that were never spun.
 
-    The wrapped function also logs a warning for nodes that the program never spun.
+    If the program was asked to end, the function also destroys the program's nodes.
     """
 
     def run() -> None:

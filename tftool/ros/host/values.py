@@ -1,7 +1,7 @@
-"""Conversion between messages in users' programs and values on tftool's topics.
+"""Conversion between the messages of users' programs and the values on tftool's topics.
 
-Messages are copied in both directions. turtlesim's messages of a newer release are converted to
-the older one, which tftool uses. Topics of tf carry tuples of transforms.
+Messages are copied in both directions. Messages of turtlesim from a newer ROS release are
+converted to tftool's older version. The topics `tf` and `tf_static` carry tuples of transforms.
 """
 
 from typing import Any
@@ -16,7 +16,7 @@ TF_TOPICS = ("tf", "tf_static")
 
 
 def carried(kind: type[Message], topic: str) -> type[Any]:
-    """Return the class of the values on a topic of tftool for a user's message class `kind`."""
+    """Return the class of tftool's values on a topic whose user's message class is `kind`."""
     if kind.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
         return TransformMessage
     plain = plain_name(kind.interface__)
@@ -24,30 +24,38 @@ def carried(kind: type[Message], topic: str) -> type[Any]:
 
 
 def pack(message: Any, kind: type[Any]) -> Any:
-    """Copy a user's message to a value of class `kind`, for a topic of tftool."""
+    """Copy a user's message to a new value of class `kind`, ready for a topic of tftool."""
     return _pack_transforms(message) if kind is TransformMessage else recast(message, kind)
 
 
 def unpack(value: Any, kind: type[Message]) -> Any:
-    """Convert a value on a topic, service or action of tftool to a new message of class `kind`."""
+    """Convert a value of tftool to a new message of the class `kind` for a user's program.
+
+    The value comes from a topic, a service or an action. None gives a message with default values.
+    """
     if isinstance(value, TransformMessage):
         return unpack_transforms(value)
     return kind() if value is None else recast(value, kind)
 
 
 def stamp_of(message: Any) -> Stamp:
-    """Return a builtin_interfaces Time or Duration message in nanoseconds."""
+    """Return the nanoseconds in a builtin_interfaces Time or Duration message."""
     return int(message.sec) * NANOSECONDS + int(message.nanosec)
 
 
 def time_message(stamp: Stamp, kind: str = "Time") -> Any:
-    """Return `stamp` nanoseconds as a builtin_interfaces Time or Duration message."""
+    """Return a builtin_interfaces message with `stamp` nanoseconds.
+
+    Args:
+        stamp: Time or duration in nanoseconds.
+        kind: Name of the message: "Time" or "Duration".
+    """
     seconds, rest = divmod(stamp, NANOSECONDS)
     return INTERFACES.message(f"builtin_interfaces/{kind}")(sec=seconds, nanosec=rest)
 
 
 def pack_transform(message: Any) -> TransformStamped:
-    """Convert a TransformStamped message to tftool's class, without leading slashes in names."""
+    """Convert a geometry_msgs TransformStamped message to tftool's TransformStamped."""
     moved, turned = message.transform.translation, message.transform.rotation
     return TransformStamped(
         stamp_of(message.header.stamp),
@@ -75,6 +83,6 @@ def _pack_transforms(message: Any) -> TransformMessage:
 
 
 def unpack_transforms(value: TransformMessage) -> Any:
-    """Convert a value of the topic `tf` to a tf2_msgs TFMessage."""
+    """Convert a value of the topic `tf` or `tf_static` to a tf2_msgs TFMessage."""
     kind = INTERFACES.message("tf2_msgs/TFMessage")
     return kind(transforms=[unpack_transform(one) for one in value.transforms])

@@ -1,4 +1,4 @@
-"""Packages found in a ROS workspace's source folders; nothing is built or installed."""
+"""Packages of a ROS workspace, found in its source folders without building or installing them."""
 
 import os
 import shutil
@@ -30,8 +30,8 @@ class ShareFolder:
         """Create the folder and the links in it.
 
         Args:
-            source: Source folder of the package, whose files are linked under the same paths.
-            installed: Files to link under other paths, by their path below the new folder.
+            source: Source folder of the package; its files are linked under the same paths.
+            installed: Further links: from a path relative to the new folder to the linked file.
         """
         self.path = Path(tempfile.mkdtemp(prefix="tftool-share-")).resolve()
         weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
@@ -48,8 +48,9 @@ class ShareFolder:
 
         Args:
             source: Source folder of the package.
-            below: Path of the folder to link, relative to `source`.
-            parents: Relative paths of folders to leave out, because they get their own links.
+            below: Path, relative to `source`, of the folder whose entries are linked.
+            parents: Relative paths of folders to leave out. These are real folders, not links,
+                because files are installed into them.
         """
         (self.path / below).mkdir(parents=True, exist_ok=True)
         there = source / below
@@ -82,18 +83,19 @@ WITH_MODULES: set[str] = set()
 
 
 class Workspace:
-    """Packages below a folder, and all packages of the workspace that contains the folder.
+    """Packages in the source folders below a folder and in the workspace around that folder.
 
     Attributes:
         start: The folder, as an absolute path.
     """
 
     def __init__(self, start: Path, near: Path | None = None) -> None:
-        """Find packages from the folder `start`; unreadable packages are skipped.
+        """Find the packages around and below the folder `start`; skip unreadable packages.
 
         Args:
             start: The folder.
-            near: File or folder; of several packages of one name, the nearest to it is used.
+            near: File or folder. If several packages have the same name, the package nearest to
+                `near` is used.
         """
         self.start = start.resolve()
         around = (near or start).resolve().parents
@@ -113,12 +115,12 @@ class Workspace:
 
     @property
     def packages(self) -> dict[str, Package]:
-        """Packages by name, read at the first use."""
+        """Packages by name; their files are read at the first use."""
         return self._found[0]
 
     @property
     def skipped(self) -> list[str]:
-        """Sentences about folders that were skipped, each with the reason."""
+        """Sentences about the package folders that could not be read, each with the reason."""
         return list(dict.fromkeys(self._found[1]))
 
     @cached_property
@@ -160,8 +162,8 @@ class Workspace:
     def module_folders(self) -> list[str]:
         """Return the folders from which the packages' Python modules can be imported.
 
-        A package named like a module of Python or tftool is left out, because it would hide that
-        module.
+        A package named like a standard module or a module that tftool uses is left out, because the
+        package would hide that module.
         """
         modules = (
             package.path / name
@@ -176,7 +178,7 @@ class Workspace:
         return list(dict.fromkeys(folders))
 
     def folder_without_mark(self, name: str) -> Path | None:
-        """Return a folder `name` with Python files, for which the user forgot the package.xml.
+        """Return a folder named `name` that has Python files but no package.xml or setup.py.
 
         Return None if there is no such folder.
         """
@@ -189,7 +191,11 @@ class Workspace:
         return None
 
     def file_named(self, path: Path) -> Path | None:
-        """Find a package's file by a path relative to the package or to the folder around it.
+        """Return a file of a package for a path that the user wrote without the folders above.
+
+        Args:
+            path: Path relative to the package, to its launch folder, to its Python package or to
+                the folder that contains the package.
 
         Returns:
             Path of the file, such as `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`;
@@ -206,10 +212,10 @@ class Workspace:
         return None
 
     def package(self, name: str) -> Package:
-        """Return the package of a given name.
+        """Return the package named `name`.
 
         Raises:
-            UsageError: If there is no such package; the text names the nearest one, or all.
+            UsageError: If there is no such package; the text names a similar package, or all.
         """
         found = self.packages.get(name)
         if found is None:
@@ -217,10 +223,10 @@ class Workspace:
         return found
 
     def share(self, name: str) -> Path:
-        """Return the folder that stands in for a package's share directory.
+        """Return a folder with the files of a package's share directory; nothing is installed.
 
-        This is a folder shipped with tftool, or the package's source folder. For a package that
-        installs files under other paths, it is a temporary folder of links to its files.
+        The folder is part of tftool, or the package's source folder. For a package that installs
+        files under other paths, the folder is a temporary one with links to the files.
 
         Raises:
             UsageError: If there is no such package.
@@ -239,12 +245,12 @@ _current: list[Workspace] = []
 
 
 def use(searched: Workspace) -> None:
-    """Make a workspace the one that `current` returns."""
+    """Set the workspace that `current` returns."""
     _current[:] = [searched]
 
 
 def current() -> Workspace:
-    """Return the workspace in which packages are searched; by default around the current folder."""
+    """Return the workspace set by `use`; without one, the workspace around the current folder."""
     if not _current:
         _current.append(Workspace(Path.cwd()))
     return _current[0]
@@ -253,7 +259,8 @@ def current() -> Workspace:
 def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ()) -> str:
     """Return the error text for a package that is not in the workspace.
 
-    The text proposes a similar name or a missing package.xml, or lists the known packages.
+    The text suggests a package with a similar name, suggests adding a package.xml, or lists all
+    packages.
 
     Args:
         name: Name of the unknown package.
@@ -277,9 +284,13 @@ def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ())
 
 
 def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
-    """Yield (path, whether it is a package) for a folder and all folders below it.
+    """Yield (path, whether the folder is a package) for `root` and the folders below it.
 
-    A home folder has many thousands of folders, so each folder is listed only once.
+    Each folder is listed only once, because a home folder may contain thousands of folders.
+
+    Args:
+        root: Folder at which the search begins.
+        depth: Number of levels below `root` to search.
     """
     waiting = [(str(root), depth)]
     while waiting:
@@ -330,12 +341,12 @@ FILES = (".py", ".xml", ".yaml", ".yml")
 
 
 def is_file(word: str) -> bool:
-    """Return whether a word of the command line is a file's path rather than a package's name."""
+    """Return whether a command-line argument is the path of a file rather than a package's name."""
     return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
 
 
 def file_of(workspace: Workspace, word: str) -> Path:
-    """Return a word of the command line as a file's path.
+    """Return the path in a command-line argument.
 
     Raises:
         InputError: If there is no such file, but a package has a file of that name. The text
