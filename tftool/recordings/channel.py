@@ -64,7 +64,7 @@ class Offers:
 
 @lru_cache(maxsize=1024)
 def offers_of(text: str) -> Offers:
-    """Parse the text of recorded QoS profiles, in which policies are numbers or words."""
+    """Parse the QoS profiles recorded by rosbag2, whose policies are numbers or words."""
     found: dict[str, list[str]] = {"durability": [], "reliability": []}
     for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
         plain = word.strip("\"'")
@@ -87,7 +87,7 @@ def offers_of(text: str) -> Offers:
 class Channel:
     """A recorded stream: a channel in MCAP, a row of `topics` in sqlite, a connection in ROS 1.
 
-    Texts are exactly as recorded, with surrogates for bytes that are not UTF-8; see `readable`.
+    Texts are exactly as recorded. Bytes that are not UTF-8 become surrogate characters.
 
     Attributes:
         topic: Name of the topic.
@@ -107,7 +107,7 @@ class Channel:
     metadata: tuple[tuple[str, str], ...] = ()
 
     def extra(self, key: str) -> str:
-        """Return the channel's metadata for a key; "" without such metadata."""
+        """Return the metadata value of a key; "" if the channel's metadata lacks the key."""
         return dict(self.metadata).get(key, "")
 
     @property
@@ -119,7 +119,7 @@ class Channel:
 
     @property
     def message_text(self) -> str:
-        """Return the definition of the type if it is written like a .msg file; else ""."""
+        """Return the type's definition if the definition has the syntax of .msg files, else ""."""
         return self.text if self.schema_encoding in _MESSAGE_TEXTS else ""
 
     @property
@@ -166,7 +166,7 @@ class ContainerWriter(Protocol):
         """Bytes written so far, including buffered bytes."""
 
     def channel(self, channel: Channel) -> int:
-        """Register a channel; return its number for `write`."""
+        """Register a channel, and return the number that identifies the channel in `write`."""
 
     def write(
         self,
@@ -196,7 +196,7 @@ class RecordedWriter(ContainerWriter, Protocol):
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last log time of the messages in the file; 0 without messages."""
+        """First and last log time of the messages in the file; (0, 0) if the file has none."""
 
     def flush(self) -> None:
         """Write buffered messages to the file."""
@@ -216,7 +216,12 @@ def offers_text(static: bool) -> str:
 
 
 def restyled(text: str, version: int) -> str:
-    """Return QoS profiles with numbers or words as policies, as a metadata version requires."""
+    """Rewrite the policies in rosbag2's QoS profiles as numbers or as words.
+
+    Args:
+        text: The QoS profiles, in YAML.
+        version: Version of `metadata.yaml`: versions below `NUMBERS_BELOW` have numbers.
+    """
 
     def policy(match: "re.Match[str]") -> str:
         before, name, value = match.groups()

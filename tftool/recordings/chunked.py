@@ -36,7 +36,7 @@ _MOST_NOTED: Final = 20  # sentences about damage: a hostile file may be damaged
 
 
 def reason_of(error: Exception) -> str:
-    """Return the reason why a record cannot be read, as a part of a sentence."""
+    """Describe an exception that was raised while reading a record: "a record is cut"."""
     if isinstance(error, KeyError):
         return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
     return "a record is cut" if isinstance(error, struct.error) else str(error)
@@ -88,7 +88,7 @@ class Chunk:
         method: Name of the compression; "" or "none" for uncompressed data.
         start: Log time of the first message.
         end: Log time of the last message.
-        crc: CRC of the uncompressed data; 0 for none.
+        crc: CRC of the uncompressed data; 0 if the file has no CRC for the chunk.
         cut: Whether the file ends within the chunk.
         length: Size of the chunk's record, bytes.
         behind: Offset of the first record after the chunk and its message indexes.
@@ -123,7 +123,7 @@ class Chunk:
 
     @property
     def owners(self) -> Collection[int]:
-        """Return the numbers of the channels with messages in the chunk, as its indexes say."""
+        """Return the numbers of the channels that have messages in the chunk's indexes."""
         return self.indexes.keys() or (self.counts or {}).keys()
 
     def raw(self) -> Piece:
@@ -131,7 +131,7 @@ class Chunk:
         return Piece(self.reader.fileno(), self.position, self.behind - self.position)
 
     def table(self) -> MessageTable:
-        """Return the messages in the chunk; of a damaged chunk, those before the damage."""
+        """Return the messages of the chunk, or only the messages before any damage."""
         # The index of a damaged chunk may point into the damage, so its records are read in order.
         by_index = self.whole and self.counts and self.sound()
         found = self.reader.indexed_table(self) if by_index else None
@@ -140,7 +140,7 @@ class Chunk:
     def sound(self) -> bool:
         """Whether the chunk's content is undamaged, as far as a checksum can show.
 
-        The first calling thread computes the checksum; other threads wait for its result.
+        The first thread that calls this computes the checksum, and other threads wait meanwhile.
         """
         if not self._is_examined:
             if self.is_packed:
@@ -157,7 +157,7 @@ class ChunkedReader(File):
     """Base class of readers of files with chunks; see `ContainerReader`.
 
     Attributes:
-        damage: Sentences about damage of the file, at most `_MOST_NOTED` different ones.
+        damage: Different sentences about damage of the file, at most `_MOST_NOTED`.
         is_indexed: Whether the file has an index.
         schemas: Name, encoding and definition of each message type, by its number in an MCAP file.
     """
@@ -196,7 +196,7 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Add a sentence about damage of the file to `damage`, unless it is there already."""
+        """Append a sentence about damage of the file to `self.damage`, but each sentence once."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 
@@ -210,9 +210,7 @@ class ChunkedReader(File):
     # Channels
 
     def _learn(self, number: int, channel: Channel) -> None:
-        """Register a channel; after `MOST_STREAMS` channels, messages of further ones are not
-        read.
-        """
+        """Register a channel; only the first `MOST_STREAMS` channels have their messages read."""
         self.channels[number] = channel
         if len(self.streams) < MOST_STREAMS:
             self._numbers[number] = len(self.streams)
@@ -232,7 +230,8 @@ class ChunkedReader(File):
     def _scan(self, chunks: Iterator[Chunk]) -> None:
         """Collect the channels and chunks of a file without an index, up to its end or damage.
 
-        A chunk's records are read only if it has no indexes, or they name channels not found yet.
+        The records of a chunk are read only if the chunk has no message indexes, or if these
+        indexes contain an unregistered channel.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -262,7 +261,7 @@ class ChunkedReader(File):
             )
 
     def origin(self, number: int) -> Any:
-        """Return the stored description of a channel, for `adopt` of this format's writer."""
+        """Return a channel's description, an argument of the method `adopt` of writers."""
         raise NotImplementedError
 
     # A chunk's messages
@@ -377,9 +376,9 @@ class ChunkedReader(File):
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
         """Yield the offsets of the messages in a chunk, as its indexes give them.
 
-        Returns:
-            For each channel its number, and for its messages the offsets of records, the offsets of
-            payloads, and the lengths of payloads, each of shape (n,).
+        Yields:
+            The number of a channel, and three arrays with one item per message, shape (n,): the
+            offset of the record, the offset of the payload, and the length of the payload.
 
         Raises:
             InputError: If an index does not point to messages; other `FAULTS` are possible.
@@ -387,7 +386,7 @@ class ChunkedReader(File):
         raise NotImplementedError
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, publish times and sequence numbers, for payloads at `starts`."""
+        """Return log times, publish times and sequence numbers of the payloads at `starts`."""
         raise NotImplementedError
 
     def known(self, messages: MessageTable) -> MessageTable:
@@ -424,7 +423,7 @@ class ChunkedReader(File):
     # Batches
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the number of messages in the streams `wanted`, without reading them."""
+        """Return the number of messages in the streams `wanted`, without reading messages."""
         return sum(self.counts[number] for number in wanted)
 
     def _chosen(self, wanted: Collection[int]) -> dict[int, int]:
@@ -434,7 +433,10 @@ class ChunkedReader(File):
     def _chunk_batches(
         self, chosen: dict[int, int], batch_of: "Callable[[Chunk, Ahead], Batch | None]"
     ) -> Iterator[tuple[Chunk, Batch | None]]:
-        """Yield every chunk with a batch of its messages in `chosen`; None if it has none."""
+        """Yield every chunk, with a batch of the chunk's messages on chosen channels.
+
+        The batch is None if the chunk has no message on a chosen channel.
+        """
         # Chunks without a chosen channel are skipped: their bytes are not even read.
         read = [
             chunk.walked is not None or any(owner in chosen for owner in chunk.owners)
@@ -460,7 +462,10 @@ class ChunkedReader(File):
                 yield chunk, batch if batch is not None and len(batch) else None
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return a chunk's bytes to decompress before they are read; None if cut off or plain."""
+        """Describe a chunk's compressed bytes for decompression ahead of reading.
+
+        Return None if the chunk is cut off or not compressed.
+        """
         if chunk.cut or not chunk.is_packed:
             return None
         return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size
@@ -468,7 +473,10 @@ class ChunkedReader(File):
     def _rest_of(
         self, chunk: Chunk, chosen: dict[int, int], ahead: Ahead | None = None
     ) -> Batch | None:
-        """Return a chunk's messages in chosen channels by reading all its records."""
+        """Return the messages of chosen channels in a chunk, found by reading every record.
+
+        Return None if the chunk has no message of these channels, or cannot be read.
+        """
         if chunk.walked is None:
             # The header of the chunk cannot be read, so the offset of its data is unknown.
             if not chunk.place:
@@ -489,7 +497,7 @@ class ChunkedReader(File):
 
 
 def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
-    """Translate channel numbers to stream numbers by `chosen`; -1 for other channels."""
+    """Return the stream number of each channel number; -1 for a channel that is not in `chosen`."""
     owners = np.frombuffer(channels, dtype=np.uint32)
     if not chosen:
         return np.full(len(owners), -1, dtype=np.int32)

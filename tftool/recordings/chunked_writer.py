@@ -27,7 +27,7 @@ class ChunkedWriter:
         method: Compression of the chunks.
         position: Number of bytes in the file so far.
         counts: Number of messages of each channel.
-        first_free: First number for channels that the caller gives no number.
+        first_free: Number of the first channel that is registered without a number.
     """
 
     first_free = 0

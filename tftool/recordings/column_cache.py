@@ -32,7 +32,7 @@ class ColumnCache:
     """Folder with one cache file per recording, shared by all processes of the user."""
 
     def __init__(self, folder: Path, *, most_bytes: int = MOST_BYTES) -> None:
-        """Use a folder, which is created when the first cache file is written.
+        """Create a cache in a folder; `store` creates the folder if the folder is missing.
 
         Args:
             folder: Folder of the cache files.
@@ -62,9 +62,9 @@ class ColumnCache:
         return found
 
     def store(self, key: str, transforms: Transforms) -> bool:
-        """Write transforms to the cache file of a key; return whether this was possible.
+        """Write transforms to the cache file of a key, and return whether the file was written.
 
-        A full disk or a read-only folder raises no error.
+        Return False, without an error, if the disk is full or the folder is read-only.
         """
         if not key or len(transforms) * 68 > min(LARGEST, self._most_bytes):
             return False

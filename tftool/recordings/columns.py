@@ -90,7 +90,7 @@ class _Column:
         self.count = 0
 
     def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
-        """Append rows with undefined contents; return these rows, which the caller then fills.
+        """Append uninitialized rows, and return a view of these rows for the caller to fill.
 
         Args:
             count: Number of rows.
@@ -126,7 +126,7 @@ def _wanted(needed: int, share: float, freely: int) -> int:
 
 
 def _room(size: int) -> Bytes:
-    """Allocate memory, as an array of bytes that the caller will write."""
+    """Return an uninitialized array of `size` bytes, in large memory pages if possible."""
     # The first write to a small page costs as much as a hundred transforms.
     pages = large_pages(size + PAGE, size + PAGE) if size >= PAGE else None
     if pages is None:
@@ -202,13 +202,16 @@ class Growing:
     def room(
         self, first: tuple[int, int], last: int, count: int, share: float = 1.0
     ) -> tuple[Records, Indexes]:
-        """Append rows for transforms; return the rows of both columns, which the caller then fills.
+        """Append rows for transforms, and return views of the rows for the caller to fill.
 
         Args:
             first: Number of the first message, and the index of the transform in this message.
             last: Number of the last message.
             count: Number of transforms.
             share: Fraction of the recording read so far, 0 to 1.
+
+        Returns:
+            The new rows of `records`, and the new rows of `messages`.
         """
         state = self.state
         # Threads may deliver batches out of order; such an edge is sorted at the end.
@@ -302,7 +305,16 @@ class Table:
         stamp: Stamp,
         seven: tuple[float, ...],
     ) -> None:
-        """Append one transform; `message` has its message's number and its index in the message."""
+        """Append one transform to the columns of an edge.
+
+        Args:
+            parent: Parent frame.
+            child: Child frame.
+            static: Whether the transform is static.
+            message: Number of the message, and index of the transform in the message.
+            stamp: Stamp of the transform, nanoseconds.
+            seven: Translation x y z (metres), and quaternion x y z w.
+        """
         edge = self.edge(parent, child, static, 1)
         if edge is None:
             return
@@ -334,12 +346,12 @@ class Table:
 
 
 def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
-    """Return the numbers at some byte offsets, which need not be aligned.
+    """Read numbers at byte offsets in a buffer; the offsets need not be aligned.
 
     Args:
         buffer: The bytes.
-        places: Offset of each number, shape (n,); every number ends within the buffer.
-        kind: numpy's name of the type, for example "<u4".
+        places: Byte offset of each number, shape (n,); every number must end within the buffer.
+        kind: numpy's name of the numbers' type, for example "<u4".
     """
     size = np.dtype(kind).itemsize
     # Overlapping views with a stride of one byte: unaligned words without a copy.

@@ -26,10 +26,13 @@ LARGEST_TOLD: Final = 1 << 26
 
 
 def check_told(count: int) -> None:
-    """Raise an error if a record that describes a channel or a type is larger than `LARGEST_TOLD`.
+    """Check the size of a record that describes a channel or a message type.
+
+    Args:
+        count: Size of the record, bytes.
 
     Raises:
-        InputError: If the size is too large.
+        InputError: If the size is above `LARGEST_TOLD`.
     """
     if count > LARGEST_TOLD:
         raise InputError(
@@ -113,7 +116,7 @@ class MessageTable:
         return self.data[start : start + int(self.lengths[number])].tobytes()
 
     def message(self, number: int) -> Taken:
-        """Return the message with an index, with all fields that the file stores."""
+        """Return the message at an index, with all fields that the file stores."""
         return Taken(
             int(self.channels[number]),
             int(self.log_times[number]),
@@ -124,7 +127,7 @@ class MessageTable:
 
     @classmethod
     def of(cls, data: bytes, heads: Sequence[MessageHead]) -> "MessageTable":
-        """Return a table of the messages with these headers; `data` contains the payloads."""
+        """Build a table from message headers, and the bytes `data` that contain the payloads."""
         rows = zip(*heads, strict=True) if heads else [()] * 6
         channels, log_times, firsts, lasts, publish_times, sequences = rows
         starts = np.array(firsts, dtype=np.int64)
@@ -145,7 +148,7 @@ class MessageTable:
         return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
 
     def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
-        """Return the bytes of records: for each message, a new header and then the payload.
+        """Return records that each consist of a new header and the payload of one message.
 
         Args:
             heads: The new headers, as items of one size, shape (n,).
@@ -175,7 +178,7 @@ def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
 
 
 class Block(Protocol):
-    """Consecutive messages: a chunk, rows of a database, or MCAP messages outside chunks."""
+    """Consecutive messages: a chunk, database rows, or MCAP messages outside chunks."""
 
     @property
     def start(self) -> Stamp:
@@ -197,7 +200,7 @@ class Block(Protocol):
         """Whether the block's content is undamaged, as far as a checksum can show."""
 
     def table(self) -> MessageTable:
-        """Return the block's messages in order; of a damaged block, those before the damage."""
+        """Return the block's messages in order, or only the messages before any damage."""
 
 
 _STEP: Final = 1 << 19
@@ -232,7 +235,7 @@ class Piece:
             crc: CRC of the preceding bytes; None if no CRC is needed.
 
         Returns:
-            The CRC including the copied bytes; 0 if no CRC is needed.
+            CRC of the preceding and the copied bytes; 0 if `crc` is None.
 
         Raises:
             InputError: If the file has become shorter, or the bytes read back differ.

@@ -64,7 +64,7 @@ _WITH_HEADER = frozenset(f"sensor_msgs/{name}" for name in _SENSORS.split()) | {
 
 
 def short_type(name: str) -> str:
-    """Return the name of a message type without "/msg/": "std_msgs/String"."""
+    """Shorten the name of a message type: "std_msgs/msg/String" becomes "std_msgs/String"."""
     package, middle, last = name.partition("/msg/")
     return f"{package}/{last}" if middle else name
 
@@ -72,8 +72,8 @@ def short_type(name: str) -> str:
 class Recorded:
     """An open recording, whose messages are read on demand.
 
-    Reading raises `InputError` if nothing can be read; other damage is listed in `damage`, and
-    raises no error.
+    Reading raises `InputError` only if nothing can be read. The property `damage` describes any
+    other damage.
 
     Attributes:
         name: Name as given by the user.
@@ -315,7 +315,7 @@ class _Heads:
 
 
 def _unpacked(batch: Batch) -> Iterator[Batch]:
-    """Yield batches of the decompressed messages, in which damaged messages are empty."""
+    """Yield batches of the decompressed messages; a damaged message may be shortened or empty."""
     pieces: list[bytes] = []
     first = held = 0
     for number in range(len(batch)):

@@ -29,7 +29,7 @@ class ContainerFormat:
 
     Attributes:
         name: Short name: "mcap", "db3", "bag".
-        words: Name in sentences.
+        words: Name of the format in messages to the user.
         magic: First bytes of a file.
         suffix: Ending of a file's name.
         storage: rosbag2's name of the format; "" if rosbag2 cannot record it.
@@ -69,7 +69,7 @@ class ContainerFormat:
         """Create a file of this format; options that its writer lacks are ignored.
 
         Raises:
-            UsageError: If the container has no such compression, or a package is missing.
+            UsageError: If the format lacks the wanted compression, or a package is missing.
             OSError: If the file cannot be written.
         """
         known = {name: value for name, value in options.items() if name in self.options}

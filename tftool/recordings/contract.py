@@ -85,8 +85,8 @@ class Edge:
         records: One row per transform, int64, shape (n, 8): the stamp, and the bits of the seven
             doubles x y z (metres) and x y z w (quaternion).
         messages: Message of each transform: an index into `Transforms.log_times`.
-        kept: Number of first rows that a buffer need not check: with increasing stamps, finite
-            numbers, and quaternions of unit length and tf2's sign.
+        kept: Number of leading rows that a buffer can accept without a check, because they have
+            increasing stamps, finite numbers, and unit quaternions of tf2's sign.
     """
 
     parent: str
@@ -167,7 +167,7 @@ class Headers:
     Attributes:
         topic: Name of the topic.
         type: Type of the messages.
-        stamps: Nanoseconds, shape (n,).
+        stamps: Stamps in the headers, nanoseconds, shape (n,).
         log_times: Times of reception, nanoseconds, shape (n,).
         names: The different frame names as recorded; leading slashes are kept.
         frames: Frame of each message: an index into `names`, shape (n,).

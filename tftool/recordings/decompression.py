@@ -67,14 +67,20 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
 
 
 class _Room:
-    """Memory for decompressed bytes, which is reused, because new memory is slower."""
+    """Reusable memory for decompressed bytes, because allocation of new memory is slow."""
 
     def __init__(self) -> None:
         self._bytes = bytearray()
         self._zstd: Any = None
 
     def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
-        """Read and decompress bytes like the module's `unpack`; the next call overwrites them."""
+        """Read and decompress bytes into the memory, which the next call overwrites.
+
+        Args:
+            method: Compression, as for the function `unpack`.
+            read: Function that returns the compressed bytes.
+            size: Stated number of uncompressed bytes.
+        """
         # The thread also reads the file: waiting for the disk does not hold the GIL.
         packed = read()
         if method == "zstd":
@@ -88,7 +94,7 @@ class _Room:
         return unpack(method, packed, size)
 
     def _read(self, packed: bytes, size: int) -> bool:
-        """Decompress a zstd frame; return whether the result has exactly `size` bytes."""
+        """Decompress a zstd frame, and return whether the frame has exactly `size` bytes."""
         module = zstandard()
         if module.frame_content_size(packed) != size:
             return False
@@ -137,7 +143,7 @@ class Ahead:
         """Create the pool for the chunks of one file.
 
         Args:
-            keys: Different keys of the chunks, in the order of reading; the reader may skip chunks.
+            keys: Distinct keys of the chunks, in the order of reading; the reader may skip chunks.
             packed: Function that returns the compressed chunk with a key, or None for a chunk that
                 must not be decompressed ahead. The function is called in the thread of the reader,
                 shortly before the chunk is read.
@@ -180,7 +186,7 @@ class Ahead:
         return found.future
 
     def _come_to(self, key: object) -> _Coming | None:
-        """Return the chunk with a key; drop earlier chunks, and start later ones instead."""
+        """Return the chunk with a key, or None; drop the earlier chunks, and start later chunks."""
         self._start()
         while self._coming:
             passed = next(iter(self._coming))
@@ -194,7 +200,7 @@ class Ahead:
         return None
 
     def _start(self) -> None:
-        """Start chunks until all threads have work, and a few chunks wait."""
+        """Queue the next chunks for decompression, until all threads have work and a few wait."""
         while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
             key = next(self._keys, None)
             if key is None:

@@ -1,4 +1,4 @@
-"""Frames of a recorded robot description that the recorded transforms lack, for lookups."""
+"""Completion of recorded transforms by frames of the recorded robot description."""
 
 import re
 import struct
@@ -33,8 +33,7 @@ class RecordedJoints:
     """Joint states of a recording, with counts of messages that were ignored.
 
     Attributes:
-        states: Joint states, grouped by the list of joint names in their messages; groups in order
-            of first appearance.
+        states: Joint states, one item for each different list of joint names in the messages.
         ignored: Number of ignored messages, by the reason as a sentence.
     """
 
@@ -116,7 +115,7 @@ class _Template:
     problem: str = ""
 
     def fits(self, payload: bytes) -> bool:
-        """Whether a JointState message has the same frame and joint names."""
+        """Whether a JointState message has the frame and the joint names of this template."""
         return len(payload) >= self.end and payload.startswith(self.head, 12)
 
 
@@ -273,7 +272,7 @@ def add_described(
     frames: Collection[str],
     prefix: str = "",
 ) -> DescribedFrames:
-    """Insert those frames of a robot description into a buffer that the recorded transforms lack.
+    """Insert the frames of a robot description that `frames` lacks into a buffer.
 
     Args:
         buffer: Buffer with the recorded transforms.

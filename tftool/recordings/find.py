@@ -1,4 +1,4 @@
-"""Search for the files that a word on the command line names, and recognition of their kind.
+"""Search for the files that a command-line argument names, and detection of each file's kind.
 
 The kind of a source is decided by content, never by suffix. Only names, sizes and the first bytes
 of files are examined.
@@ -59,7 +59,9 @@ def fetched(place: str) -> Iterator[str]:
 
 
 def listed(place: str) -> list[str]:
-    """Return the files that match a URL with `*`, `?` or `[…]`; return other words unchanged.
+    """Return the files that match a URL with wildcards; return `[place]` without a wildcard.
+
+    The wildcards are `*`, `?` and `[…]`, but `?` only in URLs that are not http(s).
 
     Raises:
         InputError: If no file matches, or a folder cannot be listed.
@@ -140,7 +142,7 @@ _OTHERS = {
 
 
 class Kind(Enum):
-    """Kind of a file or folder; the value is the name of the kind in sentences."""
+    """Kind of a file or folder; the value is the kind's name in messages to the user."""
 
     SCENARIO = "scenario"
     DESCRIPTION = "robot description"
@@ -164,7 +166,7 @@ _RECORDINGS: Final = (*_CONTAINERS, Kind.ZSTD)
 
 
 def container_in(path: Path, kind: Kind) -> ContainerFormat:
-    """Return the file format of a recording, by the kind that was recognised.
+    """Return the file format of a recording, from the kind of the file.
 
     Raises:
         InputError: If files of that kind are not recordings.
@@ -180,7 +182,7 @@ class Found:
     """Result of a search: the kind and the files of a source.
 
     Attributes:
-        name: The word, as the user gave it.
+        name: Name of the source, as the user gave it.
         kind: Kind of the source. ROSBAG2 is a folder with rosbag2's metadata.
         paths: The file or folder; for SEVERAL, the files and folders of all recordings, sorted
             by name.
@@ -237,7 +239,7 @@ def find(word: str) -> Found:
     """Return the source that a path or glob names.
 
     Raises:
-        InputError: If there is no such file, or it is of no known kind, or cannot be read.
+        InputError: If the file is missing, is of an unknown kind, or cannot be read.
     """
     path = Path(word)
     try:
@@ -280,7 +282,7 @@ def find(word: str) -> Found:
 
 
 def _kind_with_options(word: str, path: Path) -> Kind:
-    """Return the kind of one file; options for pose files are errors for other kinds.
+    """Return the kind of one file, and check that no other file has options of pose files.
 
     Raises:
         UsageError: If options of pose files are given for another file.
@@ -295,7 +297,7 @@ def _kind_with_options(word: str, path: Path) -> Kind:
 
 
 def _prefixed(word: str, path: Path) -> Found:
-    """Return the pose file that the word NAME=FILE names.
+    """Return the pose file that an argument of the form NAME=FILE names.
 
     Raises:
         InputError: If the file is not a pose file.
@@ -486,7 +488,7 @@ def _recordings(
 
 
 def refusal(path: Path, error: OSError) -> InputError:
-    """Return the error for one of several files that cannot be opened.
+    """Convert an error from opening one of several files to an `InputError`.
 
     Raises:
         OSError: `error` itself, if its cause is not the file but too many open files.
@@ -499,7 +501,7 @@ def refusal(path: Path, error: OSError) -> InputError:
 
 
 def _stem(path: Path) -> str:
-    """Return the part "run" of the name of a split recording's file, such as `run_0.mcap`."""
+    """Return a file name up to its number, which split recordings add: "run_" of `run_0.mcap`."""
     return path.name.partition(".")[0].rstrip("0123456789")
 
 

@@ -48,7 +48,7 @@ class Cutter:
         self._count = self._held = 0
 
     def add(self, batch: Batch, numbers: Indexes) -> None:
-        """Decode messages now, or collect them until there are more.
+        """Decode a large batch at once; collect the messages of small batches to decode later.
 
         Args:
             batch: The messages.
@@ -184,7 +184,7 @@ class TemplateCutter(Cutter):
             tried += 1
 
     def _learn(self, payload: bytes, length: int) -> bool:
-        """Add a template of a message; return False if the message is malformed."""
+        """Make a template from a message; return False if the message is malformed."""
         try:
             walked = walk(self._layout, payload)
         except MalformedMessage:
@@ -233,7 +233,7 @@ class ScanCutter(Cutter):
             self._walk(batch.chosen(which), numbers[which])
 
     def _aim(self, pair: int, message: int, rank: int) -> None:
-        """Tell the C code where to write a pair of frames that is new or has no free row.
+        """Give the C code rows for the transforms of a pair of frames that has no free row.
 
         Args:
             pair: Number of the pair.
@@ -265,7 +265,7 @@ class ScanCutter(Cutter):
         self._pairs.aim(number, edge.records, edge.messages, edge.state)
 
     def _named(self, pair: int) -> tuple[str, str]:
-        """Return parent and child of a pair as text, decoded as `walk` does."""
+        """Return the names of parent and child of a pair, decoded like the function `walk`."""
         raw = self._pairs.names(pair)
         if self._layout is CDR:
             # In CDR a string's bytes include the final zero.
@@ -304,11 +304,11 @@ class Decoding:
                 self._table.refused[str(error)] += 1
 
     def flush(self) -> None:
-        """Do nothing: no messages are collected."""
+        """Do nothing, because `add` decodes every message at once."""
 
 
 def _compacted(batch: Batch) -> Batch:
-    """Copy messages to a new buffer, with 8 bytes before each message, where its row may begin."""
+    """Copy messages to a new buffer, with 8 bytes of padding before each message."""
     pieces = []
     starts = np.empty(len(batch), dtype=np.int64)
     position = 0

@@ -60,8 +60,8 @@ class Samples:
     """All recorded transforms of one child, in order of stamps.
 
     Attributes:
-        stamps: Nanoseconds, shape (n,).
-        parents: Parent of each sample, shape (n,).
+        stamps: Stamp of each transform, nanoseconds, shape (n,).
+        parents: Parent of each transform, shape (n,).
         translations: Metres, shape (n, 3).
         rotations: Quaternions x y z w as recorded, shape (n, 4).
         authorities: Publisher of each transform: the node if recorded, else the topic, shape (n,).
@@ -286,7 +286,7 @@ class Recording:
 
     @cached_property
     def robot(self) -> Robot | None:
-        """Robot of the given description, or else of the recorded one; None without a description.
+        """Robot of the given description, else of the recorded description, else None.
 
         Mistakes in a recorded description are added to `oddities`.
 
@@ -429,7 +429,7 @@ class Recording:
 
 
 def _by_clock(stamps: Stamps) -> list[Stamps]:
-    """Split stamps above 0 into times since 1970 and simulation times; one is usually empty."""
+    """Split the stamps above 0 into times since 1970 and simulation times; omit empty arrays."""
     if len(stamps) and stamps.min() >= SIMULATED_BELOW:
         return [stamps]
     stamps = stamps[stamps > 0]

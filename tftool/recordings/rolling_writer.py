@@ -1,4 +1,4 @@
-"""Writer of a live recording, which loses at most the last second if its process is killed.
+"""Writer of a live recording; if the process is killed, at most the last second is lost.
 
 An open file has the suffix `.active`, as with ROS 1's recorder; its contents can be read, and
 `tftool edit` repairs it.
@@ -56,7 +56,7 @@ class RecordLimits:
 
     @property
     def splits(self) -> bool:
-        """Whether there may be several files, because their size or duration is limited."""
+        """Whether the size or duration of a file is limited, so that several files may result."""
         return bool(self.size or self.duration)
 
 
@@ -67,7 +67,7 @@ class RollingRecording:
         path: Final name of the file or folder.
         messages: Number of received messages; once a recording with a ring buffer is closed, the
             number of written messages.
-        transforms: Number of transforms in these messages.
+        transforms: Number of transforms in the counted messages.
         size: Number of bytes written, or stored in the ring buffer.
         files: Names of the completed files, in order.
     """
@@ -375,7 +375,7 @@ class RollingRecording:
         self._facts.append(FileFacts(place.name, start, end, sum(writer.counts.values())))
 
     def _rescued(self, error: OSError) -> InputError:
-        """Complete the file with the data written so far; return the error for the failure."""
+        """Complete the file after a failed write, and return an `InputError` for the user."""
         self._closed = True
         writer, self._writer = self._writer, None
         where = self.path

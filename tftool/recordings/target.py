@@ -99,7 +99,7 @@ class Target:
         """Write everything to the disk, then give the file its final name.
 
         Raises:
-            InputError: If the file cannot be completed; it is then removed.
+            InputError: If the file cannot be completed. The incomplete file is removed.
         """
         try:
             files = [one for one in self.part.iterdir() if one.is_file()] if self._folder else []
@@ -139,11 +139,11 @@ class Target:
 
 
 def commit_together(targets: Sequence[Target]) -> None:
-    """Give files that belong together their final names: either all files or none.
+    """Rename files that belong together to their final names: either all files or none.
 
-    Readers find the other files through the last file. So the last file is renamed last, and its
-    old version gets a hidden name before: even if the process is killed, the last file is never
-    beside files of another version.
+    The last file refers to the other files. So an old version of the last file is moved away
+    first, and the new version is renamed last. Even if the process is killed, the last file never
+    refers to files of another version.
 
     Raises:
         InputError: If a file cannot be renamed; all names are then as before.

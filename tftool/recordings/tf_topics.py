@@ -37,7 +37,7 @@ class RobotNames:
         return f"{robot}/{frame}" if robot and frame in self.colliding else frame
 
     def __str__(self) -> str:
-        """Return a sentence about frames that got a prefix; empty if there are none."""
+        """Return a sentence about the frames that got a prefix; "" if no frame got a prefix."""
         if not self.colliding:
             return ""
         some = ", ".join(sorted(self.colliding)[:3]) + (" …" if len(self.colliding) > 3 else "")
@@ -52,7 +52,7 @@ def transforms_on(
     """Read the transforms on some topics, and on the static topics in the same namespaces.
 
     Topics of one namespace belong to one robot. A frame name that several robots use gets the
-    namespace as prefix, unless it is a root that they share (`SHARED_ROOTS`).
+    namespace as prefix, except for names of shared root frames (`SHARED_ROOTS`).
 
     Args:
         source: The recording.

@@ -17,7 +17,7 @@ _NOTHING: Final = np.zeros(0, dtype=np.int64)
 
 
 def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
-    """Convert log times to the time of `/clock`, interpolated between its messages.
+    """Convert log times to the time of `/clock`, interpolated between messages on `/clock`.
 
     Before the first and after the last message the clock is assumed to run at rate 1.
 
@@ -160,7 +160,7 @@ class Timeline:
         return frozenset(name for edge in edges for name in (edge.parent, edge.child))
 
     def place(self, moment: Stamp, *, after: bool = False) -> int:
-        """Return the number of the first message at a time or later; with `after`, only later."""
+        """Return the number of the first message at or after `moment`; with `after`, only after."""
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:
@@ -212,9 +212,9 @@ class Timeline:
         return self._transforms.edges[number]
 
     def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
-        """Return each message's publisher as a number, and the publishers' names.
+        """Return each message's publisher, as an index into the publishers' names, and the names.
 
-        If no node is recorded, the name is the topic's.
+        A publisher whose node is not recorded has the name of its topic.
         """
         publishers = [one.node or one.topic for one in self._transforms.publishers]
         names = tuple(dict.fromkeys(publishers))

@@ -133,8 +133,8 @@ class Window:
         start: First log time to keep, for messages without a stamp.
         end: Last log time to keep, for messages without a stamp.
         stamps: First and last stamp to keep, for messages with a header; None to use log times.
-        links: First and last stamp to keep of each moving link; these are log times if `stamps` is
-            None.
+        links: First and last stamp to keep, by moving link. If `stamps` is None, `links` has log
+            times instead of stamps.
     """
 
     def __init__(
@@ -278,7 +278,16 @@ class Changer:
         return change.finished()
 
     def _by_kind(self, change: TableChange, which: Stamps, channel: Channel) -> Stamps:
-        """Change messages with the same frames in bulk; return the indices of the others."""
+        """Change messages in bulk, and return the indices of messages that are still unchanged.
+
+        Args:
+            change: Table that receives the changes.
+            which: Indices of the messages to change.
+            channel: Channel of the messages.
+
+        Returns:
+            Indices of messages that the caller must change one by one.
+        """
         edits, static = self._edits, carries_statics(channel)
         if edits.stamps or edits.reparent:
             return which
@@ -335,7 +344,7 @@ class Changer:
         return np.stack(found, axis=1)
 
     def _learned(self, payload: bytes, channel: Channel) -> "tuple[Result, Counter[str]]":
-        """Change one message of a kind, ignoring the cut in time; return the result and counts."""
+        """Change one message, ignoring --from and --to; return the result and counts of changes."""
         layout, static = LAYOUTS[channel.encoding], carries_statics(channel)
         before, self.counts = self.counts, Counter()
         try:
@@ -458,7 +467,7 @@ class Changer:
 
 
 def header_stamp(payload: bytes, encoding: str) -> Stamp | None:
-    """Return the stamp of the header at the beginning of a message; None if it is too short."""
+    """Return the stamp of a message that begins with a header; None if the message is too short."""
     if len(payload) < 12:
         return None
     order = ">" if encoding == "cdr" and payload[:2] == b"\x00\x00" else "<"
@@ -473,7 +482,7 @@ def _with_stamp(payload: bytes, encoding: str, stamp: Stamp) -> bytes:
 
 
 class Renamer:
-    """Editor of frame names in messages of one type, in all headers they contain."""
+    """Editor of the frame names in messages of one type, including names in nested messages."""
 
     def __init__(self, codec: Codec | RecordedCodec, edits: Edits) -> None:
         self._codec = codec

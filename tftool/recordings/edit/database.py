@@ -1,8 +1,8 @@
 """Editing of rosbag2's sqlite files: the file is copied, and changed rows are updated.
 
-Unchanged rows keep their bytes, numbers and order; other tables and the schema version do not
-change. Edits that make new files (cuts, joins, statics at the start) write row by row instead, as
-in other containers.
+Unchanged rows keep their bytes, numbers and order. Other tables and the schema version do not
+change. Edits that cut, join or split recordings, or add messages at the start, do not
+use this module.
 """
 
 import os
@@ -127,7 +127,11 @@ class EditedDatabase:
     def _rows(
         self, base: sqlite3.Connection, numbers: list[int]
     ) -> Iterator[tuple[list[int], MessageTable]]:
-        """Yield the messages of some topics in parts, with their row numbers in the database.
+        """Yield row numbers in the database, with a table of the messages in these rows.
+
+        Args:
+            base: Connection to the database.
+            numbers: Numbers of the topics.
 
         Raises:
             Unsound: If a timestamp is not a whole number.

@@ -46,7 +46,7 @@ class EditedFile:
         copied: Size of each copied chunk, bytes, by its offset in the file.
         start: Log time of the first message.
         end: Log time of the last message.
-        refused: What is done with a topic that cannot be converted, and why, by topic.
+        refused: Sentence about each topic that cannot be converted, by topic: "is left out: …".
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class EditedFile:
             self._chunks.first_free = first_free
 
     def _opened(self, tape: ContainerReader) -> Any:
-        """Create the file, in the first input's style if formats are equal; return its writer."""
+        """Create the file, and return its writer; use the style of an input of the same format."""
         is_same = tape.container == self._format.name
         style: dict[str, Any] = dict(tape.style) if is_same else {}
         if not getattr(tape, "is_indexed", True) and not style.get("chunked", True):
@@ -111,7 +111,10 @@ class EditedFile:
     def _conversion(
         self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> Conversion | None:
-        """Return the conversion of an input's channel for this file; None if impossible."""
+        """Return the conversion of an input's channel for this file.
+
+        Return None if the channel's messages cannot be converted, and must be left out.
+        """
         key = source, number
         if key not in self._conversions:
             try:
@@ -178,7 +181,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether an input's chunks may be copied: channel numbers mean the same in this file."""
+        """Whether chunks of an input may be copied, as channel numbers are equal here."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -294,7 +297,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """End the current chunk, which replaces `block`, and compress it like `block`."""
+        """Write the current chunk, which replaces a block of an input, compressed like `block`."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)
@@ -351,7 +354,7 @@ def _defined(channel: Channel) -> Channel:
 
 
 def _latching(channel: Channel) -> Channel:
-    """Return a channel with QoS by which late subscribers get the last message."""
+    """Return a copy of a channel whose QoS lets late subscribers receive the last message."""
     metadata = dict(channel.metadata)
     if channel.encoding == "ros1":
         if metadata.get("latching") == "1":

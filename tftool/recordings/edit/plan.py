@@ -113,7 +113,7 @@ def open_input(name: str) -> EditedInput:
 
     Raises:
         InputError: If there is no such recording, or it cannot be read.
-        UsageError: If the name is that of another kind of source.
+        UsageError: If the name belongs to a file that is not a recording.
     """
     found = find(name)
     if not found.kind.is_recording:
@@ -190,7 +190,11 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
 
 
 def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
-    """Raise an error for a name that was not recorded, or a new name that another frame has."""
+    """Check that the options' old frame names are recorded, and that new names stay distinct.
+
+    Raises:
+        UsageError: If an old name is not recorded, or two frames would get the same name.
+    """
     wanted: list[LinkName] = [*edits.drop, *edits.poses, *edits.reparent]
     if not (wanted or edits.rename):
         return
@@ -338,7 +342,10 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
 
 
 def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
-    """Return a time span widened by a sample at each end, so that lookups there succeed."""
+    """Widen the time span from `low` to `high` to the nearest samples outside the time span.
+
+    Interpolation at `low` and `high` needs these samples of `moments`.
+    """
     before, behind = moments[moments <= low], moments[moments >= high]
     first = int(before.max()) if len(before) else low
     last = int(behind.min()) if len(behind) else high

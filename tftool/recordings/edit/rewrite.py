@@ -1,7 +1,8 @@
-"""`tftool edit`: writing of changed recordings, in which all unchanged bytes are copied.
+"""Writer of changed recordings for `tftool edit`, which copies all unchanged bytes.
 
 Every chunk is copied if none of its messages change, else parsed and changed. Then the output is
-read back, and compared completely with the intended content. Only then it gets its final name.
+read back, and compared completely with the intended content. At last the output is renamed to its
+final name.
 """
 
 import contextlib
@@ -268,7 +269,7 @@ class _Job:
             output.finish(whose if self._by_tape or number == self._order[0] else [])
 
     def _examined_ahead(self, tape: ContainerReader) -> Iterator[Block]:
-        """Yield the blocks of an input; a thread verifies the next blocks while one is written.
+        """Yield the blocks of an input, while a thread verifies the following blocks.
 
         Decompressing a chunk and checking its CRC takes as long as copying it, and both release
         the GIL.
@@ -360,7 +361,7 @@ class _Job:
                 output.closed_block(block)
 
     def _by_part(self, source: int, table: MessageTable) -> Iterator[tuple[int, MessageTable]]:
-        """Divide messages among the output files; yield each file's number with its messages."""
+        """Yield the number of each output file, with the messages that belong in the file."""
         if not self._edits.split_every:
             if len(table):
                 yield self._part_of(source, 0), table
@@ -370,7 +371,7 @@ class _Job:
             yield number, table.chosen(np.flatnonzero(parts == number))
 
     def _in_one_part(self, block: Block) -> bool:
-        """Whether a block is a chunk that can be copied, because it goes to one output file."""
+        """Whether a block is an undamaged chunk whose messages all belong in one output file."""
         is_one = self._part_of(0, block.start) == self._part_of(0, block.end)
         return is_one and block.whole and bool(block.counts) and isinstance(block, Chunk)
 
@@ -384,7 +385,7 @@ class _Job:
         return max(0, (log_time - self._start) // self._edits.split_every)
 
     def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
-        """Return the output file with a number; if it is new, write its static transforms first."""
+        """Return the output file with a number; start a new file with its static transforms."""
         found = self._outputs.get(number)
         if found is not None:
             return found
@@ -539,7 +540,7 @@ def _examined(block: Block, examined: "Future[bool] | None") -> Block:
 
 
 def _packed(path: Path) -> Path:
-    """Compress a whole output file, as the input was; return the compressed file's path."""
+    """Replace an output file by a zstd-compressed file, and return the new file's path."""
     packed = path.with_name(path.name + PACKED_SUFFIX)
     with path.open("rb") as source, packed.open("wb") as out:
         writer = zstandard().ZstdCompressor(level=1).stream_writer(out, closefd=False)

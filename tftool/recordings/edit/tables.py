@@ -25,10 +25,10 @@ _MOST_KINDS = 16
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """New bytes of the example of a kind (messages with the same frames).
+    """Result of the edit for the example message of one kind (messages with the same frames).
 
     Attributes:
-        payload: The bytes; None if the message is dropped.
+        payload: New bytes of the message; None if the message is dropped.
         layout: Byte layout of the message.
         kept: Indices of the transforms that are kept.
         given: Indices of the kept transforms whose poses an option sets.
@@ -63,7 +63,7 @@ class MessageKind:
         return not self.keeps_bytes or bool(self.result.given)
 
     def stamps(self, rows: Bytes, number: int) -> Stamps:
-        """Return the stamps of one transform of all messages, nanoseconds, shape (n,)."""
+        """Return the stamps of transform `number` in all messages, nanoseconds, shape (n,)."""
         first = self.places[number].stamp - self.begin
         times = np.ascontiguousarray(rows[:, first : first + 8]).view(np.int32)
         found: Stamps = times[:, 0].astype(np.int64) * NANOSECONDS
@@ -141,7 +141,7 @@ class Kinds:
         return found, np.concatenate(rest) if rest else which[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
-        """Add a kind with a message as its example; return False for an unusual message."""
+        """Add a kind whose example is `payload`; return False if the message is unusual."""
         if len(known) >= _MOST_KINDS:
             return False
         try:

@@ -139,7 +139,7 @@ class SingleMessages:
         self._bytes += whole
 
     def taken(self) -> Batch:
-        """Return the messages read since the last call as a batch."""
+        """Return a batch of the messages read since the last call of this method."""
         sizes = np.fromiter(map(len, self._pieces), dtype=np.int64, count=len(self))
         ends = np.cumsum(sizes)
         batch = Batch(

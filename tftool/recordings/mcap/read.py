@@ -88,8 +88,8 @@ class Mcap(ChunkedReader):
 
         Args:
             path: Path of the file.
-            by_index: Whether messages will be read with `batches`, by the index, which is built if
-                the file has none; otherwise with `blocks`.
+            by_index: True to read messages by the index with `batches`; a missing index is built.
+                False to read messages in the order of the file with `blocks`.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -134,7 +134,7 @@ class Mcap(ChunkedReader):
             self._index()
 
     def origin(self, number: int) -> tuple[int, tuple[str, str, bytes] | None]:
-        """Return a channel's schema number, and the schema; see `McapWriter.adopt`."""
+        """Return the number and the contents of a channel's schema; see `McapWriter.adopt`."""
         schema = self._schema_of[number]
         return schema, self.schemas[schema] if schema else None
 
@@ -245,7 +245,7 @@ class Mcap(ChunkedReader):
         self._schema_of.clear()
 
     def _describe(self, code: int, body: bytes) -> None:
-        """Register the schema or channel in a record; ignore the number of a known channel."""
+        """Register the schema or channel in a record; ignore a channel registered before."""
         check_told(len(body))
         number, schema = struct.unpack_from("<HH", body)
         if code == SCHEMA:
@@ -496,8 +496,10 @@ class Mcap(ChunkedReader):
     def _batch(
         self, chunk: Chunk, chosen: Mapping[int, int], singly: SingleMessages, ahead: Ahead
     ) -> Batch | None:
-        """Return a chunk's messages in chosen channels, unless there are none or `singly` reads
-        them.
+        """Return a chunk's messages on chosen channels as a batch.
+
+        Return None if there are no such messages. Return None also if there are few messages in
+        a large chunk: then `singly` reads these messages.
         """
         parts = []
         for channel, place in chunk.indexes.items():
@@ -611,10 +613,10 @@ class Loose:
 
 
 def check_length(length: int) -> None:
-    """Raise an error for a message record that is shorter than its header.
+    """Check the length of a message record.
 
     Raises:
-        InputError: If the length is too small.
+        InputError: If the record is shorter than the header of a message.
     """
     if length < MESSAGE_HEAD.size:
         raise InputError(f"a message record has only {length} bytes")

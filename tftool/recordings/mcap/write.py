@@ -137,7 +137,7 @@ class McapWriter(ChunkedWriter):
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last log time of the messages in the file; 0 without messages."""
+        """First and last log time of the messages in the file; (0, 0) if the file has none."""
         return (0 if self._low == NOTHING_YET else self._low), self._high
 
     # Channels
@@ -145,12 +145,12 @@ class McapWriter(ChunkedWriter):
     def channel(
         self, channel: Channel, number: int | None = None, schema: int | None = None
     ) -> int:
-        """Register a channel; return its number for `write`.
+        """Register a channel, and return the number that identifies the channel in `write`.
 
         Args:
             channel: The channel; a channel that is registered already keeps its number.
             number: Number for the channel; None for any unused number.
-            schema: Number of a registered schema; None to choose it by the channel's type.
+            schema: Number of a registered schema; None to choose the schema by the channel's type.
 
         Raises:
             InputError: If there are too many channels or schemas.
@@ -260,7 +260,7 @@ class McapWriter(ChunkedWriter):
             self.flush()
 
     def write_table(self, table: MessageTable) -> bool:
-        """Append messages in bulk; return False, with nothing appended, if this is impossible."""
+        """Append messages in bulk, and return True; return False if `write` must append them."""
         channels = table.owners
         size = int(table.lengths.sum()) + 31 * len(table)
         known = self._defined.issuperset(channels)
@@ -320,7 +320,7 @@ class McapWriter(ChunkedWriter):
         self._chunks.append(entry.record())
 
     def end_block(self, chunk: Chunk) -> None:
-        """End the current chunk, which has the messages of `chunk`; compress it like `chunk`."""
+        """Write the current chunk with the compression and CRC of `chunk`, which it replaces."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
             if chunk.method != self.method:
@@ -380,7 +380,7 @@ class McapWriter(ChunkedWriter):
         self._chunks.append(entry.record())
 
     def copy_extras(self, extras: Extras, schemas: Mapping[int, tuple[str, str, bytes]]) -> None:
-        """Copy attachments, metadata, and message types, of which some may have no messages."""
+        """Copy attachments, metadata and schemas of another file, including unused schemas."""
         for attachment in extras.attachments:
             self.copy_attachment(attachment)
         for body in extras.metadata:

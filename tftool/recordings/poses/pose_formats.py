@@ -239,7 +239,7 @@ def format_named(name: str) -> PoseFormat:
 
 
 def recognised(data: bytes, name: str) -> PoseFormat | None:
-    """Return the format of a file with these first bytes; None if it is not a pose file.
+    """Return the format of a file with these first bytes; None if the file is not a pose file.
 
     Raises:
         InputError: If the text fits several formats.

@@ -127,7 +127,7 @@ class PoseFile:
         )
 
     def floats(self, words: list[str], expected: str) -> list[float]:
-        """Parse words as numbers; raise an error for other words."""
+        """Parse words as numbers; raise an `InputError` if a word is not a number."""
         try:
             return [float(word) for word in words]
         except ValueError:
@@ -135,7 +135,7 @@ class PoseFile:
             self.fail(expected, f"'{bad[:40]}'")
 
     def seconds(self, word: str, expected: str, path: Path | None = None) -> Stamp:
-        """Parse a stamp in seconds; return nanoseconds, exactly."""
+        """Convert a stamp from seconds in decimal text to nanoseconds, without rounding errors."""
         whole, _, part = word.partition(".")
         is_short = word.isascii() and len(word) < 24 and len(part) <= 9
         if is_short and whole.isdigit() and (part.isdigit() or not part):
@@ -144,7 +144,7 @@ class PoseFile:
         return self._decimal(word, NANOSECONDS, expected, path)
 
     def nanoseconds(self, word: str, expected: str) -> Stamp:
-        """Parse a stamp in nanoseconds; return nanoseconds."""
+        """Parse a stamp in whole nanoseconds."""
         if word.isascii() and word.isdigit() and len(word) < 24:
             return self._checked(int(word), word, expected, None)
         return self._decimal(word, 1, expected, None)
@@ -172,7 +172,7 @@ class PoseFile:
         return stamp
 
     def at_rate(self, link: PoseLink) -> None:
-        """Compute stamps for the poses of a link from --pose-rate; the first stamp is one period.
+        """Compute stamps for a link's poses from --pose-rate, beginning with one period, not 0.
 
         Raises:
             InputError: If --pose-rate was not given.

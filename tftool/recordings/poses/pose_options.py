@@ -22,7 +22,7 @@ class PoseOptions:
         frames: Names of the frames, "PARENT:CHILD"; None for the format's names.
         pose_rate: Poses per second, for a file without stamps.
         pose_format: Name of the format; None to recognise it from the content.
-        inverted: Whether the poses in the file are the inverse of what its format says.
+        inverted: Whether the file has the inverses of the poses that its format requires.
         axes: Axes of the file's cameras, one of `AXES`; None for the format's axes.
         prefix: Name to put before each frame name, followed by a slash.
     """

@@ -169,7 +169,7 @@ def _matrix(rows: Any) -> list[float]:
     """Return the upper three rows of a transformation matrix, row by row.
 
     Raises:
-        ValueError: If the numbers are not such a matrix.
+        ValueError: If the numbers are not a transformation matrix.
     """
     if not isinstance(rows, list) or len(rows) not in (3, 4):
         raise ValueError("no matrix")
@@ -200,7 +200,7 @@ def _yaml(file: PoseFile) -> Mapping[Any, Any]:
 
 
 class _refused:  # noqa: N801 - used as a function
-    """Context that adds the file's name to errors raised in its block."""
+    """Context manager that turns errors in the `with` block to errors that name the file."""
 
     def __init__(self, file: PoseFile, expected: str) -> None:
         self._file = file

@@ -53,8 +53,8 @@ class Rosbag1(ChunkedReader):
 
         Args:
             path: Path of the file.
-            by_index: Whether messages will be read with `batches`, by the index, which is built if
-                the file has none; otherwise with `blocks`.
+            by_index: True to read messages by the index with `batches`; a missing index is built.
+                False to read messages in the order of the file with `blocks`.
 
         Raises:
             InputError: If nothing of the file can be read.
@@ -89,7 +89,7 @@ class Rosbag1(ChunkedReader):
             self.end = max((high for _, high in spans), default=0)
 
     def origin(self, number: int) -> tuple[bytes, bytes]:
-        """Return the topic and the publisher's header of a connection, as recorded bytes."""
+        """Return the topic and the connection header of a connection, as recorded bytes."""
         return self._headers[number]
 
     # Index
@@ -200,7 +200,7 @@ class Rosbag1(ChunkedReader):
     def _chunk_at(
         self, position: int, header: Mapping[bytes, bytes], data: int, length: int
     ) -> Chunk:
-        """Return the chunk in a record, and update `style` with its compression and size."""
+        """Return the chunk in a record, and store the chunk's compression and size in `style`."""
         chunk = Chunk(self, position)
         self._look_at(chunk, header, data, length)
         style = self.style
@@ -224,7 +224,7 @@ class Rosbag1(ChunkedReader):
         chunk.length = chunk.behind - chunk.position
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Read the index records after a chunk; use them if the bag's index agrees."""
+        """Read the index records after a chunk; ignore records that contradict the bag's index."""
         counts: dict[int, int] = {}
         while chunk.behind < self.size:
             try:
@@ -254,7 +254,7 @@ class Rosbag1(ChunkedReader):
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Yield connection, log times, offsets, lengths of messages; see `ChunkedReader`."""
+        """Yield the offsets of the messages in a chunk; see `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)
@@ -266,7 +266,7 @@ class Rosbag1(ChunkedReader):
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, publish times (equal to them), and sequence numbers (all zero)."""
+        """Return the log times twice, as log and publish times, and sequence numbers of 0."""
         sec, nanosec = (words_at(data, starts - n, "<u4").astype(np.int64) for n in (12, 8))
         log_times = sec * NANOSECONDS + nanosec
         return log_times, log_times, np.zeros(len(starts), dtype=np.int64)
@@ -310,7 +310,7 @@ class Rosbag1(ChunkedReader):
         )
 
     def _locate(self, chunk: Chunk) -> None:
-        """Find the offset of a chunk's data, if it is unknown."""
+        """Find the offset of a chunk's data, if the offset is unknown."""
         if not chunk.place:
             self._look_at(chunk, *record_head(self, chunk.position))
 

@@ -92,7 +92,7 @@ class Rosbag1Writer(ChunkedWriter):
         self._put(ROS1_MAGIC + self._head(0))
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Register a connection; return its number for `write`."""
+        """Register a connection, and return the number that identifies it in `write`."""
         known = self._known.get(channel)
         if known is not None and number in (None, known):
             return known
@@ -147,7 +147,7 @@ class Rosbag1Writer(ChunkedWriter):
             self.flush()
 
     def write_table(self, table: MessageTable) -> bool:
-        """Append messages in bulk; return False, with nothing appended, if this is impossible."""
+        """Append messages in bulk, and return True; return False if `write` must append them."""
         logs = table.log_times
         known = self._defined.issuperset(table.owners)
         if not known or not 0 <= int(logs.min()) <= int(logs.max()) < _LATEST:
@@ -273,7 +273,7 @@ class Ros1Messages(Rosbag1Writer):
         self._payloads: dict[int, Callable[[bytes], bytes]] = {}
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Register a ROS 2 channel as a connection; return its number.
+        """Register a ROS 2 channel as a connection, and return the connection's number.
 
         Raises:
             InputError: If ROS 1 has no equivalent type.

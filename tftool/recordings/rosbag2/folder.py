@@ -1,6 +1,6 @@
 """Opening of rosbag2 folders, of several files, and of files that are compressed as a whole.
 
-The metadata of rosbag2 may be wrong: files in the folder are read even if they differ from it.
+The metadata of rosbag2 may be wrong, so files are read even if the metadata does not list them.
 """
 
 import shutil
@@ -188,7 +188,7 @@ class _Unpacked:
 
 
 def unpack_file(path: Path, target: Path) -> str:
-    """Decompress a file to `target`; return a sentence about its damage, or ""."""
+    """Decompress a file to `target`; return a sentence about damage of the file, or ""."""
     free = shutil.disk_usage(target.parent).free
     limit = min(_LARGEST_UNPACKED, free - (1 << 26))
     plausible = most_of(path.stat().st_size)
@@ -231,7 +231,7 @@ class Joined:
 
         Args:
             parts: Name and container of each part.
-            damage: Further damage to report.
+            damage: Sentences about further damage of the recording.
         """
         self._parts = parts
         self._damage = list(damage)
@@ -297,7 +297,13 @@ class Joined:
 
 
 def _moved(progress: Progress | None, before: int, size: int) -> Progress | None:
-    """Return a function that reports one file's progress as that of the whole recording."""
+    """Return a function that adds the progress in one file to the progress in earlier files.
+
+    Args:
+        progress: Function called with the progress in the whole recording; None for no reports.
+        before: Size of the files already read, bytes.
+        size: Size of all files, bytes.
+    """
     if progress is None:
         return None
 

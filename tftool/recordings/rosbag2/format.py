@@ -1,4 +1,4 @@
-"""metadata.yaml of rosbag2's folders: its text, and reading and writing it."""
+"""Reader and writer of `metadata.yaml` in rosbag2's folders."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -51,8 +51,8 @@ def metadata_text(
         files: Facts about the files, in order.
         topics: Number of messages of each channel.
         compression: Format and mode of rosbag2's compression of files or messages.
-        old: Metadata of the original recording; None for a new recording. Its version, and other
-            facts that do not follow from the files, are kept.
+        old: Metadata of the original recording, whose version, and other facts that do not follow
+            from the files, are kept; None for a new recording.
     """
     version = int((old or {}).get("version", VERSION))
     filled = [one for one in files if one.count]

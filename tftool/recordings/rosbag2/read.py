@@ -1,4 +1,4 @@
-"""Reader of rosbag2's sqlite files, which writes no other file beside them.
+"""Reader of rosbag2's sqlite files, which creates no lock or journal files in the folder.
 
 Messages are read in bulk, directly from the pages of the file. Only plain pages are read in this
 way. At the first unexpected page or row the reader stops, and sqlite itself continues after the
@@ -204,7 +204,7 @@ class _Table:
 
 
 def _varint(data: bytes, place: int) -> tuple[int, int]:
-    """Parse a variable-length integer of sqlite (up to nine bytes); return it and its end."""
+    """Parse a variable-length integer of sqlite; return the integer and the offset after it."""
     found = 0
     for end in range(place, place + 8):
         found = found << 7 | data[end] & 0x7F
@@ -483,7 +483,7 @@ class Rows:
     counts: Mapping[int, int] | None = None
 
     def __init__(self, batch: Batch, unpacks: bool) -> None:
-        """Create a block; `unpacks` says whether to decompress its messages one by one."""
+        """Create a block; `unpacks` says whether compressed messages are decompressed."""
         self._batch = batch
         self._unpacks = unpacks
         self.start = int(batch.log_times.min())

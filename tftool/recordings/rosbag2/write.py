@@ -46,7 +46,7 @@ class SqliteWriter:
 
         Args:
             path: Path of the file.
-            compression: Only "none" or None.
+            compression: "none" or None, because the file has no compression.
 
         Raises:
             UsageError: If another compression is given.
@@ -77,7 +77,7 @@ class SqliteWriter:
         return self._bytes
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Register a topic; return its number for `write`."""
+        """Register a topic, and return the number that identifies the topic in `write`."""
         key = channel.topic, channel.type
         known = self._topics.get(key)
         offers = channel.extra("offered_qos_profiles")
@@ -200,7 +200,7 @@ class FolderWriter:
         return self._inner.size
 
     def channel(self, channel: Channel) -> int:
-        """Register a channel; return its number for `write`."""
+        """Register a channel, and return the number that identifies the channel in `write`."""
         number = self._inner.channel(channel)
         self._channels.setdefault(number, channel)
         return number
