@@ -78,7 +78,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """Return how many samples each frame may keep so that all fit into `room`; at least 2."""
+    """Return the most samples per frame with which all frames fit into `room`, but at least 2."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:
@@ -282,7 +282,7 @@ class Buffer(Door):
     ) -> "Insertion":
         """Insert many samples of one moving child, as repeated calls of `set_transform` would.
 
-        After all samples are stored, listeners are called with each of them, and pending requests
+        After all samples are stored, each listener is called with each sample, and pending requests
         are tried again.
 
         Args:
@@ -408,7 +408,9 @@ class Buffer(Door):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Stamp = 0
     ) -> TransformStamped:
-        """Return the pose of the source in the target; it maps points from source to target.
+        """Return the pose of the source frame in the target frame at one time.
+
+        The returned transform maps points from the source frame to the target frame.
 
         Args:
             target_frame: Frame in which the result is expressed.
@@ -533,7 +535,7 @@ class Buffer(Door):
     ) -> "TransformArray":
         """Return `lookup_transform_full` for many times at once, in numpy.
 
-        Either of the two times may be a single number; see `lookup_transforms`.
+        Either `target_times` or `source_times` may be a single number; see `lookup_transforms`.
 
         Raises:
             TransformException: As `lookup_transform_full`, for the first row without a pose.

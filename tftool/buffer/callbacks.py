@@ -42,7 +42,7 @@ class Listeners(Generic[*Values]):
         self.registered: tuple[tuple[Callable[[*Values], object], str], ...] = ()
 
     def add(self, callback: Callable[[*Values], object], owner: str = "") -> Callable[[], None]:
-        """Register a callback; return a function that removes it.
+        """Register a callback for all future calls of `call`.
 
         Args:
             callback: Function to call.
@@ -129,7 +129,7 @@ class Watch:
         self._last: Stamp | None = None
 
     def read(self, now: Stamp) -> bool:
-        """Compare the time with the last call; if it is earlier, clear the buffer, return True."""
+        """Clear the buffer and return True if the clock jumped back since the last call."""
         last, self._last = self._last, now
         if last is None or not must_clear(now - last, least_fall=self._least_fall):
             return False
@@ -244,7 +244,7 @@ class Requests:
         return failures
 
     def _ask(self, request: Request, first: bool) -> int:
-        """Return the state of a lookup; if it is PENDING, register the frames to wait for."""
+        """Return the state of a request's lookup; for PENDING, register the frames to wait for."""
         status, blocked = self._examine(request.lookup, first)
         if status == PENDING:
             self._watch(request, blocked)

@@ -158,8 +158,8 @@ class FrameTree:
     Attributes:
         frames: Frames in the order of their first registration.
         numbers: Index in `frames` of each frame name.
-        senders: For each moving child frame, parent, sender and origin of its newest sample, and
-            its history; an insertion needs only this.
+        senders: Parent, sender and origin of the newest sample, and the history, by name of the
+            moving child frame. Most insertions need no other data.
         authorities: Names of senders (authorities); the index of a name is its number.
         limit: Age up to which samples are kept, relative to the newest one, nanoseconds.
         max_name: Maximum length of a name, bytes.
@@ -203,9 +203,10 @@ class FrameTree:
         return new == 0 or len(self.frames) + new <= limit
 
     def hang(self, child: str, parent: str, static: bool) -> tuple[Frame, Link, bool]:
-        """Register both frame names; return the child's link, static or moving as requested.
+        """Register both frame names, and return the child's link, static or moving as requested.
 
-        A link of the other kind is replaced by an empty link, and its samples are dropped.
+        If the child has a moving link but a static link is requested, or the reverse, an empty
+        link replaces the existing link.
 
         Returns:
             The child frame, its link, and whether the link is new.
@@ -374,7 +375,7 @@ class FrameTree:
         Links with stamp 0 (static links, for example) are always valid and are ignored.
 
         Returns:
-            The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp, or 0 if no link has one.
+            The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 if no link has a stamp.
         """
         if target == source:
             return ARRIVED, self.newest_stamp(target)

@@ -9,11 +9,11 @@ Memory layout of the samples of a moving link, which batch lookups and `Buffer.s
   `count` on are free space for new samples.
 - While a batch reads the records, the array must not grow. A change that needs more space is made
   to a copy (`_resizable`); the batch keeps reading the old array.
-- An *origin* is the parent and the authority of a sample in one word: the parent's number in the
+- An *origin* is the parent and the authority of a sample in one integer: the parent's number in the
   low 32 bits, the authority's number in the high bits. While all samples have the same origin, only
-  `origin` is stored; after a sample with another origin, `origins` holds one word per record.
-- After the first query the newest sample, and the newest two, are also kept as tuples, so that most
-  queries do not read the array.
+  `origin` is stored. After a sample with another origin, `origins` contains one integer per record.
+- After the first query, the two newest samples are cached as tuples. Most queries need only these
+  tuples, and do not read the array.
 """
 
 import struct
@@ -241,7 +241,9 @@ class History(Fields):
         return self._newest
 
     def at(self, time: Stamp) -> Sample:
-        """Return the interpolated pose at a time (0: the newest pose); NO_POSE without data then.
+        """Return the interpolated pose at a time, or NO_POSE if there is no data at that time.
+
+        For time 0, return the newest pose.
 
         Between two samples with different parents, return the pose of the older sample unchanged.
         """
@@ -274,7 +276,7 @@ class History(Fields):
     def parent_at(self, time: Stamp) -> int:
         """Return the number of the parent at a time; NO_PARENT without data.
 
-        This is the parent in the last sample at or before the time; for time 0, in the newest.
+        The last sample at or before the time has this parent. For time 0, return the newest parent.
         """
         if time == self.newest_stamp or time == 0:
             return self.parent
@@ -390,11 +392,11 @@ class History(Fields):
     # Insertion
 
     def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = False) -> int:
-        """Insert one sample, and prune those that are now too old.
+        """Insert one sample, and prune the samples that are then too old.
 
         Args:
             stamp: Nanoseconds.
-            origin: Numbers of the parent and the authority in one word.
+            origin: Numbers of the parent and the authority in one integer.
             pose: Position and quaternion in xyzw order, as received: the quaternion may have any
                 length and either sign.
             validated: Whether the caller has checked stamp and numbers, and given the quaternion
@@ -484,7 +486,7 @@ class History(Fields):
         return PARENT_CHANGED
 
     def _note_origins(self, count: int) -> "array[int]":
-        """Return the array of origins, created with `count` equal entries if it is missing."""
+        """Return the array of origins; create a missing array with `count` equal entries."""
         origins = self.origins
         if origins is None:
             origins = self.origins = array("q", [self.origin]) * count
@@ -579,7 +581,7 @@ class History(Fields):
             self.records = copy
 
     def _is_read(self) -> bool:
-        """Whether the array of records cannot be resized: it is borrowed, or a batch reads it."""
+        """Whether the array of records is borrowed or read by a batch, and must not be resized."""
         try:
             self.records.append(0)
             self.records.pop()
@@ -596,7 +598,7 @@ class History(Fields):
     # Insertion of many samples
 
     def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
-        """Append records with increasing stamps, and prune those before a stamp.
+        """Append records with increasing stamps, and prune records before `oldest_kept`.
 
         All records have the same origin (parent and authority) as the existing samples. There must
         be at least one sample, and the last record must be newer than `oldest_kept`.
@@ -629,7 +631,7 @@ class History(Fields):
         self.mixed = self._newest_parent_start > 0
 
     def borrow(self, records: "Words", origin: int) -> None:
-        """Use an array of another owner as the samples, with increasing stamps and one origin.
+        """Use another owner's array as the samples; its stamps increase, and it has one origin.
 
         The array is copied only at the first insertion or pruning. Until then `records` is a
         read-only view of the array.
@@ -641,7 +643,7 @@ class History(Fields):
 
         Args:
             other: An empty history.
-            origin: Index of the samples' pair of parent and authority in the other history.
+            origin: Origin (parent and authority) of the samples in the other history.
             until: The last stamp to share, nanoseconds.
 
         Returns:

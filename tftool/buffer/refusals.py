@@ -73,7 +73,7 @@ def loop(frames: str, target: str, source: str) -> LookupException:
 
 
 def shortfall(refusal: Refusal, time: Stamp) -> str:
-    """Return tf2's sentence that the data of a frame begins or ends at another time."""
+    """Return tf2's sentence that a frame has no data at the requested time (extrapolation)."""
     kind, available = refusal
     asked, has = display(time), display(available)
     if kind == NO_DATA:

@@ -18,7 +18,7 @@ _Located: TypeAlias = tuple[int, Sample | None, Sample | None]
 
 
 def snapshot(tree: FrameTree, now: Stamp, at: Stamp) -> Snapshot:
-    """Return the state of all frames at a time; 0 means the latest time with data of each."""
+    """Return the state of all frames at the time `at`, or at each frame's latest time if 0."""
     sweep = _Sweep(tree, at)
     return Snapshot(now, at, tuple(sweep.info(frame, now) for frame in tree.frames))
 
@@ -191,7 +191,7 @@ def as_string(frames: Iterable[FrameInfo]) -> str:
 def as_dot(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
     """Format the frames as tf2's core does for Graphviz (`view_frames` prints another form).
 
-    Names are written unchanged: escape untrusted ones first.
+    Names are written unchanged, so the caller must escape untrusted names.
     """
     frames = list(frames)
     if not frames:

@@ -322,7 +322,15 @@ class Solver:
         return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
 
     def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
-        """Return AVAILABLE, EXPIRED or PENDING, and the frames to watch for changes if PENDING."""
+        """Return the state of a lookup: AVAILABLE, EXPIRED or PENDING; and the frames to watch.
+
+        Args:
+            lookup: Target, source and time.
+            first: Whether the lookup was not examined before.
+
+        Returns:
+            The state, and the names of frames whose change may end the state PENDING.
+        """
         target, source, time = lookup
         if target == source:
             return AVAILABLE, ()

@@ -1,8 +1,8 @@
 """Rates and delays of arriving transforms, by the formulas of `tf2_monitor` and exactly.
 
-Properties that begin with `tf2_` use the formulas of `tf2_monitor`, so that its output can be
-compared. The other properties are exact. Known errors of `tf2_monitor`: its rates are too high by
-one message, its net delay starts at zero and rises for minutes, and it counts a static transform as
+Properties that begin with `tf2_` use the formulas of `tf2_monitor`, for comparison with the output
+of `tf2_monitor`. All other properties are exact. `tf2_monitor` has known errors: rates are too high
+by one message, the net delay starts at zero and rises for minutes, and a static transform counts as
 very late.
 """
 
@@ -92,7 +92,8 @@ class Series:
     def worst_delay_since(self, stamp: Stamp) -> float | None:
         """Return the greatest delay of the messages that arrived after a time, seconds.
 
-        Between two messages, the delay of the newest message is returned; None without a message.
+        If no message arrived after that time, return the delay of the newest message. Return None
+        if there is no message at all.
         """
         newest = takewhile(
             lambda one: one[0] > stamp,
@@ -187,7 +188,7 @@ class Traffic:
 
 
 class NetDelay:
-    """Age of the results of a repeated lookup: the newest age, and the mean of all."""
+    """Ages of the results of a repeated lookup: the largest age, and the mean age."""
 
     def __init__(self) -> None:
         self.count = 0

@@ -30,10 +30,10 @@ class Column:
         stamps: Nanoseconds, shape (k,); a copy made at the first use.
         samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7); a copy made at the first
             use.
-        origin: Parent and authority of the newest sample in one word; see `history`.
-        origins: Parent and authority of each sample in one word; see `history`. None if all samples
-            have the same parent and authority.
-        parents: Number of the parent frame of each sample; None if it is the same for all.
+        origin: Parent and authority of the newest sample in one integer; see module `history`.
+        origins: Parent and authority of each sample, one integer per sample, shape (k,). None if
+            all samples have the same parent and authority.
+        parents: Number of the parent frame of each sample; None if all samples have one parent.
     """
 
     __slots__ = ("_samples", "_stamps", "origin", "origins", "parents", "records")

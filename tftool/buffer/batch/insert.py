@@ -318,7 +318,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return a mask over `order`: false for a sample that equals an earlier one, stamp and pose."""
+    """Return a mask over `order`: false for a repeated sample with equal stamp, parent and pose."""
     # tf2 ignores a sample equal to a stored one with its stamp: check runs of equal stamps only.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]

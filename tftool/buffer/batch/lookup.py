@@ -231,7 +231,7 @@ class _Batch:
         return rest
 
     def has_all(self, times: Stamps) -> bool:
-        """Whether `self.path` has data at all these times, of which none is 0 (latest)."""
+        """Whether `self.path` has data at all these times, and no time is 0 (latest)."""
         least, most = int(times.min()), int(times.max())
         return self.first <= least and most <= self.last and (least > 0 or bool(times.all()))
 
@@ -286,7 +286,7 @@ class _Batch:
         return missing
 
     def held(self, links: Iterable[Link]) -> tuple[Link, ...]:
-        """Return copies of the links, each with the samples at its first use in this batch."""
+        """Return copies of the links, whose samples stay unchanged until the end of the batch."""
         found: list[Link] = []
         for link in links:
             held = self.columns.of(link)
