@@ -43,7 +43,7 @@ class MessageField:
     Attributes:
         name: Name of the field.
         kind: Type of the field or of an array's elements: a primitive's name, or a message class.
-        size: None for a single value, a number for a fixed array, -1 for a sequence.
+        size: Length of a fixed array; -1 for a sequence; None for a single value.
         bound: Maximum length of a bounded sequence; None without a bound.
         text_bound: Maximum number of characters of a bounded string; None without a bound.
         check: Function that checks an assigned value.
@@ -194,7 +194,7 @@ def recast(message: Any, kind: type[Message]) -> Any:
 
 
 def completed(message: Any, kind: type[Message]) -> Any:
-    """Return a copy of a message in a class with more fields, which get their defaults."""
+    """Return a copy of a message as an object of `kind`, whose additional fields get defaults."""
     if type(message) is kind:
         return message
     made = kind()

@@ -250,7 +250,7 @@ class _Array:
             values.append(found if self._count is None else packed(self._kind, count, found))
 
     def _turned(self, numbers: "array.array[Any]", order: str) -> "array.array[Any]":
-        """Convert numbers in place between the native byte order and `order`; return them."""
+        """Convert numbers between the native byte order and `order` in place; return `numbers`."""
         if order != _NATIVE and self._item > 1:
             numbers.byteswap()
         return numbers

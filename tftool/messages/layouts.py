@@ -53,8 +53,8 @@ class Layout:
         empty_size: Number of bytes of a structure without fields.
         letters: `struct` letters of the fields whose type in this layout differs from their ROS 2
             definition, by (structure, field).
-        hidden: First fields that only this layout has, such as `seq` of ROS 1's Header: name and
-            `struct` padding, by structure.
+        hidden: Name and `struct` padding of a first field that only this layout has, by structure:
+            `seq` of ROS 1's Header.
     """
 
     name: str
@@ -128,7 +128,7 @@ Duration of builtin_interfaces.
 
 
 def check_rest(kind: str, rest: int) -> None:
-    """Raise an error if more bytes follow a message than padding can have.
+    """Check that only padding follows a message of the type `kind`.
 
     Raises:
         MalformedMessage: If more than 7 bytes remain.
@@ -250,7 +250,12 @@ class Reader:
         return length
 
     def count(self, smallest: int, bound: int | None) -> int:
-        """Read the number of items of a list; an item has at least `smallest` bytes."""
+        """Read the number of items of a list, and check that the remaining bytes can suffice.
+
+        Args:
+            smallest: Smallest size of an item, bytes.
+            bound: Maximum number of items; None without a bound.
+        """
         count = self.length()
         rest = self._size - self.position
         if count * smallest > rest:

@@ -69,7 +69,7 @@ class FieldDefinition:
     Attributes:
         name: Name of the field.
         type: Type of the field or of an array's elements: a primitive, or a structure's full name.
-        size: None for a single value, a number for a fixed array, -1 for a sequence.
+        size: Length of a fixed array; -1 for a sequence; None for a single value.
         bound: Maximum length of a bounded sequence; None without a bound.
         text_bound: Maximum number of characters of a bounded string; None without a bound.
         default: Text of the default value; None without a default.
@@ -123,7 +123,12 @@ class Schema:
         self._read: dict[str, Structure] = {}
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
-        """Add a package's interface definitions by (kind, name), replacing its earlier ones."""
+        """Add the interface definitions of a package; replace earlier definitions of the package.
+
+        Args:
+            package: Name of the package.
+            texts: Text of each definition, by kind ("msg", "srv", "action") and name.
+        """
         self._texts[package] = dict(texts)
         for full in [full for full in self._read if full.startswith(f"{package}/")]:
             del self._read[full]
@@ -263,7 +268,7 @@ def _of_action(folder: str, base: str, part: str) -> str | None:
 
 
 def _sections(full: str, text: str) -> dict[str, str]:
-    """Split a recorded definition into the definitions of its types; return these by full name."""
+    """Return the definition of each type in a recorded definition, by the type's full name."""
     first, *others = _SEPARATOR.split(text)
     # For a service's event, the recorded definition is that of the service.
     name = _DERIVED.sub("", full) if "/msg/" not in full and "---" in first else full
@@ -281,7 +286,14 @@ def _sections(full: str, text: str) -> dict[str, str]:
 
 
 def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Structure:
-    """Parse the definition of one structure; a `recorded` one may use ROS 1's types."""
+    """Parse the definition of one structure.
+
+    Args:
+        full: Full name of the structure.
+        text: Text of the definition.
+        recorded: Names of the types in a recorded definition, which may use ROS 1's types; None
+            for a definition of ROS 2.
+    """
     fields: list[FieldDefinition] = []
     constants: list[tuple[str, str, str]] = []
     for raw in text.splitlines():

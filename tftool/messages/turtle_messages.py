@@ -48,7 +48,7 @@ def pose(
     linear_velocity: float = 0.0,
     angular_velocity: float = 0.0,
 ) -> Any:
-    """Return turtlesim's Pose message: metres, radians, m/s, rad/s; it has no stamp."""
+    """Return turtlesim's Pose message, which has no stamp: metres, radians, m/s, rad/s."""
     message = _new(Pose)
     message._x, message._y, message._theta = x, y, theta
     message._linear_velocity, message._angular_velocity = linear_velocity, angular_velocity
