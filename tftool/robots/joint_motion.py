@@ -79,7 +79,7 @@ def position_columns(names: Sequence[str], positions: npt.ArrayLike) -> Floats:
 
 
 def joint_columns(moved: Iterable[tuple[RobotJoint, Floats]]) -> tuple[JointColumns, ...]:
-    """Return the poses of each joint's child in its parent; `moved` has joints and positions."""
+    """Return the poses of each joint's child in its parent, from pairs of joint and positions."""
     return tuple(
         JointColumns(joint, poses[:, :3], poses[:, 3:])
         for joint, values in moved

@@ -98,7 +98,7 @@ class MeshFolders:
         return f"/mesh/{self.roots.index(root)}/{shown}"
 
     def read(self, address: str) -> ServedFile:
-        """Return the file at an address that `address` returned, or relative to such an address.
+        """Return the mesh or texture at an address that the browser requests.
 
         Raises:
             MeshRefused: If there is no such file, or it may not be served.
@@ -154,7 +154,7 @@ class MeshFolders:
         return [*([] if self._beside is None else [self._beside]), *self._given]
 
     def _inside(self, root: Path, name: str) -> Path:
-        """Return the path of a file relative to `root`, after a check that it is in that folder.
+        """Return a file's path relative to `root`, after a check that `root` contains the file.
 
         Raises:
             MeshRefused: If the path leads out of the folder, or is not a mesh or texture.

@@ -240,7 +240,7 @@ class Robot:
         return buffer
 
     def leader(self, name: str, given: Collection[str] = ()) -> str:
-        """Return the name of the joint that a joint mimics in the end, or its own name if none.
+        """Return the name of the joint that a joint mimics in the end, or `name` if it mimics none.
 
         Args:
             name: The joint.
@@ -308,7 +308,14 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
 
 
 def set_still(buffer: Buffer, joint: RobotJoint, position: float = 0.0, prefix: str = "") -> None:
-    """Insert a joint's child as a static transform; `joint_in_words` gives the sender's name."""
+    """Insert a static transform from a joint's parent to the joint's child into a buffer.
+
+    Args:
+        buffer: The buffer.
+        joint: The joint; its text (see `joint_in_words`) is the sender of the transform.
+        position: Position of the joint, radians or metres.
+        prefix: Prefix of both frame names.
+    """
     parent, child = prefix + joint.parent, prefix + joint.child
     pose = TransformStamped(0, parent, child, _pose(joint, position))
     buffer.set_transform_static(pose, joint_in_words(joint, position))

@@ -47,7 +47,7 @@ class StaticFrames:
 
     @property
     def buffer(self) -> Buffer:
-        """Return a buffer with all transforms; of several transforms of a child, the last."""
+        """Return a buffer with all transforms; for each child, only the last transform counts."""
         found = Buffer(NO_LIMIT)
         for one in self.links:
             sample = TransformStamped(0, one.parent, one.child, one.transform)

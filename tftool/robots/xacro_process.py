@@ -138,7 +138,7 @@ def _as_installed(package: Path) -> Path:
 
 
 def _lacks_memory(error: BaseException | None) -> bool:
-    """Whether an error is a MemoryError, or was caused by one."""
+    """Whether an error is a MemoryError, or was caused by a MemoryError."""
     return error is not None and (
         isinstance(error, MemoryError)
         or _lacks_memory(error.__cause__ or error.__context__ or getattr(error, "exc", None))
