@@ -134,13 +134,14 @@ def test_a_misspelt_name_is_told(tftool, scenarios):
         ),
         (
             ["static: {parent: a, child: b}", "static: {parent: b, child: a}"],
-            "odd.yaml:5:5: a loop: frame 'a' hangs from 'b', which hangs from 'a'",
+            "odd.yaml:5:5: the frames form a loop: the parent of 'a' is 'b', whose parent is 'a'",
         ),
         (
             ["static: {parent: turtle1, child: world}", "broadcaster: {turtle: turtle1}"],
-            "odd.yaml:5:5: a loop: frame 'turtle1' hangs from 'world', which hangs from 'turtle1'",
+            "odd.yaml:5:5: the frames form a loop: "
+            "the parent of 'turtle1' is 'world', whose parent is 'turtle1'",
         ),
-        (["static: {parent: a, child: /a}"], "odd.yaml:4:5: frame 'a' cannot hang from itself"),
+        (["static: {parent: a, child: /a}"], "odd.yaml:4:5: frame 'a' cannot be its own parent"),
     ],
 )
 def test_nodes_that_make_no_tree_are_told_where_they_stand(tftool, scenarios, nodes, told):

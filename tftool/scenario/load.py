@@ -251,15 +251,15 @@ class _ScenarioReader:
                 above.append(parents[above[-1]][0])
             known, line = parents.get(child, (parent, 0))
             if parent == child:
-                text = f"frame {quoted(child)} cannot hang from itself"
+                text = f"frame {quoted(child)} cannot be its own parent"
             elif known != parent:
                 text = (
                     f"frame {quoted(child)} has two parents: {quoted(known)} (line {line}) "
-                    f"and {quoted(parent)}; a frame hangs from one"
+                    f"and {quoted(parent)}, but a frame can have only one parent"
                 )
             elif above[-1] == child:
-                path = ", which hangs from ".join(quoted(one) for one in above)
-                text = f"a loop: frame {quoted(child)} hangs from {path}; no frame is the root"
+                path = ", whose parent is ".join(quoted(one) for one in above)
+                text = f"the frames form a loop: the parent of {quoted(child)} is {path}"
             else:
                 parents.setdefault(child, (parent, item.place.line + 1))
                 continue

@@ -14,7 +14,7 @@ class TurtleFollower(Node):
     def __init__(self):
         super().__init__("turtle_follower")
         self.goal = self.declare_parameter("goal", "turtle1").value
-        # The listener hears every transform and keeps it in the buffer, for ten seconds.
+        # The listener puts every transform into the buffer, which keeps ten seconds.
         self.buffer = Buffer()
         self.listener = TransformListener(self.buffer, self)
 
@@ -30,7 +30,7 @@ class TurtleFollower(Node):
             return
 
         try:
-            # Target first, source second; Time() asks for the latest time at which both are known.
+            # Target first, source second. Time() means the latest moment known for both frames.
             found = self.buffer.lookup_transform("turtle2", self.goal, Time())
         except TransformException as refused:
             self.get_logger().info(f"waiting: {refused}")
