@@ -101,7 +101,7 @@ def test_a_machine_full_of_participants_is_said_with_what_to_do(domain, capsys):
             taken.bind(("127.0.0.1", first + 2 * index))
         assert main(["tree", "--dds"]) == 3
     said = " ".join(capsys.readouterr().err.split())
-    assert "all 121 places of this machine are taken" in said
+    assert "all 121 participant numbers of this machine are in use" in said
     assert "--domain" in said
 
 

@@ -461,11 +461,11 @@ def _qos(policies: list[Any]) -> Any:
 def _refused(domain: int, network: Network) -> str:
     if network.config:
         return (
-            f"the library does not take CYCLONEDDS_URI's configuration for DDS domain {domain}: "
-            "unset it, or mend what it names"
+            "Cyclone DDS refuses the configuration in the environment variable CYCLONEDDS_URI for "
+            f"DDS domain {domain}: correct the configuration, or unset the variable"
         )
     return (
-        f"no participant can be made in DDS domain {domain} on {network}: either all "
-        f"{MOST_PARTICIPANTS + 1} places of this machine are taken (end some programs, or choose "
-        "another --domain), or its ports are another program's"
+        f"tftool cannot create a participant in DDS domain {domain} on {network}: all "
+        f"{MOST_PARTICIPANTS + 1} participant numbers of this machine are in use (end some "
+        "programs, or choose another --domain), or another program uses the domain's ports"
     )
