@@ -1,4 +1,4 @@
-"""Actions of ROS's launch: settings, groups, included files, functions, timers, log, events."""
+"""Actions of ROS's launch: settings, groups, included files, functions, timers, logs and events."""
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -87,7 +87,7 @@ class UnsetLaunchConfiguration(Action):
 
 
 class ResetLaunchConfigurations(Action):
-    """Action that removes all launch arguments and sets the given ones, if any."""
+    """Action that removes all launch arguments, then sets the arguments that it was given."""
 
     def __init__(
         self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any
@@ -96,7 +96,7 @@ class ResetLaunchConfigurations(Action):
         self.kept = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Remove all launch arguments, and set the given ones."""
+        """Remove all launch arguments, then set the arguments that this action was given."""
         given = {perform(context, key): perform(context, one) for key, one in self.kept.items()}
         context.launch_configurations = given
 
@@ -114,7 +114,7 @@ class SetEnvironmentVariable(Action):
 
 
 class SetLogFolder(Action):
-    """Action that sets ROS_LOG_DIR for processes; tftool's own nodes write no log files."""
+    """Action that sets ROS_LOG_DIR, the folder in which processes write log files."""
 
     def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -287,7 +287,7 @@ class IncludeLaunchDescription(Action):
         self.launch_arguments = list(launch_arguments or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return actions that set the included file's arguments, followed by the file's actions."""
+        """Return actions that set the included file's arguments, and then the actions of the file."""
         description, path = self.source.load(context)
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         if path is None:
@@ -360,7 +360,7 @@ class RegisterEventHandler(Action):
         self.event_handler = event_handler
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """Return the handler's class and its actions; none if a function computes the actions."""
+        """Return the handler's class and actions; [] for a function that computes the actions."""
         return [(type(self.event_handler).__name__, getattr(self.event_handler, "entities", []))]
 
     def execute(self, context: LaunchContext) -> Any:

@@ -1,4 +1,4 @@
-"""Launch files on the command line: search by name, arguments, and the list of arguments."""
+"""Functions of `ros2 launch`: find a launch file, parse its arguments, list declared arguments."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -54,10 +54,15 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
 def refuse_unknown(
     path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
 ) -> None:
-    """Raise an error for a given argument that a launch file does not use.
+    """Raise an error if a command line sets an argument that the launch file does not use.
 
-    A name that occurs in the file's text counts as used: a LaunchConfiguration or a function may
-    read it.
+    A name that occurs in the file's text counts as used, because a LaunchConfiguration or a
+    function may read the argument.
+
+    Args:
+        path: Path of the launch file.
+        given: Arguments on the command line, from name to value.
+        known: Arguments that the launch file declares.
 
     Raises:
         UsageError: If an argument is not used; the text names the most similar declared argument.
@@ -80,7 +85,7 @@ def _mentions(path: Path, name: str) -> bool:
 
 
 def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
-    """Return the output of `ros2 launch --show-args` for some arguments."""
+    """Return the text that `ros2 launch --show-args` prints for the declared arguments."""
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     if not arguments:
         lines += ["", "  No arguments."]
@@ -97,7 +102,14 @@ def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
 
 
 def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
-    """Find the launch file in `FILE …` or `PACKAGE FILE …`; return its path and the other words.
+    """Find the launch file that the command line of `ros2 launch` names.
+
+    Args:
+        workspace: Workspace in which packages are searched.
+        words: Words of the command line, which begin with `FILE` or `PACKAGE FILE`.
+
+    Returns:
+        Path of the launch file, and the words after it.
 
     Raises:
         UsageError: If there is no such launch file; the text lists the package's launch files.
@@ -124,10 +136,10 @@ def _listed(folder: Path) -> str:
 
 
 def arguments_of(words: Sequence[str]) -> dict[str, str]:
-    """Return the words of the form `name:=value` as a mapping from name to value.
+    """Return the launch arguments on a command line as a mapping from name to value.
 
     Raises:
-        UsageError: If a word has another form.
+        UsageError: If a word does not have the form `name:=value`.
     """
     given = {}
     for word in words:
@@ -139,7 +151,7 @@ def arguments_of(words: Sequence[str]) -> dict[str, str]:
 
 
 def show_arguments(path: Path, workspace: Workspace) -> str:
-    """Return the list of a launch file's arguments, as `ros2 launch --show-args` prints it.
+    """Return the text that `ros2 launch --show-args` prints for a launch file.
 
     Raises:
         InputError: If the file cannot be read.

@@ -1,4 +1,4 @@
-"""System commands of launch files, run as processes beside the nodes."""
+"""System commands in launch files, run as child processes of tftool."""
 
 import asyncio
 import contextlib
@@ -51,7 +51,7 @@ Streams = Sequence[tuple[asyncio.StreamReader, bool]]
 
 
 async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
-    """Start a command in its own process group; return the process and its output streams.
+    """Start a command in a new process group; return the process and its output streams.
 
     Raises:
         UsageError: If the command cannot be run.
@@ -102,9 +102,9 @@ async def _chunk_of(stream: asyncio.StreamReader) -> bytes:
 
 
 async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
-    """Yield the lines of a command's output stream, of any length up to 1 MiB.
+    """Yield the lines of a command's output; a line may have up to 1 MiB.
 
-    asyncio's own reader raises for a line longer than 64 KiB.
+    The stream's own method for lines raises an error at 64 KiB.
     """
     rest = b""
     while chunk := await _chunk_of(stream):
@@ -123,7 +123,7 @@ PATIENCE = 5.0
 
 
 def interrupt(process: asyncio.subprocess.Process) -> None:
-    """End a process and its children by SIGINT; if they go on, by SIGTERM, then SIGKILL."""
+    """Send SIGINT to a process and its children; if they do not end, SIGTERM and later SIGKILL."""
     if sys.platform == "win32":
         process.terminate()
         return
@@ -145,13 +145,14 @@ class CommandRunner:
     """Runner of the system commands of one launch."""
 
     def __init__(self, node: Node, warn: Callable[[str], object], *, waits: bool) -> None:
-        """Create a runner for the launch `node`.
+        """Create a runner for the system commands of the launch `node`.
 
         Args:
             node: The launch, whose clock the commands use.
-            warn: Function called with warnings.
-            waits: Whether simulated time waits for the end of each command, at most for
-                `LONGEST_HOLD` seconds; else it passes no faster than real time.
+            warn: Function called with the text of each warning.
+            waits: Whether simulated time stops until a command ends, at most for `LONGEST_HOLD`
+                real seconds. If false, simulated time advances no faster than real time during a
+                command.
         """
         self._node = node
         self._warn = warn
@@ -161,7 +162,7 @@ class CommandRunner:
         self._is_ending = False
 
     def end(self) -> None:
-        """Let simulated time wait no longer, because a person ends the launch."""
+        """Let simulated time continue at once, because the user has interrupted the launch."""
         self._is_ending = True
         if self._limit is not None:
             finish(self._limit)
@@ -169,7 +170,7 @@ class CommandRunner:
     async def run(
         self, command: SystemCommand, label: str, on_start: OnStart, on_line: OnLine
     ) -> int:
-        """Run a command to its end; return its exit status.
+        """Run a command until it ends; return its exit status.
 
         Args:
             command: Command to run.
@@ -193,7 +194,10 @@ class CommandRunner:
     async def _run_held(
         self, command: SystemCommand, label: str, on_start: OnStart, on_line: OnLine
     ) -> "asyncio.Task[int]":
-        """Start a command, and wait while simulated time waits; return the command's task."""
+        """Start a command while simulated time is stopped; return the task that runs the command.
+
+        Return when the command has ended or `LONGEST_HOLD` real seconds have passed.
+        """
         clock = self._node.clock
         early: list[tuple[str, bool]] = []
         started: list[asyncio.subprocess.Process] = []

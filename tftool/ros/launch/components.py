@@ -1,9 +1,9 @@
-"""Components of launch_ros: C++ nodes that are loaded into a container's process.
+"""Components of launch_ros: C++ nodes that are loaded into the process of a container.
 
-tftool cannot run components itself. If the session has a container, in this process or in another,
-the launch requests the container to load the components. If this launch starts the container, the
-request waits until the container is ready. Without a container, the launch logs a warning and goes
-on without the components.
+tftool cannot run components. If a container runs in this session, even in another process, the
+launch asks the container to load the components. If this launch starts the container, the request
+waits until the container is ready. Without a container, the launch logs a warning and continues
+without the components.
 """
 
 from collections.abc import Iterable
@@ -58,7 +58,10 @@ class ComposableNode:
 def get_composable_node_load_request(
     composable_node_description: ComposableNode, context: LaunchContext
 ) -> Any:
-    """Return the request that loads a component; None if its condition is false."""
+    """Return the service request that asks a container to load a component.
+
+    Return None if the component's condition is false.
+    """
     node = composable_node_description
     condition = node.condition()
     if condition is not None and not condition.evaluate(context):
@@ -96,7 +99,7 @@ class LoadComposableNodes(Action):
         self.target_container = target_container
 
     def execute(self, context: LaunchContext) -> Any:
-        """Request the container to load each component, one after the other."""
+        """Send a request to the container for each component, one after the other."""
         made = (
             get_composable_node_load_request(one, context)
             for one in self.composable_node_descriptions
@@ -144,7 +147,7 @@ class ComposableNodeContainer(Node):
         self.composable_node_descriptions = list(composable_node_descriptions or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the container if it is a Python program; return the action that loads components.
+        """Start the container if it is a Python program; return an action that loads its components.
 
         Return None if the container has no components.
         """
@@ -162,7 +165,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Return the reason why tftool cannot start the container; "" if tftool can start it."""
+        """Return the reason why tftool cannot start the container; "" if there is none."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

@@ -13,10 +13,7 @@ class InvalidConditionExpressionError(UsageError):
 
 
 class Condition:
-    """Condition of an action, which a predicate function computes.
-
-    A condition without a predicate is always false.
-    """
+    """Condition of an action, computed by a predicate function; false without a predicate."""
 
     def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
@@ -31,10 +28,10 @@ class Condition:
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bool:
-    """Return True for an expression with the text "true" or "1", False for "false" or "0".
+    """Return True if the expression's text is "true" or "1", and False if it is "false" or "0".
 
     Raises:
-        InvalidConditionExpressionError: If the text is none of these four.
+        InvalidConditionExpressionError: If the expression has another text.
     """
     text = perform(context, expression)
     try:

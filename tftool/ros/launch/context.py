@@ -21,9 +21,9 @@ class LaunchContext:
     Attributes:
         launch_configurations: Values of the launch arguments, by name. `scope.py` also stores
             its settings for the scope's nodes here.
-        environment: Environment variables for processes, a copy of those of tftool.
+        environment: Environment variables for processes, at first a copy of tftool's variables.
         environments: Environments saved by PushEnvironment, the newest last.
-        files: Launch files that include each other; the current one is last.
+        files: Launch files that include each other; the current file is last.
         node_names: Number of nodes that were started, by full name.
         load: Function that reads an included launch file; None outside of a launch.
         launch: Launch that executes the actions; None outside of a launch.
@@ -57,22 +57,22 @@ class LaunchContext:
 
     @property
     def workspace(self) -> Workspace:
-        """Workspace of this launch, else the current workspace; packages are searched in it."""
+        """Workspace in which the launch searches packages; by default the current workspace."""
         if self._workspace is None:
             self._workspace = current()
         return self._workspace
 
     @property
     def locals(self) -> SimpleNamespace:
-        """Local values as attributes: `event` in an event handler, and those of `extend_locals`."""
+        """Local values of the launch as attributes, such as `event` in an event handler."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
-        """Add local values, by name."""
+        """Add or replace local values, given by name in `extensions`."""
         self._locals.update(extensions)
 
     def push_locals(self) -> None:
-        """Save the local values; `pop_locals` restores them."""
+        """Save the local values, so that `pop_locals` can restore them."""
         self._outer_locals.append(dict(self._locals))
 
     def pop_locals(self) -> None:
@@ -96,7 +96,7 @@ class LaunchContext:
 
         Raises:
             UsageError: If no launch is running.
-            ValueError:  If the handler was not registered.
+            ValueError: If the handler was not registered.
         """
         self._launched().handlers.remove(event_handler)
 
@@ -109,18 +109,18 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """Return the number of a name; each new name gets the next number, from 1."""
+        """Return the number of a name, for AnonName; new names are numbered from 1."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:
-        """Return the text of a substitution; called by functions of a launch file."""
+        """Return the text of a substitution; Python functions in launch files call this method."""
         return str(substitution.perform(self))
 
     def enter_file(self, path: Path) -> None:
         """Make a launch file the current file.
 
         Raises:
-            UsageError: If the chain of launch files that include each other is too long.
+            UsageError: If too many launch files include each other.
         """
         if len(self.files) >= DEEPEST:
             raise UsageError(
@@ -129,9 +129,9 @@ class LaunchContext:
         self.files = (*self.files, path.absolute())
 
     def kept(self) -> tuple[Any, ...]:
-        """Return a copy of the scope's state: arguments, environment, current file, local values.
+        """Return a copy of the arguments, environment variables, current file and local values.
 
-        `back_to` restores such a copy.
+        The method `back_to` restores the copy.
         """
         return (
             dict(self.launch_configurations),
@@ -141,16 +141,16 @@ class LaunchContext:
         )
 
     def push(self) -> None:
-        """Open a scope: save arguments, environment variables and the current file."""
+        """Open a scope: save arguments, environment variables, current file and local values."""
         self._kept.append(self.kept())
 
     def pop(self) -> None:
-        """Close the scope opened last, and restore what was saved."""
+        """Close the innermost scope, and restore the values that `push` saved for this scope."""
         self._restore(self._kept.pop())
 
     @contextmanager
     def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
-        """Restore the state that `kept` returned, until the end of the `with` block."""
+        """Restore a state that the method `kept` returned, until the end of the `with` block."""
         now = self.kept()
         self._restore(kept)
         try:

@@ -1,4 +1,4 @@
-"""Launch descriptions (lists of actions), their sources, and the base class of actions."""
+"""Launch descriptions (lists of actions), sources of descriptions, and the base class of actions."""
 
 import sys
 from collections.abc import Iterable, Sequence
@@ -17,7 +17,7 @@ SomeEntitiesType = Any
 
 
 class LaunchDescriptionEntity:
-    """Base of actions and launch descriptions."""
+    """Base class of actions and launch descriptions."""
 
     def visit(self, context: LaunchContext) -> Any:
         """Execute this action or description; return the actions to execute next."""
@@ -28,15 +28,15 @@ class LaunchDescriptionEntity:
         raise NotImplementedError
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Return the actions inside this one, to search for declared arguments."""
+        """Return the actions inside this action or description; searched for declared arguments."""
         return []
 
     def describe_conditional_sub_entities(self) -> Sequence[tuple[str, Sequence[Any]]]:
-        """Return (condition, actions) for the actions that depend on a condition."""
+        """Return (condition as text, actions) for the inner actions that depend on a condition."""
         return []
 
     def get_asyncio_future(self) -> Any:
-        """Return a future that is done when the action ends; None if it ends at once."""
+        """Return a future that is done when the action ends; None if the action ends at once."""
         return None
 
 
@@ -45,7 +45,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     Attributes:
         entities: The actions.
-        deprecated_reason: Reason why the description is deprecated; None if it is not.
+        deprecated_reason: Reason why the description is deprecated; None if not deprecated.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether a reason for deprecation is set."""
+        """Whether the description is deprecated, that is, has a `deprecated_reason`."""
         return self.deprecated_reason is not None
 
     def describe(self) -> str:
@@ -82,14 +82,14 @@ class LaunchDescription(LaunchDescriptionEntity):
 
 
 class LaunchDescriptionSource:
-    """Source of a launch description: the description itself, or the path of a launch file."""
+    """Source of a launch description: the object itself, or the path of a launch file."""
 
     def __init__(self, launch_description: Any = None, location: Any = "") -> None:
         self.description = launch_description
         self.location = location
 
     def load(self, context: LaunchContext) -> tuple[LaunchDescription, Path | None]:
-        """Return the launch description and the path of its file, None if it has no file."""
+        """Return the launch description and the path of its file; the path may be None."""
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))
@@ -110,16 +110,16 @@ AnyLaunchDescriptionSource = FrontendLaunchDescriptionSource = PythonLaunchDescr
 
 
 class Action(LaunchDescriptionEntity):
-    """Action of a launch: `execute` does the work, and returns further actions or None.
+    """Base class of a launch's actions; `execute` does the work and may return further actions.
 
-    An action that takes long, such as a process, only starts in `execute`; the launch
-    (`context.launch`) then runs it.
+    For an action that takes long, such as a process, `execute` only starts the work; the launch
+    (`context.launch`) then continues the work.
 
     Attributes:
         condition: Condition for executing the action; None to execute it always.
         where: "file:line" of the action in the launch file.
-        takes_time: Whether the action may end after `execute` returns; the launch then reports
-            the end.
+        takes_time: Whether the action may end after `execute` returns. The launch then emits the
+            event of the action's end.
         is_begun: Whether the action was executed.
         is_awaited: Whether a handler for the action's end existed when the action began.
     """

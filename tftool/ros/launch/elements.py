@@ -1,4 +1,4 @@
-"""Parser of XML and YAML launch files, which turns both into the same elements."""
+"""Parser of XML and YAML launch files, with the same element class for both formats."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -19,13 +19,13 @@ DEEPEST = 100
 
 @dataclass(slots=True)
 class Element:
-    """Element of a launch file: a tag of XML, or a key of YAML.
+    """Element of a launch file: in XML a tag, in YAML a key.
 
     Attributes:
         tag: Tag or key.
-        values: Attributes and their values.
-        children: Child elements.
         where: Position in the file, "file:line".
+        values: Attributes, from name to value.
+        children: Child elements.
         asked: Names of the attributes that the parser has read; `finish` refuses all others.
         known: Tags of the child elements that the parser has read; `finish` refuses all others.
     """
@@ -38,7 +38,7 @@ class Element:
     known: set[str] = field(default_factory=set)
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Return an attribute's value, or a default."""
+        """Return an attribute's value; return `default` if the element lacks the attribute."""
         self.asked.add(name)
         return self.values.get(name, default)
 
@@ -66,10 +66,11 @@ class Element:
         return self.children
 
     def finish(self) -> None:
-        """Raise an error if the parser has not read an attribute or child element.
+        """Raise an error if the parser has not read an attribute or child element of this element.
 
         Raises:
-            InputError: If there is an unread part; the text names the most similar allowed word.
+            InputError: If there is one; the text names the most similar name that the parser has
+                read.
         """
         for name in self.values:
             if name not in self.asked:
@@ -80,16 +81,16 @@ class Element:
                 raise child.refusal(what, child.tag, self.known)
 
     def too_deep(self) -> InputError:
-        """Return the error for a file with too many levels of nesting."""
+        """Return the error for elements that are nested too deep."""
         return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
 
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
-        """Return an error with this element's position in the file.
+        """Return an error that gives this element's position in the file.
 
         Args:
-            what: The error as a sentence.
+            what: Sentence that describes the error.
             word: The wrong word.
-            known: Allowed words; the one most similar to `word` is added as "did you mean".
+            known: Allowed words; the word most similar to `word` is added as "did you mean".
         """
         hint = did_you_mean(word, known)
         return InputError(f"{self.where}: {what}{hint}")
@@ -99,11 +100,13 @@ class Element:
 
 
 def read(path: Path, data: bytes | None = None) -> list[Element]:
-    """Read the elements of a launch file: in XML if it begins with a tag or is named so, else YAML.
+    """Read the elements of a launch file in XML or YAML.
+
+    A file is XML if its text begins with a tag or its name ends in ".xml"; otherwise YAML.
 
     Args:
         path: Path of the file.
-        data: Content of the file, if it is read already.
+        data: Content of the file; None to read the file here.
 
     Raises:
         InputError: If the file cannot be read or is not a launch file; the text gives the line.
@@ -118,15 +121,15 @@ def read(path: Path, data: bytes | None = None) -> list[Element]:
 
 
 def begins_as_xml(data: bytes) -> bool:
-    """Return whether a file's bytes begin with a tag."""
+    """Return whether the content of a file begins with an XML tag."""
     return data.lstrip().startswith(b"<")
 
 
 def read_xml(data: bytes, path: Path) -> list[Element]:
-    """Return the elements of an XML launch file's bytes.
+    """Return the elements in the content `data` of an XML launch file.
 
     Raises:
-        InputError: If the bytes are not a launch file; the text gives the line.
+        InputError: If the content is not a launch file; the text gives the line.
     """
     parser = expat.ParserCreate()
     stack: list[Element] = [Element("", str(path))]
@@ -159,10 +162,10 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
 
 
 def read_yaml(data: bytes, path: Path) -> list[Element]:
-    """Return the elements of a YAML launch file's bytes.
+    """Return the elements in the content `data` of a YAML launch file.
 
     Raises:
-        InputError: If the bytes are not a YAML launch file; the text gives the line.
+        InputError: If the content is not a launch file; the text gives the line.
     """
     try:
         root = yaml_guard.compose(data.decode("utf-8"))
@@ -182,13 +185,16 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
 
 
 class _Yaml:
-    """Converter from YAML nodes to elements of a launch file."""
+    """Converter from YAML nodes (parsed YAML) to elements of a launch file."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
     def children(self, node: Any, parent: Element, depth: int) -> None:
-        """Convert a list of mappings with one key each to child elements of `parent`."""
+        """Convert a YAML list of actions to child elements of `parent`.
+
+        Each item of the list is a mapping with one key, the tag.
+        """
         if not isinstance(node, yaml.SequenceNode):
             where = self.where(node)
             what = f"'{parent.tag}' must be a list of actions"
@@ -201,7 +207,7 @@ class _Yaml:
             parent.children.append(self.element(self.word(key), value, depth))
 
     def element(self, tag: str, node: Any, depth: int) -> Element:
-        """Convert a mapping of attributes, or a list of actions, to one element."""
+        """Convert a YAML mapping of attributes, or a YAML list of actions, to one element."""
         element = Element(tag, self.where(node))
         # An alias may occur inside its own anchor, without end.
         if depth > DEEPEST:
@@ -227,20 +233,20 @@ class _Yaml:
         return element
 
     def word(self, node: Any) -> str:
-        """Return the text of a mapping's key.
+        """Return a YAML key as a string.
 
         Raises:
-            InputError: If the key is not a single word.
+            InputError: If the key is a list or a mapping.
         """
         if not isinstance(node, yaml.ScalarNode):
             raise InputError(f"{self.where(node)}: a key must be one word, not a list or a mapping")
         return str(node.value)
 
     def value(self, node: Any) -> Any:
-        """Return the Python value of an attribute.
+        """Convert the YAML node of an attribute's value to a Python value.
 
         Raises:
-            InputError: If the value has a type that is not YAML's own.
+            InputError: If the node has a tag for a type outside standard YAML, such as "!color".
         """
         try:
             return yaml_guard.construct(node)

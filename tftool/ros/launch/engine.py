@@ -1,4 +1,4 @@
-"""Execution of a launch description, with all its nodes in one process and one event loop."""
+"""Execution of a launch description; all its nodes run in one process and one event loop."""
 
 import asyncio
 import os
@@ -54,10 +54,10 @@ class Launch(Node):
     """Node that executes a launch description, starts its programs and watches them.
 
     Attributes:
-        failed: Labels of the programs whose exit status was not 0.
-        ended: Event that is set when everything the launch started has ended.
+        failed: Names in log lines of the programs whose exit status was not 0.
+        ended: Event that is set when everything that the launch started has ended.
         handlers: Registered event handlers.
-        labels: Label of each node in log lines, by the node's name.
+        labels: Names in log lines of tftool's built-in nodes, by node name.
     """
 
     is_shown: ClassVar[bool] = False
@@ -80,19 +80,19 @@ class Launch(Node):
         Args:
             world: World in which the nodes run.
             what: Path of a launch file, or a launch description.
-            workspace: Workspace in which packages are searched; None for the current folder's.
+            workspace: Workspace in which packages are searched; None for the current workspace.
             arguments: Values of the arguments that the launch file declares.
-            say: Function called with the lines that the launch logs.
-            context: State of the launch; None for a new one.
+            say: Function called with level, program and text of each log line of the launch.
+            context: State of the launch; None for a new state.
             name: Name of the launch's own node.
-            contained: Whether an error in the description ends only the launch, not the world.
-                For such a launch, simulated time advances with real time while a system command
-                runs; otherwise a system command takes no simulated time, unless it is a long one.
-            keep_alive: Whether the launch goes on after its last process has ended.
+            contained: Whether a user's program started this launch. An error in the description
+                then ends only the launch, not the world. Simulated time then advances with real
+                time during a system command; otherwise simulated time stops during a short command.
+            keep_alive: Whether the launch continues after its last process has ended.
 
         Raises:
             InputError: If the file cannot be read.
-            UsageError: If an argument is given that the file does not declare.
+            UsageError: If `arguments` has a name that the file does not declare.
         """
         self.context = context or LaunchContext(workspace)
         self.context.load, self.context.launch = load_file, self
@@ -181,7 +181,7 @@ class Launch(Node):
             raise InputError(f"{where}: {error_sentence(error)}") from error
 
     def emit(self, event: Event) -> None:
-        """Pass an event to the handlers when the current action is finished."""
+        """Pass an event to the event handlers after the current action."""
         self._events.add(event)
 
     def _tell(self, event: Event) -> None:
@@ -208,7 +208,11 @@ class Launch(Node):
             self._end()
 
     def _signal(self, label: str, number: int) -> None:
-        """Send a signal to a process; a program inside tftool's process ends or ignores it."""
+        """Send a signal to a process.
+
+        A program inside tftool's process ends at SIGINT, SIGTERM and SIGABRT, and ignores other
+        signals.
+        """
         pid = (self._actions[label].process_details or {}).get("pid")
         if pid is not None and number != signal.SIGINT:
             os.kill(pid, number)
@@ -219,11 +223,17 @@ class Launch(Node):
             self.warn(f"{name} for {label} has no effect: it is no process of its own here")
 
     def hear(self, topic: str, kind: type[Any], callback: Callable[[Any], object]) -> None:
-        """Call `callback` with every message of a topic; an exception in it ends the launch."""
+        """Call `callback` with every message on a topic; end the launch if `callback` raises."""
         self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
 
     def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
-        """Store a line of a process's output for its action, and emit a `ProcessIO` event."""
+        """Handle a line of output: store it if the action caches output, and emit a ProcessIO event.
+
+        Args:
+            label: Name of the process in log lines.
+            line: The line.
+            to_stdout: Whether the line went to standard output, not to standard error.
+        """
         action: Any = self._actions.get(label)
         if getattr(action, "cached_output", False):
             action.output_lines.append((to_stdout, f"{line}\n"))
@@ -246,12 +256,12 @@ class Launch(Node):
         self._wrote(label, line, to_stdout=is_stdout)
 
     def _printed(self, label: str, text: str, is_stdout: bool) -> None:
-        """Handle text that a program has printed; called in the program's thread."""
+        """Handle the lines that a program has printed; called in the program's thread."""
         for line in text.splitlines():
             program.current().ask(partial(self._wrote, label, line, to_stdout=is_stdout))
 
     def _of(self, label: str) -> dict[str, Any]:
-        """Return the keyword arguments for a `RunningProcessEvent` about a process."""
+        """Return the keyword arguments of a `RunningProcessEvent` for the process named `label`."""
         action = self._actions.get(label)
         details = getattr(action, "process_details", None) or {"name": label}
         return {"action": action, **details}
@@ -268,12 +278,12 @@ class Launch(Node):
         return any(handler.matches(event) for handler in self.handlers)
 
     def complete(self, action: Any) -> None:
-        """Emit the event that an action is complete, if a handler waits for it."""
+        """Emit the event that an action has ended, if a handler waits for this event."""
         if action.is_awaited:
             self.emit(ExecutionComplete(action=action))
 
     def interrupt(self) -> None:
-        """Begin to shut the launch down, as the first Ctrl-C does."""
+        """Begin to shut the launch down, as the first Ctrl-C in `ros2 launch` does."""
         self._closing = True
         self._say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
         self._commands.end()
@@ -293,13 +303,15 @@ class Launch(Node):
         self._say("WARNING", "launch", text)
 
     def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
-        """Call a function when a service exists, or when no node of this launch can offer it.
+        """Wait for a service, then call a function.
+
+        The wait ends without the service if this launch runs no program named `node_name`.
 
         Args:
             service: Name of the service.
-            node_name: Full name of the node that offers the service. The call waits for the
-                service only while this launch runs a program of that name.
-            then: Function called with whether the service exists, in the present scope.
+            node_name: Full name of the node that offers the service.
+            then: Function called with whether the service exists. During the call, the launch has
+                the arguments and environment of the present scope.
         """
 
         def is_settled() -> bool:
@@ -330,12 +342,13 @@ class Launch(Node):
     def ask(
         self, service: str, requests: Iterable[Any], done: Callable[[Any, Any], object]
     ) -> None:
-        """Send requests to a service one after the other.
+        """Send requests to a service, each after the response to the request before.
 
         Args:
             service: Name of the service.
             requests: Request messages.
-            done: Function called with each request, and its response or the error of the call.
+            done: Function called after each request, with the request and either the response or
+                the error of the call.
         """
 
         async def work() -> None:
@@ -349,10 +362,10 @@ class Launch(Node):
         self._start_task(work(), self._watches)
 
     def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
-        """Execute the actions of a timer after `period` seconds, in the present scope.
+        """Execute the actions of a timer after a delay, with the arguments of the present scope.
 
         Args:
-            action: The timer action, which is complete after its actions.
+            action: The timer, an action that ends after its inner actions.
             period: Delay in seconds.
             actions: Actions to execute.
         """
@@ -370,9 +383,9 @@ class Launch(Node):
         """Start a program of a package, or a file, as a node of the world.
 
         Args:
-            action: Action that starts the program, for events.
+            action: Action that starts the program; events name this action.
             executable: Program to start, with its arguments.
-            respawn: Seconds after which an ended program is started again; None for never.
+            respawn: Seconds between the end and a new start of the program; None to start it once.
         """
         label = self._label(executable.label)
         self._actions[label] = action
@@ -408,16 +421,16 @@ class Launch(Node):
     def start_process(
         self, action: Any, name: str, command: SystemCommand, respawn: float | None
     ) -> None:
-        """Start a system command.
+        """Start a system command as a child process.
 
-        Simulated time waits for the command's end, at most for `LONGEST_HOLD` seconds, unless the
+        Simulated time stops until the command ends, at most for `LONGEST_HOLD` seconds, unless the
         launch is `contained`.
 
         Args:
-            action: Action that starts the command, for events.
+            action: Action that starts the command; events name this action.
             name: Name of the command in log lines, to which a number is added.
             command: Command to start.
-            respawn: Seconds until a restart; see `start_node`.
+            respawn: Seconds between the end and a new start; see `start_node`.
         """
         label = self._label(name)
         self._actions[label] = action
@@ -430,15 +443,15 @@ class Launch(Node):
         self._start(label, start, respawn)
 
     def start_ros2(self, action: Any, words: Sequence[str], respawn: float | None) -> None:
-        """Run a command `ros2 WORDS` as a program of the world.
+        """Run a command `ros2 WORDS` as a program of the world, in tftool's process.
 
         Args:
-            action: Action that runs the command, for events.
-            words: Words after `ros2`.
-            respawn: Seconds until a restart; see `start_node`.
+            action: Action that runs the command; events name this action.
+            words: Words after `ros2` on the command line.
+            respawn: Seconds between the end and a new start; see `start_node`.
 
         Raises:
-            UsageError: If tftool does not know this command of ROS 2.
+            UsageError: If tftool does not have this command of ROS 2.
         """
         show: list[Callable[[str], object]] = []
         body = ros2_program.body(words, self.context.workspace, lambda line: show[0](line))
@@ -452,13 +465,13 @@ class Launch(Node):
         body: Callable[[], None],
         respawn: float | None = None,
     ) -> str:
-        """Run a Python function as a program of the world; return the program's label.
+        """Run a Python function as a program of the world; return the program's name in log lines.
 
         Args:
-            action: Action that starts the program, for events.
-            argv: Command line of the program; the first word gives its name in log lines.
-            body: The function.
-            respawn: Seconds until a restart; see `start_node`.
+            action: Action that starts the program; events name this action.
+            argv: Command line of the program; its first word becomes the name in log lines.
+            body: Function to run.
+            respawn: Seconds between the end and a new start; see `start_node`.
         """
         label = self._label(Path(argv[0]).name)
         self._actions[label] = action
@@ -554,7 +567,7 @@ class Launch(Node):
         return True
 
     def _guarded(self, work: Callable[[], object]) -> None:
-        """Run a function; an exception in it is logged and ends the launch."""
+        """Call a function; if it raises an exception, log the exception and end the launch."""
         try:
             work()
         except Exception as error:
@@ -588,7 +601,7 @@ class Launch(Node):
         return self.world.free_name(f"{name}-{self._count}")
 
     def label_of(self, record: LogRecord) -> str:
-        """Return the label (name in log lines) of the program that wrote a log record."""
+        """Return the name, in the launch's log lines, of the program that wrote a log record."""
         if record.program:
             return record.program
         for node in self.world.nodes:

@@ -10,7 +10,7 @@ from tftool.base.errors import UsageError
 
 
 class Event:
-    """Base of the events that handlers of a launch react to."""
+    """Base class of the events that event handlers of a launch react to."""
 
     name = "launch.Event"
 
@@ -26,7 +26,7 @@ class Shutdown(Event):
 
 
 class RunningProcessEvent(Event):
-    """Base of events about a process.
+    """Base class of events about a process.
 
     Attributes:
         action: Action that started the process.
@@ -94,7 +94,7 @@ class ProcessIO(RunningProcessEvent):
 
 
 class ShutdownProcess(Event):
-    """Event that requests the end of the processes that its matcher selects."""
+    """Request to end the processes that a matcher function selects."""
 
     name = "launch.events.process.ShutdownProcess"
 
@@ -103,7 +103,7 @@ class ShutdownProcess(Event):
 
 
 class SignalProcess(ShutdownProcess):
-    """Event that requests to send a signal to the processes that its matcher selects.
+    """Request to send a signal to the processes that a matcher function selects.
 
     Attributes:
         signal: The signal.
@@ -143,7 +143,7 @@ def _entities(given: Any, event: Event, context: Any) -> Any:
 
 
 def _listed(given: Any) -> list[Any]:
-    """Return the actions of an event handler as a list; [] for a function that returns actions."""
+    """Return an event handler's actions as a list; [] for a function that computes the actions."""
     if given is None or callable(given):
         return []
     return list(given) if isinstance(given, Iterable) else [given]
@@ -153,7 +153,7 @@ class EventHandler:
     """Handler that executes actions when a matching event occurs.
 
     Attributes:
-        entities: Actions to execute; empty if a function returns them at the event.
+        entities: Actions to execute; empty if a function computes the actions for each event.
     """
 
     def __init__(
@@ -189,12 +189,12 @@ def _targets(action: Any, target: Any) -> bool:
 
 
 class TargetHandler(EventHandler):
-    """Base of handlers for one class of events, about one action or about every action.
+    """Base class of handlers for one class of events, about one action or about all actions.
 
     Attributes:
         event: Class of the events.
         target: Action that the event must be about, or a function that returns whether it
-            accepts an action; None for every action.
+            accepts an action; None for all actions.
     """
 
     event: type[Any]
@@ -260,7 +260,7 @@ class OnProcessIO(TargetHandler):
 
 
 class OnExecutionComplete(TargetHandler):
-    """Handler of an action's completion; for a process, its end without a further restart."""
+    """Handler of the event that an action has ended, and for a process, will not be restarted."""
 
     event = ExecutionComplete
 
@@ -280,28 +280,28 @@ MOST_EVENTS = 1000
 
 
 class EventQueue:
-    """Queue that holds events back while an action is executed.
+    """Queue that delays events until the current action has been executed.
 
-    So a handler may come later in the launch file than the action whose events it handles.
+    A handler can therefore follow, in the launch file, the action whose events it handles.
     """
 
     def __init__(self, tell: Callable[[Event], object]) -> None:
-        """Create a queue; `tell` passes an event to the matching handlers."""
+        """Create a queue; `tell` is a function that passes an event to the matching handlers."""
         self._tell = tell
         self._waiting: deque[Event] = deque()
         self._is_held = False
 
     def add(self, event: Event) -> None:
-        """Add an event, which is handled at once unless an action is being executed."""
+        """Add an event; handle the event at once unless an action is being executed."""
         with self.held():
             self._waiting.append(event)
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Queue events inside this block, and handle them at its end.
+        """Delay events until the end of the `with` block, then handle all delayed events.
 
         Raises:
-            UsageError: If the events cause further events without end.
+            UsageError: If the handlers' actions emit further events without end.
         """
         if self._is_held:
             yield

@@ -1,4 +1,4 @@
-"""Functions of launch.frontend: parsing of `$(…)`, and registration of users' own `$(…)`."""
+"""Functions of launch.frontend that parse `$(…)`, and that register users' own substitutions."""
 
 from collections.abc import Callable
 from typing import Any, TypeVar
@@ -15,9 +15,9 @@ def parse_substitution(value: Any) -> list[Any]:
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """Parse a text that contains `$(` into a list of substitutions; return other values as given.
+    """Parse a text that contains `$(` into a list of substitutions; return other values unchanged.
 
-    The texts in a list are parsed one by one.
+    In a list, each text is parsed separately.
     """
     if isinstance(value, list):
         return [parse_if_substitutions(one) for one in value]
@@ -25,7 +25,7 @@ def parse_if_substitutions(value: Any) -> Any:
 
 
 def expose_substitution(name: str) -> Callable[[T], T]:
-    """Register the decorated class or function as the parser of `$(name …)`."""
+    """Return a decorator that registers a class or function as the parser of `$(name …)`."""
 
     def expose(exposed: T) -> T:
         is_method = isinstance(exposed, type) and hasattr(exposed, "parse")

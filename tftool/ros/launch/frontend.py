@@ -1,4 +1,4 @@
-"""Loading of a launch file in Python, XML or YAML as a launch description."""
+"""Loading of launch files in Python, XML or YAML."""
 
 import inspect
 import os
@@ -34,7 +34,7 @@ from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
 
 class Parser:
-    """Parser of launch.frontend for whole launch files in XML and YAML."""
+    """Class `Parser` of launch.frontend, which parses XML and YAML launch files."""
 
     @classmethod
     def load(cls, file: Any) -> tuple[Element, "Parser"]:
@@ -56,7 +56,7 @@ class Parser:
 
 
 def actions_of(elements: Iterable[Element]) -> list[Any]:
-    """Return the actions that elements of a launch file describe.
+    """Convert elements of a launch file to the actions that these elements describe.
 
     Raises:
         InputError: If a tag or attribute is unknown; the text has the line and the nearest name.
@@ -103,9 +103,14 @@ YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
 
 
 def _flag(element: Element, name: str, default: str) -> bool:
-    """Return an attribute as True or False; raise InputError for any other text.
+    """Return the value of a boolean attribute; raise InputError for any other text.
 
-    A substitution, `$(…)`, is not allowed: its value is not known before the launch runs.
+    A substitution, `$(…)`, is such an error: its value is unknown before the launch runs.
+
+    Args:
+        element: Element with the attribute.
+        name: Name of the attribute.
+        default: Text for an element without the attribute.
     """
     text = str(element.get(name, default))
     if (word := text.strip().lower()) in YAML_FLAGS:
@@ -118,9 +123,9 @@ def _flag(element: Element, name: str, default: str) -> bool:
 
 
 def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
-    """Parse the child elements whose tag is in `tags`; return the results of `read`.
+    """Call `read` for each child element whose tag is in `tags`; return the results.
 
-    Raise InputError for an attribute or child element that `read` has not read.
+    Raise InputError if `read` leaves an attribute or child element unread.
     """
     found = []
     for child in element.inside(*tags):
@@ -144,7 +149,7 @@ def _arg(element: Element) -> Any:
 
 
 def _startable(element: Element) -> dict[str, Any]:
-    """Return the arguments for `Startable` from an element of a node or a command."""
+    """Return the keyword arguments of `Startable` for an element that starts a node or command."""
     for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout"):
         element.get(name)
     on_exit = element.get("on_exit")
@@ -215,7 +220,7 @@ def _load_composable_node(element: Element) -> Any:
 
 
 def _words(text: Any, element: Element) -> list[Any]:
-    """Split a command line into words as a shell does; a substitution is never split."""
+    """Split a command line into words as a shell does; do not split the values of substitutions."""
     if text is None:
         return []
     words: list[Any] = [[]]
@@ -354,7 +359,7 @@ _READERS: dict[str, Callable[[Element], Any]] = {
 
 
 def _plain(kind: Any, element: Element) -> Any:
-    """Create an action of the class `kind`, with the element's attributes as its arguments."""
+    """Create an action of the class `kind` from an element whose attributes are its arguments."""
     given: dict[str, Any] = {}
     for one in inspect.signature(kind).parameters.values():
         if one.kind is not one.VAR_KEYWORD and one.name != "condition":
@@ -369,11 +374,11 @@ MAKES = "generate_launch_description"
 
 
 def load_file(path: Path) -> LaunchDescription:
-    """Return the launch description in a launch file.
+    """Read a launch file and return its launch description.
 
     Raises:
-        InputError: If the file cannot be read, is no launch file, or its code raises; the text
-            shows the line.
+        InputError: If the file cannot be read, is not a launch file, or its Python code raises an
+            exception; the text shows the line.
     """
     is_python = path.suffix not in (".xml", ".yaml", ".yml")
     if is_python and path.suffix != ".py":

@@ -1,4 +1,4 @@
-"""Lifecycle nodes in launch files (launch_ros): actions, events and event handlers."""
+"""Actions, events and event handlers of launch_ros for lifecycle nodes."""
 
 import itertools
 from collections.abc import Callable, Iterable
@@ -30,7 +30,7 @@ _TRANSITIONS = {
 
 
 class ChangeState(Event):
-    """Event that requests lifecycle nodes to change their state."""
+    """Request to change the state of the lifecycle nodes that a matcher function selects."""
 
     name = "launch_ros.events.lifecycle.ChangeState"
 
@@ -87,7 +87,7 @@ class OnStateTransition(EventHandler):
 
 
 class LifecycleNode(Node):
-    """Action that starts a lifecycle node, which must be configured and activated to work."""
+    """Action that starts a lifecycle node, and activates it if `autostart` is set."""
 
     def __init__(
         self, *, name: Any, namespace: Any, autostart: bool = False, **kwargs: Any
@@ -96,7 +96,7 @@ class LifecycleNode(Node):
         self.autostart = autostart
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the node, and emit an event for each change of its state."""
+        """Start the node, and emit a StateTransition event for each change of its state."""
         self._perform_substitutions(context)
         context.launch.handlers.append(
             EventHandler(matcher=self._is_meant, entities=lambda event, _: [self._change(event)])
@@ -122,20 +122,25 @@ class LifecycleNode(Node):
 
 
 def change_state(node: str, transition: int) -> ExecuteProcess:
-    """Return a process that requests a transition, as `ros2 service call` does."""
+    """Return an action that requests a transition from a lifecycle node, by `ros2 service call`.
+
+    Args:
+        node: Full name of the node.
+        transition: Number of the transition.
+    """
     request = f"{{transition: {{id: {transition}}}}}"
     words = ["service", "call", f"{node}/change_state", "lifecycle_msgs/srv/ChangeState", request]
     return ExecuteProcess(cmd=["ros2", *words])
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
-    """Return a function that returns whether an action starts the node `node_name`."""
+    """Return a function that tests whether an action starts the node `node_name`."""
     full = make_namespace_absolute(node_name)
     return lambda action: getattr(action, "node_name", None) == full
 
 
 class LifecycleTransition(Action):
-    """Action that runs a series of transitions of lifecycle nodes."""
+    """Action that requests several transitions, one after the other, from lifecycle nodes."""
 
     def __init__(
         self,
@@ -153,7 +158,7 @@ class LifecycleTransition(Action):
             raise ValueError("a LifecycleTransition needs lifecycle_node_names and transitions")
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return actions that run the transitions of each node, each after the one before it."""
+        """Return actions that request each transition when the node has completed the previous one."""
         numbers = [int(perform(context, one)) for one in self.transition_ids]
         for label in self.transition_labels:
             text = perform(context, label)
@@ -180,7 +185,7 @@ _REACHED = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive"}
 
 
 class _After(EventHandler):
-    """Handler that executes actions once, when a node has reached a transition's goal state."""
+    """Handler that executes actions once, after a node has completed a transition."""
 
     def __init__(self, node: str, transition: int, entities: Any) -> None:
         def matches(event: Event) -> bool:

@@ -20,7 +20,7 @@ _FORMATS = {"default": _PLAIN, "default_with_timestamp": "{created:.7f} " + _PLA
 
 
 class _Screen(Handler):
-    """Log handler that writes to the present `sys.stdout`."""
+    """Log handler that writes to the present `sys.stdout`, even if a program replaces it."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write one log record as a line."""
@@ -58,7 +58,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """Folder of log files: the folder that was set, else ROS 2's default folder."""
+        """Folder of log files; by default ROS 2's folder of log files."""
         return self._log_dir or os.path.normpath(get_logging_directory())
 
     @log_dir.setter
@@ -69,7 +69,7 @@ class LaunchConfig:
 
     @property
     def log_handler_factory(self) -> Callable[..., Handler]:
-        """Function that makes a log handler for a file from the file's path."""
+        """Function that takes the path of a log file and returns a log handler."""
         return self._factory
 
     @log_handler_factory.setter
@@ -77,11 +77,11 @@ class LaunchConfig:
         self._factory = factory or FileHandler
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Set the format of lines on the screen: a name such as "default", or "{levelname} …"."""
+        """Set the format of log lines on the screen: "default", or a format such as "{message}"."""
         self._screen.setFormatter(_formatter(screen_format, screen_style))
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Set the format of lines in log files: a name such as "default", or "{levelname} …"."""
+        """Set the format of lines in log files: "default", or a format such as "{message}"."""
         if log_format == "default":
             # Log files have the default format with times; on the screen it has none.
             _formatter(log_format, log_style)
@@ -95,11 +95,11 @@ class LaunchConfig:
         return self._screen
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
-        """Return the path of a log file in the folder of log files."""
+        """Return the path of the file `file_name` in the folder of log files."""
         return os.path.join(self.log_dir, file_name)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> Handler:
-        """Return the log handler that writes to a file; create the handler at the first call."""
+        """Return the log handler that writes to the file; create a handler at the first call."""
         if file_name not in self._files:
             Path(self.log_dir).mkdir(parents=True, exist_ok=True)
             made = self._factory(self.get_log_file_path(file_name), encoding="utf-8")
@@ -109,7 +109,7 @@ class LaunchConfig:
 
 
 def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
-    """Call `set_format` with an environment variable's value, or with "default" if it is unset."""
+    """Call `set_format` with the value of an environment variable, or "default" without one."""
     given = os.environ.get(name) or "default"
     try:
         set_format(given)
@@ -130,7 +130,7 @@ launch_config = LaunchConfig()
 
 
 def get_logger(name: str | None = None) -> logging.Logger:
-    """Return launch's logger with a name, which writes to the screen."""
+    """Return the launch logger named `name`, which writes to the screen."""
     logger = launch_config.manager.getLogger(name or "launch")
     logger.propagate = False
     logger.addHandler(launch_config.get_screen_handler())
@@ -138,5 +138,5 @@ def get_logger(name: str | None = None) -> logging.Logger:
 
 
 def reset() -> None:
-    """Remove all loggers of launch and restore the initial settings."""
+    """Remove all launch loggers, and restore the initial settings."""
     launch_config.reset()

@@ -1,4 +1,4 @@
-"""Substitutions of ROS's launch for truth values: comparisons, and, or, not, if-else."""
+"""Substitutions of ROS's launch that compare texts or combine truth values."""
 
 import math
 from typing import Any, ClassVar
@@ -11,7 +11,7 @@ _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 def _holds(context: LaunchContext, value: Any) -> bool:
-    """Return True for the text "true" or "1", and False for "false" or "0".
+    """Evaluate substitutions: return True for the text "true" or "1", False for "false" or "0".
 
     Raises:
         SubstitutionFailure: If the text is none of these four.
@@ -25,7 +25,8 @@ def _holds(context: LaunchContext, value: Any) -> bool:
 class EqualsSubstitution(Substitution):
     """Substitution with the text 'true' if two texts are equal, else 'false'.
 
-    Numbers are compared by value; 'true' equals '1', and 'false' equals '0'.
+    Texts that are numbers are equal if the numbers are. The text '1' equals 'true', and '0' equals
+    'false'.
     """
 
     def __init__(self, left: Any, right: Any) -> None:
@@ -52,7 +53,7 @@ class NotEqualsSubstitution(EqualsSubstitution):
 
 
 class _Several(Substitution):
-    """Base of substitutions that combine several truth values."""
+    """Base class of substitutions that combine several truth values to 'true' or 'false'."""
 
     judge: ClassVar[Any]
 
@@ -60,7 +61,7 @@ class _Several(Substitution):
         self.args = args
 
     def perform(self, context: LaunchContext) -> str:
-        """Combine the truth values to 'true' or 'false'; as in ROS 2, all values are evaluated."""
+        """Return 'true' or 'false' for the combined values; as in ROS 2, evaluate all of them."""
         return str(self.judge([_holds(context, value) for value in self.args])).lower()
 
 
@@ -106,10 +107,10 @@ class NotSubstitution(Substitution):
 
 
 class IfElseSubstitution(Substitution):
-    """Substitution with one of two texts, which a condition selects."""
+    """Substitution with the text `if_value` if a condition is true, else `else_value`."""
 
     def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        """Store the condition and the two texts; an empty text may be omitted.
+        """Store the condition and the two texts; a missing text is empty.
 
         Raises:
             RuntimeError: If both texts are missing.

@@ -23,12 +23,13 @@ from tftool.ros.launch.substitutions import Substitution, perform
 
 
 class Node(Startable):
-    """Action that starts a node: a program of a package, or a file.
+    """Action that starts a node: an executable of a package, or a file.
 
     Attributes:
         node_name: Full name of the node; valid once the node is started.
-        expanded_node_namespace: Namespace of the node, once it is started; "" if none was given.
-        expanded_remapping_rules: Remappings of the node and its scope; None until the node is
+        expanded_node_namespace: Namespace of the node; valid once the node is started. "" if
+            neither the action nor its scope has a namespace.
+        expanded_remapping_rules: Remapping rules of the scope and the node; None until the node is
             started.
     """
 
@@ -53,11 +54,11 @@ class Node(Startable):
         shell: Any = False,
         **kwargs: Any,
     ) -> None:
-        """Describe the program to start, its name, namespace, parameters and remappings.
+        """Store which program to start, with its name, namespace, parameters and remapping rules.
 
         Raises:
-            TypeError: If the parameters are not a list of mappings and files, or the remappings
-                not a list of pairs.
+            TypeError: If `parameters` is not a list of mappings and files, or `remappings` not a
+                list of pairs.
         """
         super().__init__(**kwargs)
         self.package, self.executable = package, executable
@@ -82,13 +83,13 @@ class Node(Startable):
         return self.executable
 
     def is_node_name_fully_specified(self) -> bool:
-        """Return whether both the name and the namespace of the node are known."""
+        """Return whether the launch file sets both the name and the namespace of the node."""
         return bool(self.expanded_node_namespace) and (
             self.UNSPECIFIED_NODE_NAME not in self.node_name
         )
 
     def _perform_substitutions(self, context: LaunchContext) -> None:
-        """Evaluate name, namespace and remappings; users' subclasses call this method."""
+        """Evaluate name, namespace and remapping rules; subclasses in users' code call this."""
         name = self.UNSPECIFIED_NODE_NAME
         if self.name is not None:
             name = perform(context, self.name)
@@ -99,7 +100,7 @@ class Node(Startable):
         self.expanded_remapping_rules = remaps_in(context, self.remappings)
 
     def execute(self, context: LaunchContext) -> Any:
-        """Evaluate the node's settings, and start its program."""
+        """Evaluate the node's settings and start the node."""
         self._perform_substitutions(context)
         options, _ = names.parse(
             ["--ros-args", *(perform(context, one) for one in self.ros_arguments)]
@@ -143,12 +144,12 @@ class Node(Startable):
 
 
 def python_file(executable: str) -> str:
-    """Return the path of a Python program for a node without a package.
+    """Return the path of the Python program of a node without a package.
 
-    The name is searched on the PATH, as a shell does.
+    As in a shell, a name without a folder is searched on the PATH.
 
     Raises:
-        UsageError: If there is no such file, or it is not a Python program.
+        UsageError: If there is no such file, or the file is not a Python program.
     """
     found = shutil.which(executable) or executable
     try:
@@ -164,7 +165,7 @@ def python_file(executable: str) -> str:
 
 
 def _listed(given: Any) -> list[Any]:
-    """Return arguments as a list; split a single text into words as a shell does."""
+    """Return arguments as a list; split arguments in one text as a shell does."""
     if given is None:
         return []
     if isinstance(given, str):

@@ -1,4 +1,4 @@
-"""Functions of ament_index_python that return the paths of packages."""
+"""Functions of ament_index_python, which return the folders of packages."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ class PackageNotFoundError(KeyError):
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """Return a package's share directory; in a workspace, that is its source folder.
+    """Return a package's share directory; for a package in a workspace, its source folder.
 
     Raises:
         PackageNotFoundError: If there is no such package.
@@ -33,27 +33,30 @@ def get_package_share_path(package_name: str, print_warning: bool = True) -> Pat
 
 
 def get_package_prefix(package_name: str) -> str:
-    """Return a package's share directory in place of its prefix, as nothing is installed."""
+    """Return a package's share directory, because a package that is not installed has no prefix."""
     return get_package_share_directory(package_name)
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
-    """Return the folder of every known package, by name."""
+    """Return a mapping from the name of every package to its source folder."""
     return {name: str(package.path) for name, package in current().packages.items()}
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """Return the prefix of each resource, by name; empty for any type except "packages"."""
+    """Return a mapping from the names of packages to their source folders for the type "packages".
+
+    The mapping is empty for all other resource types.
+    """
     return get_packages_with_prefixes() if resource_type == "packages" else {}
 
 
 def has_resource(resource_type: str, resource_name: str) -> str | None:
-    """Return the prefix that contains a resource; None if there is no such resource."""
+    """Return the folder that contains a resource; None if there is no such resource."""
     return get_resources(resource_type).get(resource_name)
 
 
 def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
-    """Return the content of a resource, which is always empty, and its prefix.
+    """Return the content of a resource, which is always "", and the folder that contains it.
 
     Raises:
         LookupError: If there is no such resource.

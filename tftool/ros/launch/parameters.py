@@ -18,17 +18,17 @@ _SINGLE = (str, int, float, bool)
 
 
 class BadParameterError(UsageError, TypeError):
-    """Error for a value, computed during the launch, that no parameter can have."""
+    """Error for a value, computed while the launch runs, that a parameter cannot have."""
 
 
 class ParameterValue:
-    """Value of a parameter, with the type that it must have."""
+    """Value of a parameter, or substitutions for the value, with the required type."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        """Store a value, or substitutions that the launch evaluates later.
+        """Store a value, or substitutions to evaluate later.
 
         Raises:
-            TypeError: If the value is no substitution and not of the given type.
+            TypeError: If `value` contains no substitution and is not of the type `value_type`.
         """
         self.value_type = value_type
         # If a single value is wanted, a list of texts is joined to one text.
@@ -41,10 +41,10 @@ class ParameterValue:
             raise TypeError(f"a parameter's value must be {shown}, not {value!r}")
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """Return the value, with substitutions evaluated.
+        """Evaluate the substitutions and return the value.
 
         Raises:
-            ValueError: If the value is not of the given type.
+            ValueError: If the value is not of the required type.
         """
         if _is_text(self.value):
             self.value = _typed(perform(context, self.value), self.value_type)
@@ -64,16 +64,16 @@ class ParameterDescription:
 
     @property
     def value(self) -> Any:
-        """Value of the parameter, or substitutions for it."""
+        """Value of the parameter; substitutions for the value until `evaluate` is called."""
         return self._value.value
 
     @property
     def value_type(self) -> Any:
-        """Type that the value must have; None for any."""
+        """Type that the value must have; None for any type."""
         return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Return name and value of the parameter, with substitutions evaluated.
+        """Evaluate the substitutions; return the parameter's name and value.
 
         Raises:
             ValueError: If the value is not of the parameter's type.
@@ -83,11 +83,11 @@ class ParameterDescription:
 
 
 class ParameterFile:
-    """A parameter file; with `allow_substs` its text may contain `$(…)`.
+    """Parameter file of a launch file.
 
     Attributes:
-        param_file: Path of the file; substitutions until evaluated.
-        allow_substs: Whether the file may contain `$(…)`.
+        param_file: Path of the file; substitutions for the path until `evaluate` is called.
+        allow_substs: Whether the file's text may contain substitutions, `$(…)`.
     """
 
     def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
@@ -97,7 +97,7 @@ class ParameterFile:
         self._made: Path | None = None
 
     def read(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
-        """Read the file; return (node, name, value) of each parameter.
+        """Read the file; return a tuple (node pattern, name, value) for each parameter.
 
         As in ROS 2, a file that does not exist only causes a warning.
 
@@ -113,13 +113,12 @@ class ParameterFile:
         return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the file's path.
+        """Return the path of the file.
 
-        With `allow_substs`, write a copy of the file in which every `$(…)` is replaced, and return
-        the path of the copy.
+        With `allow_substs`, this is the path of a new copy in which every `$(…)` is replaced.
 
         Raises:
-            InputError: If a `$(…)` is not known.
+            InputError: If a `$(…)` is unknown.
         """
         path = Path(perform(context, self._given))
         if is_true(perform(context, self.allow_substs)):
@@ -132,17 +131,20 @@ class ParameterFile:
         return path
 
     def cleanup(self) -> None:
-        """Delete the copy that `evaluate` made, if any."""
+        """Delete the copy of the file if `evaluate` has made one."""
         if self._made is not None:
             self._made.unlink(missing_ok=True)
             self._made, self.param_file = None, self._given
 
 
 def normalize_parameters(parameters: Any) -> list[Any]:
-    """Check a node's parameters; flatten each nested mapping to a mapping with dotted names.
+    """Check a node's parameters; join the names in nested mappings by dots.
+
+    Returns:
+        A mapping for each mapping, and a ParameterFile for each file.
 
     Raises:
-        TypeError: If the argument is not a list, or an item is not a mapping or a file.
+        TypeError: If `parameters` is not a list, or an item is not a mapping or a file.
     """
     if not isinstance(parameters, Sequence) or isinstance(parameters, str | bytes):
         raise TypeError(f"parameters must be a list of mappings and files, not {parameters!r}")
@@ -158,12 +160,12 @@ def normalize_parameters(parameters: Any) -> list[Any]:
 
 
 def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], Any]:
-    """Flatten nested mappings of parameters to one mapping.
+    """Convert nested mappings of parameters to one mapping, whose names are joined by dots.
 
-    A key of the result is a dotted name as a tuple of substitutions.
+    Each key of the result is a name as a tuple of substitutions.
 
     Raises:
-        TypeError: If a name is not a string, or a value is of a type that parameters cannot have.
+        TypeError: If a name is not a string, or a parameter cannot have a value of this type.
     """
     if not isinstance(parameters, Mapping):
         raise TypeError(f"parameters must be a mapping from names to values, not {parameters!r}")
@@ -196,10 +198,13 @@ def _normalized(value: Any) -> Any:
 
 
 def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Any, ...]:
-    """Evaluate the substitutions in normalised parameters; return mappings and file paths.
+    """Evaluate the substitutions in a result of `normalize_parameters`.
+
+    Returns:
+        A mapping from name to value for each mapping, and the path of each parameter file.
 
     Raises:
-        TypeError: If a text gives a value that no parameter can have.
+        TypeError: If a parameter cannot have a resulting value.
     """
     found: list[Any] = []
     for one in parameters:
@@ -216,10 +221,13 @@ def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tu
 def evaluate_parameter_dict(
     context: LaunchContext, parameters: Mapping[Any, Any]
 ) -> dict[str, Any]:
-    """Evaluate the substitutions in a normalised mapping of parameters.
+    """Evaluate the substitutions in a result of `normalize_parameter_dict`.
+
+    Returns:
+        A mapping from name to value.
 
     Raises:
-        TypeError: If a text gives a value that no parameter can have.
+        TypeError: If a parameter cannot have a resulting value.
     """
     found: dict[str, Any] = {}
     for key, value in parameters.items():
@@ -246,9 +254,13 @@ def _evaluated(context: LaunchContext, value: Any) -> Any:
 
 
 def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, str, Any]]:
-    """Return (node, name, value) of all parameters in normalised mappings and files.
+    """Return (node pattern, name, value) for each parameter in mappings and parameter files.
 
-    The node is "" for parameters that apply to any node.
+    The node pattern is "" for a parameter from a mapping.
+
+    Args:
+        context: State of the launch.
+        given: Result of `normalize_parameters`.
     """
     found: list[tuple[str, str, Any]] = []
     for one in given:
@@ -270,10 +282,10 @@ def _typed(text: str, kind: Any) -> Any:
 
     Args:
         text: The text.
-        kind: Type that the value must have; None for every type that a parameter can have.
+        kind: Type that the value must have; None for any type that a parameter can have.
 
     Raises:
-        ValueError: If the text is not such a value.
+        ValueError: If the text is not a value of this type.
     """
     if kind is str:
         return text
@@ -326,7 +338,7 @@ def _parts_of(value: Any) -> list[Substitution]:
 
 
 def _is_text(value: Any) -> bool:
-    """Return whether a value contains substitutions that only the launch can evaluate."""
+    """Return whether a value is a substitution, or a list that contains one."""
     if isinstance(value, Substitution):
         return True
     return _is_parts(value) and any(isinstance(one, Substitution) for one in value)
@@ -341,5 +353,5 @@ def _is_parts(value: Any) -> bool:
 
 
 def _holds_texts(value: Any) -> bool:
-    """Return whether some items of a list are substitutions."""
+    """Return whether a list has an item that is evaluated only while the launch runs."""
     return isinstance(value, list | tuple) and any(_is_text(one) for one in value)

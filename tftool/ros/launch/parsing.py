@@ -1,4 +1,4 @@
-"""Parser of texts in XML and YAML launch files, which may contain `$(var name)` and the like."""
+"""Parser of texts with substitutions, such as `$(var name)`, in XML and YAML launch files."""
 
 import inspect
 from collections.abc import Callable, Iterable
@@ -16,6 +16,10 @@ from tftool.ros.launch.substitutions import PythonExpression, TextSubstitution
 def parsed(text: Any, where: str) -> list[Any]:
     """Parse a text that may contain `$(…)` into a list of substitutions.
 
+    Args:
+        text: The text.
+        where: "file:line" for error texts.
+
     Raises:
         InputError: If a `$(…)` is not closed or not known, or there are too many.
     """
@@ -30,7 +34,7 @@ def parsed(text: Any, where: str) -> list[Any]:
 
 
 class _Quoted(list[Any]):
-    """Substitutions of one argument that was in quotes."""
+    """Parsed argument of a substitution that was written in quotes, as a list of substitutions."""
 
 
 _ESCAPED = tuple("$()'\"\\")
@@ -38,7 +42,7 @@ _ESCAPED = tuple("$()'\"\\")
 
 
 def _end_of_quote(text: str, start: int) -> int:
-    """Return the index of the quote that closes the quote at `start`; -1 if there is none."""
+    """Return the index of the quote that closes the quote at `start`; -1 if it is not closed."""
     at = start + 1
     while at < len(text) and text[at] != text[start]:
         at += 2 if text[at] == "\\" else 1
@@ -118,7 +122,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
 
 
 def _made(kind: Any, *words: list[Any]) -> Any:
-    """Create a substitution of the class `kind`, with the words as its arguments in order."""
+    """Create a substitution of the class `kind` with the parsed arguments `words`, in order."""
     pairs = zip(inspect.signature(kind).parameters.values(), words, strict=False)
     named = {one.name: word for one, word in pairs if one.kind is one.KEYWORD_ONLY}
     return kind(*words[: len(words) - len(named)], **named)
@@ -127,7 +131,7 @@ def _made(kind: Any, *words: list[Any]) -> Any:
 def _expression(*words: list[Any]) -> PythonExpression:
     """Return the substitution for `$(eval …)`.
 
-    If it has exactly two quoted texts, the second text lists modules to import.
+    If there are exactly two arguments in quotes, the second argument names modules to import.
     """
     if len(words) == 2 and all(isinstance(word, _Quoted) for word in words):
         plain = "".join(part.text for part in words[1] if isinstance(part, TextSubstitution))

@@ -33,7 +33,7 @@ LONGEST = 1e9
 
 @dataclass(frozen=True, slots=True)
 class Executable:
-    """Program of a package or file, ready to start.
+    """Program of a package, or file, for an action of a launch file to start.
 
     Attributes:
         package: Name of the package; None for a file.
@@ -65,14 +65,14 @@ class Executable:
 
 
 class Startable(Action):
-    """Base of actions that start a process, which may be started again after its end.
+    """Base class of actions that start a process and can restart the process after its end.
 
     Attributes:
         process_details: Keyword arguments for events about the process, such as its name and
             command line; None before the process is started.
         return_code: Exit status; None before the process has ended.
-        output_lines: (whether from standard output, line) for each line of the process's output;
-            empty unless `cached_output` is set.
+        output_lines: Tuples (whether from standard output, line) for the lines of the process's
+            output; empty unless `cached_output` is set.
     """
 
     takes_time: ClassVar[bool] = True
@@ -102,19 +102,19 @@ class Startable(Action):
         self.respawn_max_retries = respawn_max_retries
 
     def get_stdout(self) -> str:
-        """Return the standard output so far, if `cached_output` is set; else ""."""
+        """Return the standard output so far; "" unless `cached_output` is set."""
         return "".join(line for is_stdout, line in self.output_lines if is_stdout)
 
     def get_stderr(self) -> str:
-        """Return the standard error so far, if `cached_output` is set; else ""."""
+        """Return the standard error so far; "" unless `cached_output` is set."""
         return "".join(line for is_stdout, line in self.output_lines if not is_stdout)
 
     def get_output(self) -> str:
-        """Return standard output and error so far, if `cached_output` is set; else ""."""
+        """Return standard output and standard error so far; "" unless `cached_output` is set."""
         return "".join(line for _, line in self.output_lines)
 
     def handle_exit(self, context: LaunchContext) -> None:
-        """Register a handler that executes the actions of `on_exit` at each end of the process."""
+        """Register a handler that executes the actions `on_exit` each time the process ends."""
         if self.on_exit is not None:
             once = self.respawn_after(context) is None
             context.launch.handlers.append(
@@ -122,21 +122,21 @@ class Startable(Action):
             )
 
     def respawn_after(self, context: LaunchContext) -> float | None:
-        """Return the delay in seconds before the process is started again; None for never.
+        """Return the seconds between the end and a new start of the process; None for no new start.
 
         Raises:
-            UsageError: If the delay is not a number.
+            UsageError: If the delay in the launch file is not a number.
         """
         if not is_true(perform(context, self.respawn)):
             return None
         return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
 
     def say_unused(self, context: LaunchContext, *names: str) -> None:
-        """Log a warning for arguments that the user has set but tftool ignores.
+        """Log a warning if the launch file sets arguments that tftool ignores.
 
         Args:
             context: State of the launch.
-            names: Names of the ignored arguments, besides `prefix`.
+            names: Names of arguments that tftool ignores, in addition to `prefix`.
         """
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
@@ -146,12 +146,12 @@ class Startable(Action):
 
 
 def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
-    """Evaluate a duration in seconds.
+    """Return the duration in a launch file, in seconds.
 
     Args:
         context: State of the launch.
         value: Number, text or substitutions.
-        what: Name of the value, for the error text.
+        what: Name of the duration, for the error text.
 
     Raises:
         UsageError: If the value is not a number of seconds.
@@ -187,7 +187,7 @@ class ExecuteProcess(Startable):
         self.shell = shell
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the command; a Python program that uses rclpy runs inside tftool."""
+        """Start the command; run a Python program that uses rclpy inside tftool."""
         words = [perform(context, word) for word in self.cmd]
         if not words or not words[0].strip():
             raise UsageError("ExecuteProcess needs a command: pass cmd=[…]")
@@ -225,7 +225,7 @@ class ExecuteProcess(Startable):
         return None
 
     def _execute_ros2(self, context: LaunchContext, words: Sequence[str]) -> Any:
-        """Run `ros2 WORDS` inside tftool: start a node, or run another command of ROS 2."""
+        """Run `ros2 WORDS` inside tftool: start a node, start a launch, or run another command."""
         if words[:1] == ["run"] and len(words) > 2:
             options, arguments = names.parse(words[3:])
             options.namespace = options.namespace or context.launch_configurations.get(
@@ -246,7 +246,12 @@ class ExecuteProcess(Startable):
 
 
 def _plain_words(words: Sequence[str], shell: bool) -> list[str]:
-    """Return the words of a single command, split as a shell does; [] for a shell script."""
+    """Split a command line into words as a shell does; return [] if only a shell can execute it.
+
+    Args:
+        words: The command and its arguments.
+        shell: Whether a shell would execute the words, joined by spaces.
+    """
     if not shell and len(words) == 3 and words[1] == "-c" and Path(words[0]).name in SHELLS:
         words, shell = words[2:], True
     if shell:
@@ -262,22 +267,22 @@ def _plain_words(words: Sequence[str], shell: bool) -> list[str]:
 
 
 def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
-    """Return the words after `ros2` in a command; None for other commands."""
+    """Return the words after `ros2` in a command line; None for any other command."""
     words = _plain_words(words, shell)
     return words[1:] if words and Path(words[0]).name == ROS2 else None
 
 
 def is_python(word: str) -> bool:
-    """Return whether a command is a Python interpreter."""
+    """Return whether `word`, the first word of a command line, is a Python interpreter."""
     return re.fullmatch(r"python(3(\.\d+)?)?", Path(word).name) is not None
 
 
 def _rclpy_program(
     words: Sequence[str], shell: bool, cwd: str | None, context: LaunchContext
 ) -> tuple[Path, list[str]] | None:
-    """Return file and arguments of a Python command that uses rclpy; None for other commands.
+    """Return the file and arguments of a Python command that uses rclpy; None for other commands.
 
-    Such a command is `python3 FILE …` or `python3 -m MODULE …`, with or without flags of Python.
+    Such a command is `python3 FILE …` or `python3 -m MODULE …`, with or without Python's own flags.
     """
     words = _plain_words(words, shell)
     if not words or not is_python(words[0]):
@@ -322,6 +327,6 @@ def _uses_rclpy(file: Path, roots: Sequence[Path], seen: set[Path]) -> bool:
 
 
 def _texts(context: LaunchContext, given: Any) -> dict[str, str]:
-    """Evaluate environment variables, given as a mapping or as pairs."""
+    """Return environment variables, a mapping or pairs, with their substitutions evaluated."""
     pairs = given.items() if isinstance(given, Mapping) else given
     return {perform(context, key): perform(context, value) for key, value in pairs}

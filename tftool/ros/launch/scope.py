@@ -1,6 +1,6 @@
 """Settings for all nodes started in a scope of a launch file: namespace, remappings, parameters.
 
-As in ROS 2 these settings are stored among the launch arguments, which end with the scope.
+As in ROS 2, these settings are stored among the launch arguments, so they end with the scope.
 """
 
 from collections.abc import Iterable
@@ -28,12 +28,12 @@ def is_root_namespace(ns: str) -> bool:
 
 
 def make_namespace_absolute(ns: str | None) -> str | None:
-    """Return a namespace with a leading slash; None stays None."""
+    """Return a namespace with a leading slash; return None for None."""
     return ns if ns is None or is_namespace_absolute(ns) else f"/{ns}"
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """Join two namespaces; return the second namespace alone if it is absolute.
+    """Join the namespaces `base_ns` and `ns`; return `ns` alone if it is absolute.
 
     If one namespace is None, return the other namespace.
     """
@@ -47,11 +47,14 @@ def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
 
 
 def namespace_in(context: LaunchContext, own: Any) -> str | None:
-    """Return the absolute namespace for a node in the current scope; None if none was given.
+    """Return the absolute namespace of a node that is started in the current scope.
 
     Args:
         context: State of the launch, with the scope's settings.
-        own: Namespace given for the node itself, or None.
+        own: Namespace of the node itself, or None.
+
+    Returns:
+        The namespace; None if neither the scope nor the node has one.
 
     Raises:
         UsageError: If ROS 2 does not accept the namespace.
@@ -65,7 +68,7 @@ def namespace_in(context: LaunchContext, own: Any) -> str | None:
 
 
 def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
-    """Convert a remapping, a pair of texts, to a pair of lists of substitutions.
+    """Convert a remapping rule, a pair of texts, to a pair of lists of substitutions.
 
     Raises:
         TypeError: If the rule is not a pair.
@@ -77,7 +80,7 @@ def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
 
 
 def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any]]:
-    """Convert remappings, pairs of texts, to pairs of lists of substitutions.
+    """Convert remapping rules, pairs of texts, to pairs of lists of substitutions.
 
     Raises:
         TypeError: If a rule is not a pair.
@@ -86,7 +89,12 @@ def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any
 
 
 def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tuple[str, str]]:
-    """Return the remappings for a node in the current scope; the first match applies."""
+    """Return the remapping rules of the current scope and then those of a node, as (old, new).
+
+    Args:
+        context: State of the launch.
+        own: Remapping rules of the node itself.
+    """
     return [
         *_kept(context, _REMAPS),
         *((perform(context, old), perform(context, new)) for old, new in own),
@@ -94,7 +102,10 @@ def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tu
 
 
 def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
-    """Return the scope's parameters as (node, name, value); node "" means every node."""
+    """Return the current scope's parameters as tuples (node pattern, name, value).
+
+    The node pattern "" matches every node.
+    """
     found: list[tuple[str, str, Any]] = []
     for kept in _kept(context, _PARAMETERS):
         if isinstance(kept, str):
@@ -105,12 +116,12 @@ def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
 
 
 def add_node_name(context: LaunchContext, node_name: str) -> None:
-    """Count a started node with this full name."""
+    """Count one more started node with the full name `node_name`."""
     context.node_names[node_name] += 1
 
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
-    """Return how many nodes with this full name were started."""
+    """Return the number of started nodes with the full name `node_name`."""
     return context.node_names[node_name]
 
 
@@ -138,7 +149,7 @@ class PushRosNamespace(Action):
         self.namespace = namespace
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the scope's namespace; a relative one is below the scope's present namespace."""
+        """Set the scope's namespace; append a relative namespace to the one that is set."""
         namespace = namespace_in(context, self.namespace)
         if namespace is not None:
             context.launch_configurations[_NAMESPACE] = namespace
@@ -195,7 +206,7 @@ class SetParametersFromFile(Action):
         self.filename, self.node_name = filename, node_name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the file's parameters: for the node `node_name`, or for the nodes in the file."""
+        """Set the file's parameters for the node `node_name`; by default, for the nodes in the file."""
         path = perform(context, self.filename)
         if self.node_name is None:
             _keep(context, _PARAMETERS, path)
@@ -206,7 +217,7 @@ class SetParametersFromFile(Action):
 
 
 class ParameterSubstitution(Substitution):
-    """Substitution for the value of a parameter that the scope sets."""
+    """Substitution for the value of a parameter that is set in the scope."""
 
     def __init__(self, name: Any, *, default: Any = None) -> None:
         self.name, self.default = name, default

@@ -1,4 +1,4 @@
-"""Class LaunchService of ROS's launch, with which a program runs a launch itself."""
+"""Class LaunchService of ROS's launch, with which a Python program runs launch descriptions."""
 
 import asyncio
 import sys
@@ -36,7 +36,7 @@ class LaunchService:
         self.errors: list[str] = []
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Add a launch description for the next `run`; if a launch runs, execute it at once."""
+        """Add a launch description for the next `run`; if the launch is running, execute it now."""
         launch = self._launch
         if launch is None or self._owner is None:
             self._entities.append(launch_description)
@@ -44,16 +44,20 @@ class LaunchService:
             self._owner.ask(lambda: launch.do([launch_description]))
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Execute the descriptions, and block until everything has ended.
+        """Execute the launch descriptions, and block until everything they started has ended.
 
         Returns:
-            0, or 1 if something failed.
+            Exit status: 0, or 1 if the launch or one of its processes failed.
         """
         self.begin(keep_alive=not shutdown_when_idle)
         return self.wait()
 
     def wait(self) -> int:
-        """Block until a launch started by `begin` has ended; return 0, or 1 if something failed."""
+        """Block until the launch that `begin` started has ended.
+
+        Returns:
+            Exit status: 0, or 1 if the launch or one of its processes failed.
+        """
         launch = self._launch
         if launch is None:
             return 0
@@ -65,10 +69,10 @@ class LaunchService:
         return int(bool(launch.failed))
 
     def begin(self, *, keep_alive: bool = False) -> Launch:
-        """Start the launch without waiting for its end, and return it.
+        """Start the launch and return it at once.
 
         Args:
-            keep_alive: Whether the launch goes on after its last process has ended.
+            keep_alive: Whether the launch continues after its last process has ended.
         """
         self._owner = owner = program.current()
 
@@ -96,7 +100,10 @@ class LaunchService:
         return self._launch
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run the launch as a coroutine, beside others; cancelling it ends the launch."""
+        """Run the launch in a coroutine until the launch has ended; return its exit status, 0 or 1.
+
+        Cancelling the coroutine ends the launch.
+        """
         launch = self.begin(keep_alive=not shutdown_when_idle)
         self._threads.add(threading.get_ident())
         try:
@@ -114,7 +121,7 @@ class LaunchService:
         return self._launch is not None and "launch" in self._launch.failed
 
     def emit_event(self, event: Event) -> None:
-        """Pass an event to the handlers, if the launch is running."""
+        """Pass an event to the launch's event handlers, if the launch is running."""
         launch = self._launch
         if launch is not None and self._owner is not None:
             self._owner.ask(lambda: launch.emit(event))
@@ -123,7 +130,7 @@ class LaunchService:
         """End the launch, if it is running.
 
         Args:
-            force_sync: Whether to return None in any case.
+            force_sync: Whether to return None even in the thread of the launch's event loop.
 
         Returns:
             As in ROS 2, a coroutine to await if called in the thread of the launch's event loop;
@@ -159,4 +166,4 @@ def run_launch_file(workspace: Workspace, words: Sequence[str]) -> None:
 
 
 async def _nothing() -> None:
-    """Do nothing; the returned coroutine exists because callers await it."""
+    """Do nothing; callers of `shutdown` may await this coroutine, as in ROS 2."""

@@ -1,4 +1,4 @@
-"""Substitutions of ROS's launch: texts that are known only while the launch runs."""
+"""Substitutions of ROS's launch: texts that are computed only while the launch runs."""
 
 import math
 import os
@@ -27,7 +27,7 @@ class SubstitutionFailure(UsageError):
 
 
 class Substitution:
-    """Base of substitutions: texts that are known only while the launch runs."""
+    """Base class of substitutions: texts that are computed only while the launch runs."""
 
     def perform(self, context: LaunchContext) -> str:
         """Compute the text."""
@@ -200,7 +200,7 @@ class PathJoinSubstitution(Substitution):
         return f"PathJoinSubstitution('{parts}')"
 
     def __truediv__(self, part: Any) -> "PathJoinSubstitution":
-        """Return the path with one more part."""
+        """Return a substitution for this path with one more part."""
         return PathJoinSubstitution([*self.substitutions, part])
 
 
@@ -281,7 +281,7 @@ class ThisLaunchFileDir(Substitution):
 
 
 class AnonName(Substitution):
-    """Substitution for a name with a number, so that it differs from other names."""
+    """Substitution for a unique name, made from a name and a number."""
 
     def __init__(self, name: Any) -> None:
         self.name = name
@@ -322,7 +322,7 @@ class FindExecutable(Substitution):
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the command's path; return "ros2" and "xacro" unchanged, as tftool runs them.
+        """Return the path of the command; return "ros2" and "xacro", which tftool runs, unchanged.
 
         Raises:
             SubstitutionFailure: If there is no such command.
@@ -360,7 +360,10 @@ class ExecutableInPackage(Substitution):
         self.executable, self.package = executable, package
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path of the executable's source file, or of a console script if installed."""
+        """Return the path of the executable's source file, or a path below the package's folder.
+
+        The second path is for a console script, which has no file of its own before installation.
+        """
         name = perform(context, self.executable)
         package = context.workspace.package(perform(context, self.package))
         if name in package.scripts:
@@ -372,10 +375,13 @@ class ExecutableInPackage(Substitution):
 
 
 def _expanded(words: list[str]) -> str:
-    """Return the output of the command `xacro FILE NAME:=VALUE …`, run without ROS.
+    """Return the output of a `xacro` command line, which tftool executes itself.
+
+    Args:
+        words: "xacro", the path of a file, and arguments `name:=value`.
 
     Raises:
-        SubstitutionFailure: If the command line is not xacro's, or the file cannot be expanded.
+        SubstitutionFailure: If the command line is not valid, or the file cannot be expanded.
     """
     from tftool.base.errors import InputError, UsageError
     from tftool.robots.urdf import expand_xacro
@@ -396,12 +402,12 @@ class Command(Substitution):
     """Substitution for the output of a command."""
 
     def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
-        """Describe the command; `perform` runs it.
+        """Store a command; `perform` runs the command.
 
         Args:
             command: The command and its arguments, as typed in a shell.
-            on_stderr: What to do if the command writes to its standard error: "fail", "warn",
-                "ignore", or "capture" to append that text to the output.
+            on_stderr: Reaction to output on standard error: "fail", "warn", "ignore", or "capture"
+                to append the text to the result.
         """
         self.command = command
         self.on_stderr = on_stderr

@@ -1,4 +1,4 @@
-"""Functions of launch.utilities, which users' extensions of launch call."""
+"""Functions of launch.utilities for users' own extensions of launch."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -8,7 +8,7 @@ from tftool.ros.launch.substitutions import Substitution, TextSubstitution
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """Return the texts of several substitutions, joined."""
+    """Return the joined texts of several substitutions."""
     return "".join(context.perform_substitution(one) for one in subs)
 
 
@@ -41,10 +41,16 @@ def ensure_argument_type(
     argument_name: str,
     caller: str | None = None,
 ) -> None:
-    """Raise an error unless an argument has one of some types.
+    """Raise an error unless an argument is an instance of one of the types.
+
+    Args:
+        argument: Value of the argument.
+        types: One type, or several types.
+        argument_name: Name of the argument, for the error text.
+        caller: Name of the function that got the argument, for the error text.
 
     Raises:
-        TypeError: If the argument has another type, or `types` contains something else than types.
+        TypeError: If the argument has another type, or an item of `types` is not a type.
     """
     allowed = types if isinstance(types, Iterable) else [types]
     if not any(is_a(argument, one) for one in allowed):
@@ -56,23 +62,23 @@ def ensure_argument_type(
 
 
 def is_a(obj: object, entity_type: type) -> bool:
-    """Return whether an object is an instance of a type."""
+    """Return whether an object is an instance of the class `entity_type`."""
     return isinstance(obj, entity_type)
 
 
 def is_a_subclass(obj: object, entity_type: type) -> bool:
-    """Return whether a class, or an object's class, is a subclass of another class."""
+    """Return whether `obj`, or the class of `obj`, is a subclass of `entity_type`."""
     kind = obj if isinstance(obj, type) else type(obj)
     return issubclass(kind, entity_type)
 
 
 def isclassinstance(obj: object) -> bool:
-    """Return whether an object has a class; every object does."""
+    """Return whether an object has a class, which is always true."""
     return hasattr(obj, "__class__")
 
 
 def normalize_to_list_of_entities(entities: Any) -> list[Any]:
-    """Return actions and launch descriptions, nested in lists, as a flat list."""
+    """Return the actions and launch descriptions in nested lists as one flat list."""
     if not isinstance(entities, Iterable):
         return [entities]
     return [one for entity in entities for one in normalize_to_list_of_entities(entity)]
