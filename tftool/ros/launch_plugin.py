@@ -1,4 +1,4 @@
-"""pytest plugin for tests of launch_testing and launch_pytest, loaded by `--ros-free`."""
+"""pytest plugin for tests with launch_testing and launch_pytest, enabled by `--ros-free`."""
 
 import unittest
 from collections.abc import Iterable, Iterator
@@ -20,14 +20,14 @@ event_loop = fixtures.loop_fixture("function")
 
 
 class LaunchTestFailure(Exception):
-    """Error that lists the failed tests of one launch."""
+    """Error that lists the failed tests of one file of launch tests."""
 
     def __init__(self, failures: Iterable[tuple[Any, str]]) -> None:
         super().__init__("\n\n".join(f"{case}\n{text}" for case, text in failures))
 
 
 class LaunchTestItem(pytest.Item):
-    """pytest item for one file of launch tests, which runs all launches and tests of the file."""
+    """pytest item for a file of launch tests; running the item runs all launches of the file."""
 
     def runtest(self) -> None:
         """Run the launches and their tests in a new world on simulated time.
@@ -51,21 +51,21 @@ class LaunchTestItem(pytest.Item):
             raise LaunchTestFailure(failures)
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
-        """Return the report of the failed tests, without lines of this plugin's code."""
+        """Return pytest's report of the failed tests, without lines of this plugin's code."""
         if isinstance(excinfo.value, LaunchTestFailure):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """Return file, line and name of the item for pytest's report."""
+        """Return file, line number and name of the item for pytest's report."""
         return self.path, 0, f"launch tests: {self.name}"
 
 
 class LaunchTestModule(pytest.Module):
-    """Collector of a file that may describe a launch with tests."""
+    """pytest collector for a Python file that contains the text `generate_test_description`."""
 
     def collect(self) -> Iterable[Any]:
-        """Return one item for a file that describes a launch; else the file's ordinary tests."""
+        """Return a `LaunchTestItem` for a launch test, or the ordinary tests of another file."""
         function = getattr(self.obj, MAKES, None)
         marks = {mark.name for mark in getattr(function, "pytestmark", ())}
         if marks.isdisjoint(MARKS):
@@ -77,7 +77,7 @@ class LaunchTestModule(pytest.Module):
 
 
 def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> pytest.Module | None:
-    """Return a `LaunchTestModule` for a file that may describe a launch; else None."""
+    """Return a `LaunchTestModule` for a file that may contain a launch test; otherwise None."""
     if MAKES.encode() not in module_path.read_bytes():
         return None
     return LaunchTestModule.from_parent(parent, path=module_path)
@@ -85,10 +85,10 @@ def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> pytest.Module
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
-    """Return pytest's items for a test with the mark `launch`; None for another test.
+    """Return the pytest items for a test with the mark `launch`; None for any other test.
 
-    A generator test whose launch lasts longer than the test gets a second item, for its part after
-    the `yield`.
+    A test that is a generator gets two items if its launch runs for several tests: the second item
+    runs the code after the `yield`, when the launch has ended.
     """
     marks = [mark for mark in getattr(obj, "pytestmark", ()) if mark.name == "launch"]
     if not marks or not collector.funcnamefilter(name) or hasattr(obj, "launch_key"):
@@ -119,9 +119,9 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
 
 
 def _launch_of(item: Any) -> tuple[Any, ...] | None:
-    """Return a key that is equal for all tests of one launch; None for a test without a launch.
+    """Return a key that is equal for all tests that share one launch.
 
-    The result is also None for a test that has a launch of its own.
+    Return None for a test without a launch, or with a launch that no other test uses.
     """
     key = getattr(getattr(item, "obj", None), "launch_key", None)
     if key is None or fixtures.scope_of(item.obj) == "function":
@@ -133,7 +133,7 @@ def _launch_of(item: Any) -> tuple[Any, ...] | None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[Any]) -> None:
-    """Move tests that need the end of a launch behind the tests that run during the launch."""
+    """Move tests that run after the end of a launch behind the tests that run during the launch."""
     late = [one for one in items if _launch_of(one) is not None and one.obj.launch_key[1]]
     for one in late:
         launch = _launch_of(one)
@@ -144,7 +144,7 @@ def pytest_collection_modifyitems(items: list[Any]) -> None:
 
 @pytest.hookimpl(wrapper=True, trylast=True)
 def pytest_fixture_setup(fixturedef: Any, request: Any) -> Iterator[None]:
-    """Start the launch whose description a fixture of launch_pytest returns."""
+    """Start the launch whose description a launch_pytest fixture returns."""
     options = getattr(fixturedef.func, "launch_options", None)
     service: Any = None if options is None else request.getfixturevalue("launch_service")
     value = yield

@@ -2,7 +2,8 @@
 
 The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`: a simulated world. With `pytest
 --ros-free` every test runs in such a world, and test files may `import rclpy` at their top. If a
-fixture of a class, a module or the session uses rclpy, all tests of this fixture share one world.
+fixture with the scope of a class, a module or the session uses rclpy, all tests that use the
+fixture share one world.
 """
 
 import sys
@@ -22,7 +23,7 @@ _shared: list[Any] = []
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option `--ros-free` to pytest."""
+    """Add the options `--ros-free` and `--launch-args` to pytest."""
     parser.getgroup("tftool").addoption(
         "--ros-free",
         action="store_true",
@@ -39,7 +40,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_load_initial_conftests(early_config: pytest.Config) -> None:
-    """With `--ros-free`, provide ROS 2's modules before the first conftest.py is imported."""
+    """With `--ros-free`, make ROS 2's modules importable before the first conftest.py."""
     if getattr(early_config.known_args_namespace, "ros_free", False):
         _provide(early_config.rootpath)
 
@@ -82,7 +83,7 @@ def _provide(root: Path) -> None:
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """Remove ROS 2's modules and the workspace's folders from the imports."""
+    """Undo the changes to imports: ROS 2's modules and the workspace's folders."""
     if _imports:
         from tftool.ros.host import program
 
@@ -95,7 +96,7 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
-    """Explain a failed `import rclpy`; let packages have test files of the same name."""
+    """Add a hint to a failed `import rclpy`; allow test files of equal names in two packages."""
     if _imports and isinstance(collector, pytest.Module):
         # Packages made from one template have test files of the same name. pytest imports a test
         # file by its name alone, and would reuse the first module.
@@ -112,14 +113,14 @@ def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_fixture_setup(fixturedef: Any) -> Iterator[None]:
-    """Record which fixture is being set up."""
+    """Remember which fixture is being set up, for `_program_of_fixture`."""
     _set_up.append(fixturedef)
     yield
     _set_up.pop()
 
 
 def _program_of_fixture() -> Any:
-    """Create a world for the fixture that is being set up, and return its program.
+    """Create a world for the fixture that is being set up; return the program of that world.
 
     Return None if no fixture is being set up.
     """
@@ -144,7 +145,7 @@ def _program_of_fixture() -> Any:
 def ros_runtime() -> Iterator[Any]:
     """Yield a simulated world in which the test may use rclpy.
 
-    The world is a new one, unless a fixture that the test uses already has a world.
+    The world is new, unless a fixture of the test has already created a world.
     """
     from tftool.ros.testing import RosRuntime
 

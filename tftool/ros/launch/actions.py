@@ -287,7 +287,7 @@ class IncludeLaunchDescription(Action):
         self.launch_arguments = list(launch_arguments or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Return actions that set the included file's arguments, and then the actions of the file."""
+        """Return actions that set the included file's arguments, followed by the file's actions."""
         description, path = self.source.load(context)
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         if path is None:

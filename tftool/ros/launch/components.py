@@ -147,7 +147,7 @@ class ComposableNodeContainer(Node):
         self.composable_node_descriptions = list(composable_node_descriptions or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the container if it is a Python program; return an action that loads its components.
+        """Start the container if it is a Python program; return the action that loads components.
 
         Return None if the container has no components.
         """

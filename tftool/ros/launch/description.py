@@ -1,4 +1,4 @@
-"""Launch descriptions (lists of actions), sources of descriptions, and the base class of actions."""
+"""Launch descriptions (lists of actions), their sources, and the base class of actions."""
 
 import sys
 from collections.abc import Iterable, Sequence

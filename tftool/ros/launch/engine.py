@@ -227,7 +227,7 @@ class Launch(Node):
         self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
 
     def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
-        """Handle a line of output: store it if the action caches output, and emit a ProcessIO event.
+        """Handle a line of output: store the line if the action caches output, and emit ProcessIO.
 
         Args:
             label: Name of the process in log lines.

@@ -206,7 +206,7 @@ class SetParametersFromFile(Action):
         self.filename, self.node_name = filename, node_name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set the file's parameters for the node `node_name`; by default, for the nodes in the file."""
+        """Set the file's parameters for the node `node_name`; without it, for the file's nodes."""
         path = perform(context, self.filename)
         if self.node_name is None:
             _keep(context, _PARAMETERS, path)

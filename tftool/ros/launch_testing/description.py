@@ -1,4 +1,4 @@
-"""Actions, decorators and markers of launch_testing for the description of a launch test."""
+"""Actions, decorators and markers of launch_testing that describe a launch test."""
 
 import functools
 import sys
@@ -24,7 +24,7 @@ READY_WITHIN = 15.0
 
 
 class ReadyToTest(Action):
-    """Action after which the tests of a launch start.
+    """Action in a launch description that starts the tests of the launch.
 
     Attributes:
         callbacks: Functions to call when the tests may start.
@@ -41,7 +41,7 @@ class ReadyToTest(Action):
 
 
 def ready_actions(entities: Iterable[Any]) -> Iterator[ReadyToTest]:
-    """Yield the ReadyToTest actions of a description, also those inside other actions."""
+    """Yield the ReadyToTest actions in a launch description, including those in nested actions."""
     for entity in entities:
         if isinstance(entity, ReadyToTest):
             yield entity
@@ -52,7 +52,7 @@ def ready_actions(entities: Iterable[Any]) -> Iterator[ReadyToTest]:
 
 
 class Test(ExecuteProcess):
-    """Action that runs a test as a process, and ends the process after `timeout` seconds."""
+    """Action that runs a test as a process, which is ended after `timeout` seconds."""
 
     __test__ = False  # for pytest, which collects classes of that name
 
@@ -61,7 +61,7 @@ class Test(ExecuteProcess):
         self.timeout = timeout
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start the test's process and its timeout."""
+        """Start the test's process, and the timer that ends the process at the timeout."""
         following = super().execute(context)
         if self.timeout is not None:
             # Not a TimerAction, which would keep the launch alive after the process's end.
@@ -76,10 +76,10 @@ class Test(ExecuteProcess):
 
 
 class GTest(Test):
-    """Action that runs a test made with GoogleTest.
+    """Action that runs an executable with GoogleTest tests.
 
     Attributes:
-        path: Path of the test's executable.
+        path: Path of the executable.
     """
 
     def __init__(self, *, path: Any, **kwargs: Any) -> None:
@@ -88,7 +88,7 @@ class GTest(Test):
 
 
 class PyTest(Test):
-    """Action that runs a file of tests with pytest.
+    """Action that runs the tests in a file with pytest.
 
     Attributes:
         path: Path of the file.
@@ -100,13 +100,13 @@ class PyTest(Test):
 
 
 class KeepAliveProc(ExecuteProcess):
-    """Action that keeps the launch running until it is shut down."""
+    """Action that starts a process without end, so that the launch runs until it is shut down."""
 
     def __init__(self) -> None:
         super().__init__(cmd=[sys.executable, "-c", "import signal; signal.pause()"])
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start a program that waits until it is asked to end."""
+        """Start a program that waits until the launch is shut down."""
         self.handle_exit(context)
         context.launch.start_body(self, self.cmd, _wait_for_end)
 
@@ -118,7 +118,7 @@ def _wait_for_end() -> None:
 
 
 class StdoutReadyListener(OnProcessIO):
-    """Event handler that executes actions when a line of a process contains `ready_txt`."""
+    """Event handler that executes actions when a process prints a line containing `ready_txt`."""
 
     def __init__(self, *, target_action: Any = None, ready_txt: str, actions: Any) -> None:
         def check(event: Event) -> Any:
@@ -130,20 +130,20 @@ class StdoutReadyListener(OnProcessIO):
 
 
 class ReadyAggregator:
-    """Counter whose method `ready_fn` calls a function when called for the n-th time."""
+    """Counter that calls the function `ready_fn` at the call number `num_to_aggregate`."""
 
     def __init__(self, ready_fn: Callable[[], object], num_to_aggregate: int) -> None:
         self._ready, self._left = ready_fn, num_to_aggregate
 
     def ready_fn(self) -> None:
-        """Count one call of this method; at the n-th call, call the aggregator's function."""
+        """Count one call; call the constructor's `ready_fn` at call number `num_to_aggregate`."""
         self._left -= 1
         if self._left == 0:
             self._ready()
 
 
 def post_shutdown_test() -> Callable[[type], type]:
-    """Return a decorator for a test class that runs after the end of the launch."""
+    """Return a decorator for a test class whose tests run after the end of the launch."""
 
     def decorate(test_class: type) -> type:
         if not isinstance(test_class, type):
@@ -155,14 +155,14 @@ def post_shutdown_test() -> Callable[[type], type]:
 
 
 def keep_alive(description: Callable[..., Any]) -> Callable[..., Any]:
-    """Mark a description whose launch goes on after its last process has ended."""
+    """Mark a function that describes a launch, so that the launch outlives its processes."""
     markers = {**getattr(description, "__markers__", {}), "keep_alive": True}
     description.__markers__ = markers  # type: ignore[attr-defined]
     return description
 
 
 def ready_to_test_action_timeout(timeout: float) -> Callable[[Any], Any]:
-    """Return a decorator that limits the seconds until the tests must be ready to start."""
+    """Return a decorator that sets how many seconds a launch may need until its tests start."""
 
     def decorate(description: Any) -> Any:
         description.__ready_to_test_action_timeout__ = timeout
@@ -172,7 +172,7 @@ def ready_to_test_action_timeout(timeout: float) -> Callable[[Any], Any]:
 
 
 def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]:
-    """Return a decorator that repeats a launch and its tests for each set of values.
+    """Return a decorator that runs a launch and its tests once for each set of values.
 
     Args:
         argnames: Names of the parameters, separated by commas.
@@ -196,7 +196,7 @@ def parametrize(argnames: str, argvalues: Iterable[Any]) -> Callable[[Any], Any]
 
 
 def retry_on_failure(*, times: int, delay: float | None = None) -> Callable[[Any], Any]:
-    """Return a decorator that repeats a test while an assertion of the test fails.
+    """Return a decorator that repeats a test as long as an assertion in the test fails.
 
     Args:
         times: Largest number of runs of the test.

@@ -1,4 +1,4 @@
-"""Fixtures of launch_pytest, which start a launch, and conversion of tests that run beside it."""
+"""Fixtures of launch_pytest that start a launch, and conversion of launch tests for pytest."""
 
 import asyncio
 import functools
@@ -18,12 +18,12 @@ from tftool.ros.launch_testing.runner import wait_for_first
 
 
 class LaunchedService(LaunchService):
-    """Launch service of a fixture, whose launch runs beside the tests.
+    """Launch service of a launch_pytest fixture; the launch runs during the tests.
 
     Attributes:
         event_loop: Event loop for tests that are coroutines; None once the launch has ended.
         auto_shutdown: Whether to shut the launch down after its tests.
-        waiting: Generators of tests that continue after the launch's end, by test function.
+        waiting: Test generators that continue after the end of the launch, by test function.
     """
 
     def __init__(self) -> None:
@@ -33,7 +33,11 @@ class LaunchedService(LaunchService):
         self.waiting: dict[Any, Any] = {}
 
     def start(self, description: LaunchDescription, *, keep_alive: bool) -> None:
-        """Start a launch, and wait until its tests may start.
+        """Start a launch, and wait until the tests may start or the launch has ended.
+
+        Args:
+            description: Launch description.
+            keep_alive: Whether the launch continues after its last process has ended.
 
         Raises:
             AssertionError: If the description has several ReadyToTest actions.
@@ -55,10 +59,10 @@ class LaunchedService(LaunchService):
         wait_for_first((ready, launch.ended))
 
     def finish(self) -> None:
-        """Shut the launch down if `auto_shutdown`, and wait for its end.
+        """Wait for the end of the launch; shut the launch down first if `auto_shutdown` is set.
 
         Raises:
-            AssertionError: If the launch has failed.
+            AssertionError: If the launch itself has failed.
         """
         if self.event_loop is None:
             return
@@ -71,16 +75,16 @@ class LaunchedService(LaunchService):
             raise AssertionError("the launch has failed: its log lines above give the reason")
 
     def _is_idle(self) -> bool:
-        """Whether the launch has ended; the examples of launch_pytest read this attribute."""
+        """Return whether the launch has ended; examples of launch_pytest call this method."""
         return self.event_loop is None
 
 
 def service_fixture(scope: Any) -> Any:
-    """Return the fixture `launch_service` for a scope such as "module"."""
+    """Return the pytest fixture `launch_service` for a scope such as "module"."""
 
     @pytest.fixture(scope=scope, name="launch_service")
     def launch_service() -> Iterator[LaunchedService]:
-        """Yield the launch service of a fixture of launch_pytest; finish it afterwards."""
+        """Yield the launch service for a launch_pytest fixture; end the launch after the tests."""
         service = LaunchedService()
         yield service
         service.finish()
@@ -89,7 +93,12 @@ def service_fixture(scope: Any) -> Any:
 
 
 def _part_of_service(name: str, part: str) -> Callable[[Any], Any]:
-    """Return a function that makes a fixture for one attribute of the launch service."""
+    """Return a function that creates, for a scope, a fixture for an attribute of `launch_service`.
+
+    Args:
+        name: Name of the fixture.
+        part: Name of the attribute.
+    """
 
     def make(scope: Any) -> Any:
         @pytest.fixture(scope=scope, name=name)
@@ -118,9 +127,9 @@ def fixture(
     auto_shutdown: bool = True,
     **kwargs: Any,
 ) -> Any:
-    """Declare a fixture for a launch: a function that returns the launch description.
+    """Declare a fixture that starts a launch, as a decorator of a function.
 
-    The function may also return a sequence whose first item is the description.
+    The function returns the launch description, or a sequence whose first item is the description.
 
     Args:
         decorated: Function that returns the description.
@@ -146,10 +155,16 @@ def fixture(
 
 
 def launched(name: str, options: tuple[bool, bool], service: LaunchedService, value: Any) -> None:
-    """Start the launch whose description a fixture has returned.
+    """Start the launch whose description a launch_pytest fixture has returned.
+
+    Args:
+        name: Name of the fixture.
+        options: Values of `shutdown_when_idle` and `auto_shutdown`; see `fixture`.
+        service: Launch service that runs the launch.
+        value: Value that the fixture has returned.
 
     Raises:
-        AssertionError: If the returned value is not a launch description.
+        AssertionError: If the value is not a launch description.
     """
     description = value[0] if isinstance(value, tuple | list) and value else value
     if not isinstance(description, LaunchDescription):
@@ -162,10 +177,10 @@ def launched(name: str, options: tuple[bool, bool], service: LaunchedService, va
 
 
 def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable[..., None]:
-    """Convert a user's test, a function, coroutine or generator, to an ordinary test function.
+    """Convert a launch test to an ordinary test function for pytest.
 
     Args:
-        test: The user's test.
+        test: The user's test, which may be a function, a coroutine function or a generator.
         after_end: Whether the test runs after the end of the launch.
         second: Whether to run only the part of a generator after its `yield`.
     """
@@ -209,12 +224,15 @@ def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable
 
 
 def scope_of(test: Any) -> str:
-    """Return the scope of the launch fixture that a test uses, such as "module"."""
+    """Return the pytest scope of the launch fixture that a test uses, such as "module"."""
     return str(fixture_of(test)[1])
 
 
 def fixture_of(test: Any) -> tuple[str, str]:
-    """Return name and scope of the launch fixture in a test's mark; the name is "" without one."""
+    """Return name and pytest scope of the launch fixture that a test uses.
+
+    The name is "" if the test has no mark `launch` that names a fixture.
+    """
     for mark in getattr(test, "pytestmark", ()):
         if mark.name == "launch" and (named := mark.kwargs.get("fixture")) is not None:
             if hasattr(named, "launch_fixture"):
@@ -224,12 +242,17 @@ def fixture_of(test: Any) -> tuple[str, str]:
 
 
 def is_generator(test: Any) -> bool:
-    """Return whether a test is a generator, synchronous or asynchronous."""
+    """Return whether a test is a generator function, synchronous or asynchronous."""
     return inspect.isgeneratorfunction(test) or inspect.isasyncgenfunction(test)
 
 
 def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
-    """Run a synchronous or asynchronous generator; yield at each of its `yield` statements."""
+    """Advance a synchronous or asynchronous generator; yield after each of its steps.
+
+    Args:
+        generator: Generator of a test.
+        loop: Event loop that runs an asynchronous generator.
+    """
     if inspect.isgenerator(generator):
         yield from generator
         return
@@ -242,7 +265,7 @@ def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
 
 
 def _end(steps: Iterator[None], test: Any) -> None:
-    """Run a generator test from its `yield` to its end.
+    """Run the part of a test generator after its `yield`.
 
     Raises:
         AssertionError: If the generator yields again.

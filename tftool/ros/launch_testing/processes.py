@@ -1,7 +1,8 @@
-"""Functions of launch_pytest that wait for a process's start, end or output.
+"""Functions of launch_pytest that wait until a process starts, ends or prints a text.
 
-Each coroutine has a synchronous version with the suffix `_sync`. Their arguments are the launch's
-context, the process's action, a function that checks the condition, and a timeout in seconds.
+Each coroutine has a synchronous version with the suffix `_sync`. The arguments are the launch
+context, the action that starts the process, a function that checks the output, and a timeout in
+seconds.
 """
 
 import asyncio
@@ -17,7 +18,7 @@ Condition = Callable[[Any, Any], Any]
 
 
 def _limit(timeout: float | None) -> Callable[[], bool]:
-    """Return a function that returns whether a timeout, started now, has passed."""
+    """Start a timeout; return a function that returns whether the timeout has passed."""
     clock = program.current().clock
     end = None if timeout is None else clock.now() + seconds(timeout)
     return lambda: end is not None and clock.now() >= end
@@ -28,7 +29,7 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
 
     Args:
         condition: Function that returns whether the wait is over.
-        otherwise: Function called if the condition does not become true in time.
+        otherwise: Function called if the condition is still false at the timeout.
     """
 
     async def wait(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:
@@ -54,7 +55,7 @@ def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tup
 def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
     """Return a coroutine function that waits for a condition, and its synchronous version.
 
-    Unlike the functions of `_waits`, these take no check of the user as an argument.
+    The condition depends on the action only; the user passes no function that checks the output.
     """
     wait_checked, wait_checked_sync = _waits(lambda action, _: condition(action), lambda *_: None)
 
@@ -68,7 +69,7 @@ def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
 
 
 def _passes(check: Callable[[str], object], output: str) -> bool:
-    """Return whether a function with assertions accepts an output."""
+    """Return whether the assertions in the function `check` accept an output."""
     try:
         check(output)
     except AssertionError:

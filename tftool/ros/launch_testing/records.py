@@ -1,4 +1,4 @@
-"""Records of processes and their output in launch tests, and assertions about them."""
+"""Records of processes and their output in launch tests, and assertions about the records."""
 
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
@@ -24,33 +24,33 @@ NO_CMD_ARGS = object()
 
 
 class NoMatchingProcessException(Exception):
-    """Error for a process without a recorded event."""
+    """Error for a process of which a record has no event."""
 
 
 class _Record:
-    """Events of processes in order of arrival, for which tests may wait."""
+    """List of events about processes, in order of arrival; tests can wait for events."""
 
     def __init__(self) -> None:
         self._state = StateMonitor()
         self._events: list[Any] = []
 
     def append(self, event: RunningProcessEvent) -> None:
-        """Append an event, and wake tests that wait."""
+        """Append an event, and wake the tests that wait."""
         self._state.change(lambda: self._events.append(event))
 
     def __iter__(self) -> Iterator[Any]:
         return iter(list(self._events))
 
     def processes(self) -> list[Any]:
-        """Return the actions whose processes have events in this record."""
+        """Return the actions that started the processes in this record."""
         return list(dict.fromkeys(event.action for event in self))
 
     def process_names(self) -> list[str]:
-        """Return the names of the processes that have events in this record."""
+        """Return the names of the processes in this record."""
         return list(dict.fromkeys(event.process_name for event in self))
 
     def holds_within(self, check: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait until `check` returns True; return False after `timeout` seconds."""
+        """Wait until `check` returns True, at most `timeout` seconds; return whether it did."""
 
         def holds() -> bool:
             try:
@@ -62,13 +62,20 @@ class _Record:
 
 
 class ProcInfoHandler(_Record):
-    """Record with the newest event of each process: its start or its end."""
+    """Record with the newest event of each process: ProcessStarted or ProcessExited."""
 
     def __iter__(self) -> Iterator[Any]:
         return iter({event.action: event for event in list(self._events)}.values())
 
     def __getitem__(self, key: Any) -> Any:
-        """Return the newest event of a process, given by its action or a part of its name."""
+        """Return the newest event of a process.
+
+        Args:
+            key: Action that started the process, or a part of the process's name.
+
+        Raises:
+            KeyError: If there is no event.
+        """
         for event in self:
             if event.action is key or (isinstance(key, str) and key in event.process_name):
                 return event
@@ -77,10 +84,10 @@ class ProcInfoHandler(_Record):
     def assertWaitForShutdown(
         self, process: Any, cmd_args: Any = None, *, timeout: float | None = 10
     ) -> None:
-        """Wait until a process has ended.
+        """Wait until a process has ended; for the arguments see `resolveProcesses`.
 
         Raises:
-            AssertionError: If the process does not end in time.
+            AssertionError: If the process has not ended after `timeout` seconds.
         """
 
         def has_ended() -> bool:
@@ -94,10 +101,10 @@ class ProcInfoHandler(_Record):
     def assertWaitForStartup(
         self, process: Any, cmd_args: Any = None, *, timeout: float | None = 10
     ) -> None:
-        """Wait until a process has started.
+        """Wait until a process has started; for the arguments see `resolveProcesses`.
 
         Raises:
-            AssertionError: If the process does not start in time.
+            AssertionError: If the process has not started after `timeout` seconds.
         """
         assert self.holds_within(
             lambda: bool(resolveProcesses(self, process=process, cmd_args=cmd_args)), timeout
@@ -105,13 +112,17 @@ class ProcInfoHandler(_Record):
 
 
 class IoHandler(_Record):
-    """Record of the output of processes, line by line."""
+    """Record of the lines that processes have printed."""
 
     def track(self, process_name: str) -> None:
-        """Do nothing: ROS 2 needs this call for processes without output."""
+        """Do nothing; in ROS 2, tests call this method for processes that may print nothing."""
 
     def __getitem__(self, key: Any) -> list[ProcessIO]:
-        """Return the output lines of a process, given by its action or its name."""
+        """Return the lines that a process has printed, as ProcessIO events.
+
+        Args:
+            key: Action that started the process, or the process's name.
+        """
         return [event for event in self if key in (event.action, event.process_name)]
 
     def waitFor(
@@ -123,7 +134,7 @@ class IoHandler(_Record):
         timeout: float | None = 10,
         **options: Any,
     ) -> bool:
-        """Wait for a text in the output of processes; return whether it came in time.
+        """Wait until processes have printed a text; return False at the timeout.
 
         Args:
             expected_output: Text, pattern, or list of texts and patterns in order.
@@ -133,7 +144,7 @@ class IoHandler(_Record):
             options: Further options of `assertInStream`.
 
         Raises:
-            NoMatchingProcessException: If the process has written nothing at all.
+            NoMatchingProcessException: If the process has printed nothing at all.
         """
 
         def is_there() -> bool:
@@ -149,10 +160,10 @@ class IoHandler(_Record):
         return found
 
     def assertWaitFor(self, *args: Any, **kwargs: Any) -> None:
-        """Wait for a text in the output of processes, as `waitFor` does.
+        """Wait until processes have printed a text; for the arguments see `waitFor`.
 
         Raises:
-            AssertionError: If the text does not come in time.
+            AssertionError: If the text has not been printed at the timeout.
         """
         assert self.waitFor(*args, **kwargs), "Waiting for output timed out"
 
@@ -171,11 +182,11 @@ def _described(action: Any) -> str:
 def resolveProcesses(
     info_obj: Any, *, process: Any = None, cmd_args: Any = None, strict_proc_matching: bool = True
 ) -> list[Any]:
-    """Return the actions of the recorded processes that match.
+    """Return the actions that started the processes with a given name and arguments.
 
     Args:
         info_obj: Record of processes.
-        process: Action, part of a process's name, or None for all.
+        process: Action, or part of a process's name; None for all processes.
         cmd_args: Arguments that a process found by name must have, or NO_CMD_ARGS.
         strict_proc_matching: Whether a name may match only one process.
 
@@ -226,10 +237,17 @@ def assertExitCodes(
     *,
     strict_proc_matching: bool = True,
 ) -> None:
-    """Check the exit statuses of the matching processes, or of all.
+    """Check the exit statuses of processes.
+
+    Args:
+        proc_info: Record of processes.
+        allowable_exit_codes: Exit statuses that pass the check.
+        process: Processes to check; None for all. See `resolveProcesses`.
+        cmd_args: See `resolveProcesses`.
+        strict_proc_matching: See `resolveProcesses`.
 
     Raises:
-        AssertionError: If an exit status is not among the allowed ones.
+        AssertionError: If an exit status is not allowed.
     """
     for code in allowable_exit_codes:
         assert isinstance(code, int), f"Provided exit code {code} is not an int"
@@ -291,37 +309,36 @@ def assertInStream(
 def assertInStdout(
     proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, **options: Any
 ) -> None:
-    """Check that a process has written a text to its standard output."""
+    """Check that a process has printed a text on its standard output; see `assertInStream`."""
     assertInStream(proc_output, expected_output, process, cmd_args, **options, stream="stdout")
 
 
 def assertInStderr(
     proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, **options: Any
 ) -> None:
-    """Check that a process has written a text to its standard error."""
+    """Check that a process has printed a text on its standard error; see `assertInStream`."""
     assertInStream(proc_output, expected_output, process, cmd_args, **options, stream="stderr")
 
 
 def assertDefaultStream() -> str:
-    """Return the stream that `assertInStream` checks by default."""
+    """Return the name of the stream that `assertInStream` checks by default, "stderr"."""
     return "stderr"
 
 
 class SequentialTextChecker:
-    """Search for several texts in an output, in which each text must follow the one before it."""
+    """Search for texts in an output, each after the text of the previous search."""
 
     def __init__(self, output: list[str]) -> None:
         """Prepare a search from the beginning of an output.
 
         Args:
-            output: The output in parts, as written by the process. A text is found only if it is
-                within one part.
+            output: Lines of the output. A text that spans two lines is not found.
         """
         self._output = output
         self._piece = self._column = 0
 
     def assertInStdout(self, msg: str) -> None:
-        """Check that the output contains a text anywhere after the text of the previous check.
+        """Check that the output contains a text after the text of the previous check.
 
         Raises:
             AssertionError: If the rest of the output does not contain the text.
@@ -341,7 +358,7 @@ class SequentialTextChecker:
     assertInText = assertInStdout
 
     def get_nearby_lines(self) -> str:
-        """Return the line of the text found last, with two lines on either side."""
+        """Return the line of the text found last, with two lines before and after."""
         lines = "".join(self._output).splitlines()
         before = "".join(self._output[: self._piece])
         before += "".join(self._output[self._piece : self._piece + 1])[: self._column]
@@ -353,13 +370,13 @@ class SequentialTextChecker:
 def assertSequentialStdout(
     proc_output: Any, process: Any, cmd_args: Any = None
 ) -> Iterator[SequentialTextChecker]:
-    """Yield a checker for texts that a process has written one after the other."""
+    """Yield a checker for several texts that a process must have printed one after the other."""
     (action,) = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)
     yield SequentialTextChecker([line.text.decode() for line in proc_output[action]])
 
 
 class ProcessProxy:
-    """View of one process with its state and its output, for tests."""
+    """State and output of one process, for tests."""
 
     def __init__(
         self,
@@ -373,13 +390,13 @@ class ProcessProxy:
         self._info, self._output, self._filter = proc_info, proc_output, output_filter
 
     def wait_for_shutdown(self, timeout: float | None = None) -> bool:
-        """Wait until the process has ended; return whether it ended in time."""
+        """Wait until the process has ended; return False after `timeout` seconds."""
         return self._info.holds_within(lambda: self.terminated, timeout)
 
     def wait_for_output(
         self, condition: Callable[[str], bool] = lambda _: True, timeout: float | None = None
     ) -> bool:
-        """Wait until a function accepts the output; return whether it did in time."""
+        """Wait until `condition` accepts the output; return False after `timeout` seconds."""
         return self._output.holds_within(lambda: self.running and condition(self.output), timeout)
 
     def _text(self, *streams: bool) -> str:
@@ -430,7 +447,15 @@ def launch_process(
     proc_output: IoHandler,
     **options: Any,
 ) -> Iterator[ProcessProxy]:
-    """Run a process during this block; yield a `ProcessProxy` of it, created with `options`."""
+    """Run a process during the `with` block; yield a `ProcessProxy` for the process.
+
+    Args:
+        launch_service: Launch service that runs the process.
+        process_action: Action that starts the process.
+        proc_info: Record of processes.
+        proc_output: Record of output.
+        options: Further arguments of `ProcessProxy`.
+    """
     launch_service.include_launch_description(LaunchDescription([process_action]))
     try:
         yield ProcessProxy(process_action, proc_info, proc_output, **options)

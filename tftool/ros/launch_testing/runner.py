@@ -1,4 +1,4 @@
-"""Runs of launch tests: a launch, tests beside it, and tests after its end."""
+"""Runner of launch tests: a launch, tests during the launch, and tests after the launch's end."""
 
 import asyncio
 import copy
@@ -28,7 +28,7 @@ STOPPED = "Launch stopped before the active tests finished."
 
 
 class TestResult(unittest.TextTestResult):
-    """Result of unittest that also lists the test cases that were run."""
+    """Result of unittest with a list of the test cases that were run."""
 
     __test__ = False
 
@@ -37,12 +37,12 @@ class TestResult(unittest.TextTestResult):
         self.testCases: list[Any] = []
 
     def startTest(self, test: Any) -> None:
-        """Add a test case to the list, and start it."""
+        """Add a test case to the list of test cases, and start the test case."""
         self.testCases.append(test)
         super().startTest(test)
 
     def append(self, other: "TestResult") -> None:
-        """Add the tests and counts of another result to this one."""
+        """Add the test cases, counts and failures of the result `other` to this result."""
         self.testCases += other.testCases
         self.testsRun += other.testsRun
         for name in ("failures", "errors", "skipped", "expectedFailures", "unexpectedSuccesses"):
@@ -50,14 +50,14 @@ class TestResult(unittest.TextTestResult):
 
 
 class _Loader(unittest.TestLoader):
-    """Loader of the test classes that run beside a launch; with `after_end`, after its end."""
+    """Loader of the test classes that run during a launch, or with `after_end`, after its end."""
 
     def __init__(self, *, after_end: bool) -> None:
         super().__init__()
         self._after_end = after_end
 
     def loadTestsFromTestCase(self, testCaseClass: Any) -> unittest.TestSuite:
-        """Return the tests of a class, or no tests if this loader does not load that class."""
+        """Return the tests of a class; an empty suite if the class belongs to the other loader."""
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._after_end:
             return unittest.TestSuite()
         # Each launch needs its own copy of the class, which gets the launch's values.
@@ -74,7 +74,7 @@ def _cases(tests: Any) -> Iterator[Any]:
 
 
 def _given(function: Callable[..., Any], values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Bind the values whose keys are argument names of the function; return the new function."""
+    """Return the function with those of `values` bound that are names of its arguments."""
     wanted = inspect.signature(function).parameters
     return functools.partial(function, **{k: v for k, v in values.items() if k in wanted})
 
@@ -84,11 +84,11 @@ class TestRun:
 
     Attributes:
         name: Name of the run.
-        param_args: Values of the parameters.
-        pre_shutdown_tests: Tests that run beside the launch.
+        param_args: Values of the parameters, by name.
+        pre_shutdown_tests: Tests that run during the launch.
         post_shutdown_tests: Tests that run after the launch's end.
         timeout: Seconds until the tests must be ready to start.
-        markers: Markers that decorators have set on the description.
+        markers: Markers that decorators have set on the function that describes the launch.
     """
 
     __test__ = False
@@ -122,14 +122,14 @@ class TestRun:
         return f"[{', '.join(map(str, self.param_args.values()))}]" if self.param_args else ""
 
     def all_cases(self) -> Iterator[Any]:
-        """Yield the test cases of the run, during and after the launch."""
+        """Yield the test cases that run during the launch, then those that run after its end."""
         yield from _cases(self.pre_shutdown_tests)
         yield from _cases(self.post_shutdown_tests)
 
     def normalized_test_description(
         self, *, ready_fn: Callable[[], object]
     ) -> tuple[LaunchDescription, dict[str, Any]]:
-        """Return the launch description, and values by name for arguments of the tests.
+        """Return the launch description, and a mapping from argument names of tests to values.
 
         Args:
             ready_fn: Function to call when the tests may start.
@@ -149,14 +149,14 @@ class TestRun:
         return description, values
 
     def get_launch_description(self) -> LaunchDescription:
-        """Return the launch description only, without starting tests."""
+        """Return only the launch description, for callers that run no tests."""
         return self.normalized_test_description(ready_fn=lambda: None)[0]
 
     def check(self) -> None:
-        """Check that the description's function accepts the parameters of this run.
+        """Check that `generate_test_description` has exactly the arguments of `parametrize`.
 
         Raises:
-            UsageError: If a parameter is not an argument of the function.
+            UsageError: If an argument is missing or superfluous.
         """
         takes = inspect.getfullargspec(inspect.unwrap(self._function))
         names = {*takes.args, *takes.kwonlyargs}
@@ -168,10 +168,10 @@ class TestRun:
             raise UsageError(f"{MAKES} has unexpected extra argument '{name}'")
 
     def run(self, arguments: Mapping[str, str], preamble: Sequence[Any] = ()) -> TestResult:
-        """Launch the description, run its tests, and return their result.
+        """Launch the description, run the tests, and return the tests' result.
 
         Args:
-            arguments: Values of the launch's arguments.
+            arguments: Values of the launch arguments, by name.
             preamble: Actions to execute before the description.
         """
         ready = asyncio.Event()
@@ -211,7 +211,12 @@ class TestRun:
 def wait_for_first(
     events: Sequence[asyncio.Event], timeout: float | None = None
 ) -> asyncio.Event | None:
-    """Wait until one of some events is set; return it, or None after `timeout` seconds."""
+    """Wait until one of several events is set; return that event, or None at the timeout.
+
+    Args:
+        events: Events of asyncio in the loop of tftool's world.
+        timeout: Longest wait in seconds; None for no limit.
+    """
     owner = program.current()
 
     async def wait() -> None:
@@ -252,7 +257,7 @@ def _run(
 
 
 def _failed(cases: Sequence[Any], reason: str) -> TestResult:
-    """Return a result in which every test failed for the given reason."""
+    """Return a result in which each of the test cases has failed for the same reason."""
     stream = unittest.runner._WritelnDecorator(sys.stderr)
     result = TestResult(stream, descriptions=True, verbosity=0)
     stream.writeln(reason)
@@ -264,7 +269,7 @@ def _failed(cases: Sequence[Any], reason: str) -> TestResult:
 
 
 def _last_words(info: ProcInfoHandler, output: IoHandler) -> Iterator[str]:
-    """Yield the output of each process that ended with an exit status other than 0."""
+    """Yield the output of each process whose exit status was not 0, below a heading."""
     for event in info:
         status = getattr(event, "returncode", 0)
         if status:
@@ -273,7 +278,7 @@ def _last_words(info: ProcInfoHandler, output: IoHandler) -> Iterator[str]:
 
 
 class LaunchTestRunner:
-    """Runner of several launches with their tests."""
+    """Runner of a list of launches with their tests."""
 
     def __init__(
         self,
@@ -284,23 +289,24 @@ class LaunchTestRunner:
         self._runs, self._arguments = list(test_runs), list(launch_file_arguments)
 
     def generate_preamble(self) -> list[Any]:
-        """Return actions to execute before every launch: none, unless a subclass has some."""
+        """Return actions to execute before every launch; subclasses may override this method."""
         return []
 
     def validate(self) -> None:
-        """Check that each run's description accepts the run's parameters.
+        """Check that `generate_test_description` has exactly the arguments of `parametrize`.
 
         Raises:
-            UsageError: If `parametrize` names no argument of `generate_test_description`.
+            UsageError: If an argument is missing or superfluous.
         """
         for run in self._runs:
             run.check()
 
     def run(self) -> dict[TestRun, Any]:
-        """Run each launch with its tests; return the results by run.
+        """Run each launch with its tests; return a mapping from run to result.
 
         Raises:
-            UsageError: If an argument of the launch is malformed.
+            RuntimeError: If a launch argument is malformed.
+            UsageError: If a launch description has no ReadyToTest action.
         """
         arguments = parse_launch_arguments(self._arguments)
         results: dict[TestRun, Any] = {}
@@ -319,10 +325,10 @@ class LaunchTestRunner:
 
 
 def parse_launch_arguments(launch_arguments: Sequence[str]) -> list[tuple[str, str]]:
-    """Parse words of the form `name:=value`; a later value replaces an earlier one.
+    """Parse launch arguments `name:=value` to pairs; the last value of a name counts.
 
     Raises:
-        RuntimeError: If a word is malformed.
+        RuntimeError: If an argument is malformed.
     """
     found = {}
     for word in launch_arguments:
@@ -336,10 +342,10 @@ def parse_launch_arguments(launch_arguments: Sequence[str]) -> list[tuple[str, s
 
 
 def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> list[TestRun]:
-    """Return the runs in a file of launch tests: several if it is parametrized.
+    """Return the runs that a file of launch tests describes: one for each set of parameters.
 
     Raises:
-        InputError: If the module has no function that describes a launch.
+        InputError: If the module has no function `generate_test_description`.
     """
     function = getattr(module, MAKES, None)
     if function is None:
@@ -360,15 +366,15 @@ def LoadTestsFromPythonModule(module: Any, *, name: str = "launch_tests") -> lis
 
 
 def run_tests(path: Path, arguments: Sequence[str]) -> None:
-    """Run a file of launch tests as the running program.
+    """Run a file of launch tests inside the calling program.
 
     Args:
         path: Path of the file.
-        arguments: Values of the launch's arguments, as `name:=value`.
+        arguments: Launch arguments of the form `name:=value`.
 
     Raises:
-        InputError: If the file cannot be read or describes no launch.
-        UsageError: If `parametrize` names no argument of `generate_test_description`.
+        InputError: If the file cannot be read, or has no `generate_test_description`.
+        UsageError: If `parametrize` does not match the arguments of `generate_test_description`.
         SystemExit: With status 1, if a test fails.
     """
     # Tests import modules of the workspace's packages, too.

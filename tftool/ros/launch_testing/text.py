@@ -1,4 +1,4 @@
-"""Comparison of output with expected texts, regular expressions, or lists of both."""
+"""Comparison of an output with expected texts, regular expressions, or lists of these."""
 
 import re
 from collections.abc import Callable, Iterable, Sequence
@@ -17,12 +17,12 @@ def without_escapes(text: str) -> str:
 
 
 def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..., Span]:
-    """Return a function that finds several items one after the other.
+    """Return a function that finds several items one after the other in an output.
 
     Args:
         first: Function that finds the first item; see `build_text_match`.
-        others: Functions that find the other items.
-        strict: Whether each item must begin where the item before it ends.
+        others: Functions that find the following items.
+        strict: Whether each item must begin where the previous item ends.
     """
 
     def match(actual: Any, start: int = 0) -> Span:
@@ -41,10 +41,10 @@ def _in_order(first: Any, others: Sequence[Any], *, strict: bool) -> Callable[..
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..., Span]:
-    """Return a function that searches an output for a text, a pattern, or a list of both.
+    """Return a function that searches an output for a text, a pattern, or a list of these.
 
-    The function is called with the output and an index at which the search begins. It returns the
-    first and the last index of the match; None without a match.
+    The function takes the output and an index at which the search begins. It returns the start and
+    the end of the match as (index, index after the match); None without a match.
 
     Args:
         expected_text: Text, pattern, or list of texts and patterns, which are found in order.
@@ -52,7 +52,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
             list; a single text must match the whole rest of the output.
 
     Raises:
-        ValueError: If `expected_text` is neither a text, nor a pattern, nor a list of both.
+        ValueError: If `expected_text` is not a text, a pattern or a list of these.
     """
     if isinstance(expected_text, str):
         wanted = expected_text
@@ -80,18 +80,18 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
 
 
 def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[..., Span]:
-    """Return a function that searches lines for a text, a pattern, or a list of both.
+    """Return a function that searches lines for a text, a pattern, or a list of these.
 
-    The function is called with the lines and the index of the line at which the search begins. It
-    returns the first and the last index of the match; None without a match.
+    The function takes the lines and the index of the line at which the search begins. It returns
+    the matching lines as (index, index after the last line); None without a match.
 
     Args:
-        expected_lines: Text, pattern, or list of texts and patterns, each for a line of its own.
-        strict: Whether the lines of a list's items must follow one another, from the index on; a
-            single item must match every line.
+        expected_lines: Text, pattern, or list of texts and patterns, each for one line.
+        strict: Whether the items of a list must match consecutive lines from the index on; a single
+            item must match every line.
 
     Raises:
-        ValueError: If `expected_lines` is neither a text, nor a pattern, nor a list of both.
+        ValueError: If `expected_lines` is not a text, a pattern or a list of these.
     """
     if isinstance(expected_lines, str | re.Pattern):
 
@@ -126,14 +126,15 @@ def expect_output(
 
     Args:
         text: The output as a text.
-        lines: The output as lines, in place of `text`.
+        lines: The output as lines, instead of `text`.
         expected_text: See `build_text_match`.
-        expected_lines: See `build_line_match`; in place of `expected_text`.
+        expected_lines: See `build_line_match`; instead of `expected_text`.
         strip_ansi_escape_sequences: Whether to remove colours before the comparison.
         strict: See `build_text_match` and `build_line_match`.
 
     Raises:
-        ValueError: If both or neither of two arguments are given that replace each other.
+        ValueError: Unless exactly one of `text` and `lines`, and exactly one of `expected_text` and
+            `expected_lines`, is given.
     """
     if (text is None) == (lines is None):
         raise ValueError("give either text or lines, not both or neither")
@@ -148,7 +149,7 @@ def expect_output(
 
 
 def expected_output_from_file(path: str, encoding: str | None = None) -> list[Any]:
-    """Return the lines of `path`.txt, or `path`.regex compiled line by line.
+    """Return expected lines: texts from the file `path`.txt, or patterns from `path`.regex.
 
     Raises:
         RuntimeError: If neither file exists.
@@ -165,12 +166,12 @@ def basic_output_filter(
     filtered_patterns: Sequence[str] | None = None,
     filtered_rmw_implementation: str | None = None,
 ) -> Callable[[str], str]:
-    """Return a function that removes some lines from an output.
+    """Return a function that removes lines with some prefixes or patterns from an output.
 
     Args:
         filtered_prefixes: Prefixes of the lines to remove; by default "pid" and "rc".
         filtered_patterns: Patterns of the lines to remove.
-        filtered_rmw_implementation: Without effect: no middleware writes output here.
+        filtered_rmw_implementation: Ignored, because tftool prints no lines of a middleware.
     """
     prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None
                      else filtered_prefixes)  # fmt: skip
@@ -188,10 +189,10 @@ def basic_output_filter(
 
 
 def get_default_filtered_prefixes() -> list[str]:
-    """Return the prefixes of lines that `basic_output_filter` removes by default."""
+    """Return the default of `filtered_prefixes` in `basic_output_filter`."""
     return ["pid", "rc"]
 
 
 def get_default_filtered_patterns() -> list[str]:
-    """Return the patterns of lines that `basic_output_filter` removes by default: none."""
+    """Return the default of `filtered_patterns` in `basic_output_filter`, an empty list."""
     return []

@@ -44,7 +44,7 @@ class MessagePump:
 class WaitForTopics:
     """Helper that waits for a message on each of several topics.
 
-    Used in a `with` statement, it waits on entry, and raises RuntimeError if a topic is silent.
+    A `with` statement waits at its beginning, and raises RuntimeError at the timeout.
     """
 
     def __init__(
@@ -53,10 +53,10 @@ class WaitForTopics:
         timeout: float = 5.0,
         messages_received_buffer_length: int | None = 10,
     ) -> None:
-        """Create a node for this helper.
+        """Create a node that subscribes to the topics.
 
         Args:
-            topic_tuples: Topics to wait for, each with its message type.
+            topic_tuples: Pairs (topic, message type) to wait for.
             timeout: Longest wait in seconds.
             messages_received_buffer_length: Number of messages to store per topic; None for all.
         """
@@ -72,7 +72,7 @@ class WaitForTopics:
         self._pump.start()
 
     def wait(self) -> bool:
-        """Wait for a message on each topic; return whether all have arrived in time."""
+        """Wait for a message on each topic; return False at the timeout."""
         for topic, kind in self.topic_tuples:
             if topic not in self._messages:
                 kept = self._messages[topic] = deque(maxlen=self._kept)
@@ -101,7 +101,7 @@ class WaitForTopics:
         """Return the last messages that have arrived on a topic.
 
         Raises:
-            KeyError: If the topic is not one of those waited for.
+            KeyError: If the helper does not wait for this topic.
         """
         if topic_name not in self._messages:
             raise KeyError(f"No messages received for topic: {topic_name}")
@@ -119,7 +119,7 @@ class WaitForTopics:
 
 
 class DataRepublisher:
-    """Helper that receives a topic's messages, changes them and publishes them on another topic."""
+    """Helper that changes each message on a topic and publishes the result on another topic."""
 
     def __init__(
         self,
@@ -129,10 +129,10 @@ class DataRepublisher:
         msg_type: Any,
         transform_fn: Callable[[Any], Any],
     ) -> None:
-        """Start to receive and publish messages.
+        """Create the subscription and the publisher.
 
         Args:
-            node: Node that receives and publishes.
+            node: Node that owns the subscription and the publisher.
             listen_topic: Topic to receive from.
             publish_topic: Topic to publish on.
             msg_type: Message type of both topics.
@@ -156,13 +156,13 @@ class DataRepublisher:
         self._node.destroy_publisher(self._publisher)
 
     def get_num_received(self) -> int:
-        """Return how many messages were received."""
+        """Return the number of received messages."""
         return self._received
 
     def get_num_republished(self) -> int:
-        """Return how many messages were published."""
+        """Return the number of published messages."""
         return len(self._republished)
 
     def get_republished(self) -> list[Any]:
-        """Return the messages that were published."""
+        """Return the received messages that were published, before the change."""
         return self._republished
