@@ -1,7 +1,7 @@
 """Declaration of the doctor's checks: id, severity, thresholds, texts and web addresses.
 
-An id never changes its meaning, and is never used again for another check. Texts contain names of
-facts, which `wording` replaces by formatted numbers and names.
+The id of a removed check is never given to another check. The texts contain placeholders, which the
+module `wording` replaces by formatted numbers and names.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -28,7 +28,7 @@ NEEDS = {
     "valid description": "the robot description has mistakes",
     "joint states": "there are no joint states",
 }
-"""Inputs that a check may need in addition to transforms, and the sentence if one is missing."""
+"""Inputs that a check may need in addition to transforms, and the reason to skip the check."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,28 +38,27 @@ class Check:
     Attributes:
         id: Name of the check, which never changes.
         area: Subject of the check.
-        severity: Severity of the findings, unless a hit has a severity of its own.
-        summary: Description of the fault in one line: the docstring of the function.
+        severity: Severity of the findings; a hit can override this severity.
+        summary: Description of the fault in one line, from the docstring of `run`.
         run: Function that yields the hits (single observations) of the check.
         rule: Condition for a finding, with the thresholds as {names}.
         headline: Sentence about a finding. `{where}` becomes the names concerned, and
-            `{concerned:one|many}` a word that depends on a number or on the length of a list.
-        detail: A line of evidence for each hit.
-        consequence: What the fault leads to.
-        fixes: Remedies, in addition to the remedies of a single hit.
-        causes: Causes that people found, the most frequent first.
+            `{concerned:is|are}` becomes the singular or the plural word.
+        detail: Template for the line of evidence of each hit.
+        consequence: Effect of the fault, such as a failing lookup.
+        fixes: Remedies, in addition to the remedies in a hit.
+        causes: Causes known from reports of users, the most frequent first.
         links: Discussions of the fault, and standards.
-        limits: Thresholds by name; seconds, metres, radians, fractions, counts.
+        limits: Thresholds by name: seconds, metres, radians, fractions or counts.
         needs: Keys of `NEEDS` without which the check cannot run.
         why: Reason for the rule and its thresholds; empty if obvious.
         because_of: Checks whose findings may explain a finding of this check, as pairs (common
-            subject, ids of the checks separated by blanks). The first pair that fits is used. The
-            subject is the thing that both findings must be about: "edge", "child" or "frame";
-            "stream" (an edge or a topic); "path" (an edge on the path to the sensor, or the
-            topic); "gap" (like "path", but only if all late data is in gaps); "skew" (like "path",
-            but only if transforms and messages are on two clocks); "mixed" (like "child", but only
-            if data of several publishers is mixed); or "anything" (the findings need not have
-            anything in common).
+            subject, ids of the checks separated by blanks). The first pair that fits is used. Both
+            findings must be about the common subject: "edge", "child" or "frame"; "stream" (an edge
+            or a topic); "path" (an edge on the path to the sensor, or the topic); "gap" (like
+            "path", but only if all late data is in gaps); "skew" (like "path", but only if
+            transforms and messages are on two clocks); "mixed" (like "child", but only if data of
+            several publishers is mixed). With "anything", any two findings fit.
     """
 
     id: str
@@ -107,7 +106,7 @@ class checks_of:  # noqa: N801 - a decorator
 
 
 def _summary(run: Run) -> str:
-    """Return a check's docstring without the full stop and in lower case, for a sentence."""
+    """Return the docstring of a check's function in lower case and without the full stop."""
     text = " ".join((run.__doc__ or "").split()).removesuffix(".")
     # Names such as NaN keep their capitals.
     return text if any(letter.isupper() for letter in text.split()[0][1:]) else _lowered(text)
@@ -122,8 +121,8 @@ def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hi
 
     Args:
         stream: The edge, or the messages of the topic.
-        facts: Facts of the hit; the name of the edge or topic is added.
-        **given: Attributes of `Hit`; they replace attributes derived from the stream.
+        facts: Facts of the hit; this function adds the name of the edge or topic.
+        **given: Attributes of `Hit`, which replace the attributes derived from the stream.
     """
     if isinstance(stream, Track):
         own = {"edges": (stream.edge,), "publishers": stream.nodes}
@@ -136,6 +135,6 @@ def hit_of(stream: Track | Heard, facts: Mapping[str, Fact], **given: Any) -> Hi
 
 
 def threads(*threads: str) -> tuple[str, ...]:
-    """Return the web addresses of GitHub threads, given as owner/repository#number."""
+    """Return the web addresses of GitHub issues, each given as owner/repository#number."""
     pairs = (thread.split("#") for thread in threads)
     return tuple(f"https://github.com/{repository}/issues/{number}" for repository, number in pairs)

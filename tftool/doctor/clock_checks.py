@@ -1,4 +1,4 @@
-"""Checks of clocks: several clocks, offsets between clocks, late and wild stamps."""
+"""Checks of clocks: several clocks, offsets between clocks, future stamps and stray stamps."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
@@ -117,31 +117,33 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _placed(model: Model) -> list[Heard]:
-    """Return the streams of messages whose stamps matter for tf.
+    """Return the topics whose stamps matter for tf: joint states, and messages with a position.
 
-    These are messages with a position, whose frame a program looks up, and joint states. Nothing
-    looks up the frame of diagnostics or logs.
+    Programs look up the frames of messages with a position, but not those of diagnostics or logs.
     """
     return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
 
 
 def _is_single(stream: "Track | Heard") -> bool:
-    """Whether a topic has one message, as a latched map does."""
+    """Whether the stream is a topic with a single message, such as a latched map."""
     return isinstance(stream, Heard) and len(stream.all_stamps) == 1
 
 
 def _is_placed_by_stamp(model: Model, stream: "Track | Heard") -> bool:
-    """Whether a wrong stamp makes lookups refuse: of a transform, or of a sensor that moves."""
+    """Whether a wrong stamp in the stream makes lookups fail.
+
+    This holds for all transforms, and for sensor messages in a frame that moves.
+    """
     if isinstance(stream, Track):
         return True
     is_sensor = stream.type.startswith("sensor_msgs/") or stream.type == "nav_msgs/Odometry"
-    # Lookups of a frame that tf does not know refuse at any stamp.
+    # Lookups of a frame that is not in tf fail at any stamp.
     path = model.path(stream.frame.removeprefix("/"), model.fixed_frame) or ()
     return is_sensor and not _is_single(stream) and not all(track.static for track in path)
 
 
 def _others(model: Model, odd: "list[Track | Heard]", family: int) -> str:
-    """Return "all others" if no other stream has stamps of the odd clock; else a weaker word."""
+    """Return "all others" if no stream outside `odd` uses the odd clock, else "other streams"."""
     streams: list[Track | Heard] = [*model.tracks, *model.heard]
     also = any(one.families[family] for one in streams if one not in odd)
     return "other streams" if also else "all others"
@@ -202,7 +204,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _has_unshifted(model: Model, shift: Shift) -> bool:
-    """Whether a stream, a static transform or a latched message is not shifted as the others."""
+    """Whether a stream, a static transform or a latched message lacks the shift of most streams."""
     every: list[Track | Heard] = [*model.tracks, *model.heard]
     odd = (2 * abs(one.median_latency) > abs(shift.by) for one in every if one.families[1])
     return shift.streams < shift.of or any(odd)
@@ -245,13 +247,13 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_design(track: Track, ahead: int) -> bool:
-    """Whether a transform is stamped ahead of time on purpose.
+    """Whether a publisher stamps a transform ahead of time on purpose.
 
-    In ROS 1, publishers stamp a transform ahead so that it is valid until the next one.
+    Some ROS 1 publishers do so, to keep the transform valid until the next sample.
 
     Args:
         track: Samples of the edge.
-        ahead: Time by which stamps are later than reception, nanoseconds.
+        ahead: Median time from reception to the stamp, nanoseconds.
     """
     if ahead <= 1.2 * track.period:
         return True
@@ -415,7 +417,10 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
-    """Whether all streams, of two topics or more, are ahead by nearly the same time."""
+    """Whether the streams of several topics are all ahead by nearly the same time.
+
+    The times in `aheads` are those of the reported streams, nanoseconds.
+    """
     streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
     late = [one.median_latency for one in streams if len(one.stamps) > 2]
     topics = {one.topics if isinstance(one, Track) else one.topic for one in streams}
@@ -428,23 +433,23 @@ def _is_shared(model: Model, aheads: Sequence[Duration]) -> bool:
 
 
 def _is_of_transforms(model: Model, ahead: Duration) -> bool:
-    """Whether the moving transforms are ahead by the same time as a sensor's messages."""
+    """Whether all moving transforms are stamped `ahead` nanoseconds ahead, like the sensor data."""
     moving = [one for one in model.dynamic if one.moves and not one.is_localisation]
     return bool(moving) and all(abs(one.median_latency + ahead) < _ONE_CLOCK for one in moving)
 
 
 def _is_unshifted(model: Model, heard: Heard) -> bool:
-    """Whether messages are on the recorder's clock, in a recording whose other stamps are not."""
+    """Whether a topic is on the recorder's clock, while most stamps are shifted from that clock."""
     is_judged = len(heard.stamps) >= 3 and heard.is_spatial and model.shift is not None
     by = 0 if model.shift is None else model.shift.by
     return is_judged and 2 * abs(heard.median_latency) > abs(by)
 
 
 def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
-    """Return evidence for edges whose samples come from two clocks.
+    """Return a sentence for each edge whose samples come from two clocks.
 
-    Such an edge has two publishers: one on the wrong clock, and one on the clock that the other
-    streams use.
+    Such an edge has two publishers: one uses the wrong clock, and one uses the clock of the other
+    streams. The result is empty without such an edge.
     """
     told = ""
     for track in streams:
@@ -458,7 +463,7 @@ def _on_both_clocks(model: Model, streams: Sequence[Track | Heard]) -> str:
 
 
 def cure_of_offset(model: Model) -> Fix:
-    """Return the next step for stamps that differ from the time of reception."""
+    """Return the remedy for stamps that differ from the time of reception."""
     if model.was_played:
         return _PLAY_AGAIN
     # Data that was recorded before is stamped before its reception.
@@ -507,7 +512,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_one_period(stream: "Track | Heard") -> bool:
-    """Whether a stream arrives about one of its periods after its stamps."""
+    """Whether the median latency of a stream is about one period of the stream."""
     if isinstance(stream, Track):
         period = float(stream.period)
     else:
@@ -580,14 +585,14 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _beside_live_data(model: Model) -> str:
-    """Return words for live data among data that was played again; empty without live data."""
+    """Return " among live data" if a recording was played beside live publishers, else ""."""
     late = np.concatenate([track.all_logs - track.all_stamps for track in model.dynamic])
     shares = float(np.mean(np.abs(late) < LAP)), float(np.mean(late > 10 * LAP))
     return " among live data" if min(shares) > 0.1 else ""
 
 
 def _is_played_again(model: Model) -> bool:
-    """Whether transforms come again, bit for bit, with the stamps that they had before."""
+    """Whether the transforms after the jump in time are bitwise copies of those before the jump."""
     fewest = again = 0
     for track in model.dynamic:
         rows = np.ascontiguousarray(track.records).view("V64").ravel()

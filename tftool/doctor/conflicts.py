@@ -29,9 +29,10 @@ _RADIAN = 0.5
 
 
 def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severity | None:
-    """Return WARNING for a conflict that hardly affects driving; None if the hit is an error.
+    """Return WARNING or NOTE for an uncertain or harmless conflict; None for an error.
 
-    Such a conflict is small, or concerns a frame in which no sensor or child frame is placed.
+    A harmless conflict has a small difference, or concerns a minor part of the robot, such as a
+    wheel.
     """
     if hit.confidence is not Confidence.CERTAIN:
         return Severity.NOTE if hit.confidence is Confidence.POSSIBLE else Severity.WARNING
@@ -48,8 +49,8 @@ def severity_of(model: Model, track: Track, hit: Hit, limits: Limits) -> Severit
 def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
     """Return the hit about an edge whose samples alternate between one fixed pose and others.
 
-    This happens if one robot_state_publisher gets joint states from two sources, one of which
-    always sends the same value. Return None for other edges.
+    Return None for other edges. A usual cause is a robot_state_publisher with two sources of joint
+    states, if one source sends constant values.
     """
     if track.is_localisation or is_odometry(track) or hit.confidence is Confidence.CERTAIN:
         return None
@@ -75,7 +76,7 @@ def fed_twice(track: Track, hit: Hit, limits: Limits) -> Hit | None:
 
 
 def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if two publishers with known node names send different poses; else None."""
+    """Return a hit if two nodes with known names publish different poses of an edge; else None."""
     places = track.by_stamp
     senders = track.senders[places]
     numbers, counts = np.unique(senders, return_counts=True)
@@ -116,7 +117,7 @@ def named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 
 def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if many stamps occur twice, with two different poses; else None."""
+    """Return a hit if many stamps of an edge occur twice with different poses; else None."""
     if len(track.steps) == len(track.by_stamp) - 1 or is_corrected(track, limits):
         return None
     # A stamp that occurs more than twice does not change, which is another fault.
@@ -137,10 +138,10 @@ def values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
 
 
 def is_corrected(track: Track, limits: Limits) -> bool:
-    """Whether one publisher sends several values under one stamp, and never an earlier one again.
+    """Whether one publisher corrects its poses: a later pose with the same stamp replaces a pose.
 
-    A filter does so if it corrects a pose after it was sent. The samples of a second publisher
-    would return to the earlier value.
+    Some filters send such corrections. With two publishers, the samples of a stamp would return to
+    an earlier pose.
     """
     if len(track.publishers) != 1 or not track.nodes:
         return False
@@ -158,7 +159,7 @@ def is_corrected(track: Track, limits: Limits) -> bool:
 
 
 def is_revolute(track: Track) -> bool:
-    """Whether an edge only turns, as a wheel does: its samples may be more than a turn apart."""
+    """Whether an edge has a constant translation and only turns, like a wheel."""
     where = track.translations[track.by_stamp]
     return bool(np.ptp(where, axis=0).max() < 1e-6) if len(where) else False
 
@@ -166,8 +167,8 @@ def is_revolute(track: Track) -> bool:
 def _count_returns(track: Track, firsts: Places) -> int:
     """Count the stamps with two poses at which one pose interrupts the motion of the other.
 
-    Two publishers cause such an interruption. The alternative is one publisher that sends a newer
-    pose with an old stamp: its motion then continues from the second pose, which is not counted.
+    Two publishers cause such an interruption. A single publisher may send a newer pose with an old
+    stamp, but then the motion continues from this newer pose. Such stamps do not count.
 
     Args:
         track: The edge's samples.
@@ -192,7 +193,7 @@ def _count_returns(track: Track, firsts: Places) -> int:
 
 
 def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if an edge's poses alternate between two continuous motions; else None."""
+    """Return a hit if the poses of an edge alternate between two continuous motions; else None."""
     places = track.by_stamp[:MOST_FOLLOWED]
     if len(places) < max(2 * limits["samples"], 2):
         return None
@@ -220,7 +221,7 @@ def unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
 
 
 def _turns_one_way(track: Track, places: Places) -> bool:
-    """Whether an edge only turns, and always in one direction: two motions would turn it back."""
+    """Whether an edge only turns, and always in one direction, so that one motion explains it."""
     if not is_revolute(track):
         return False
     turned = unit(track.rotations[places])
@@ -234,7 +235,7 @@ _NO_TURN = 1e-3
 """Angle of noise, radians."""
 
 _AGAINST = 0.005
-"""Maximum share of turns against the direction of a wheel that turns one way."""
+"""Maximum fraction of turns against the usual direction, for a wheel that turns one way."""
 
 
 def _alternating(
@@ -274,18 +275,18 @@ def _alternating(
 
 
 def _motion_errors(track: Track, places: Places) -> Floats:
-    """Return the distance of each sample from its prediction by the two samples before.
+    """Return the distance of each sample from the pose predicted by the two previous samples.
 
-    The rotation between two samples may be a full turn more or less, as for a fast wheel: the best
-    of the three predictions is used.
+    A fast wheel may make a full turn between two samples. So three rotations are predicted: with
+    one turn less, as measured, and with one turn more. The nearest prediction is used.
 
     Args:
         track: The edge's samples.
         places: Rows of the samples in the order of their stamps, shape (n,).
 
     Returns:
-        Metres, with a radian counted as `_RADIAN` metres, shape (n,); NaN for the first two
-        samples, and where two stamps are equal.
+        Distances in metres, shape (n,); a radian counts as `_RADIAN` metres. NaN for the first two
+        samples, and for samples next to equal stamps.
     """
     errors = np.full(len(places), np.nan)
     if len(places) < 3:
@@ -312,10 +313,10 @@ def _motion_errors(track: Track, places: Places) -> Floats:
 
 
 def _follow(track: Track, places: Places, limits: Limits) -> Places:
-    """Assign each sample to one of at most three motions: the one that best predicts it.
+    """Assign each sample to the nearest of at most three motions.
 
     Returns:
-        Number of the motion of each sample, shape (n,).
+        Number of each sample's motion (0 to 2), shape (n,).
     """
     stamps = (track.stamps[places] / NANOSECONDS).tolist()
     poses = np.hstack((track.translations[places], unit(track.rotations[places]))).tolist()
@@ -350,8 +351,8 @@ def _conflict(
     Args:
         track: The edge that both publish.
         names: Names of the publishers.
-        owned: Rows of the first publisher's samples, and rows of the second publisher's samples to
-            compare with them, shape (n,).
+        owned: Rows of the first publisher's samples, shape (n,), and for each of these samples the
+            row of the second publisher's sample to compare with, shape (n,).
         confidence: Confidence that there are two publishers.
     """
     rates, late = [], []
@@ -400,19 +401,19 @@ def _conflict(
 
 
 def _is_still(track: Track, places: Places) -> bool:
-    """Whether all of some samples of an edge have one pose."""
+    """Whether the samples in the rows `places` of an edge all have the same pose."""
     first = np.full(len(places), places[0])
     apart, turned = track.apart(places, first), track.turned(places, first)
     return bool(apart.max() < 1e-6 and turned.max() < 1e-4)
 
 
 def is_odometry(track: Track) -> bool:
-    """Return whether an edge is odometry, by the name of its parent."""
+    """Whether an edge is odometry, judged by the name of the parent frame."""
     return last_part(track.parent).startswith("odom")
 
 
 def find_publishers(tracks: Sequence[Track]) -> Fix:
-    """Return the next step if a transform has one publisher too many."""
+    """Return the remedy for a transform with several publishers: let only one publisher send it."""
     nodes = sorted({node for track in tracks for node in track.nodes})
     if len(nodes) > 1:
         return Fix(f"let only one of its publishers send it: {', '.join(nodes)}")

@@ -1,4 +1,4 @@
-"""Checks of data that is needed and missing: statics, waits for transforms, caches."""
+"""Checks for missing or late data: static transforms, waits for transforms, short caches."""
 
 import math
 from collections import defaultdict
@@ -198,7 +198,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Waits:
-    """Times that a topic's messages wait for tf: from arrival until a lookup succeeds.
+    """Waiting times of a topic's messages, from the arrival of a message until its lookup succeeds.
 
     Attributes:
         stamps: The messages' stamps, shape (n,).
@@ -215,26 +215,27 @@ class Waits:
 
     @property
     def served(self) -> Stamps:
-        """Return the waits without NEVER: those of messages whose lookup succeeds at some time."""
+        """Return the entries of `waits` other than NEVER."""
         served: Stamps = self.waits[self.waits != NEVER]
         return served
 
     def serves(self, percent: float) -> int:
-        """Return the timeout, nanoseconds, after which `percent` % of `served` have succeeded."""
+        """Return the timeout that suffices for `percent` % of `served`, nanoseconds."""
         return int(np.percentile(self.served, percent, method="higher"))
 
 
 def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Waits | None:
-    """Return the times that a topic's messages wait for a lookup of their frame.
+    """Return the waiting times of a topic's messages until lookups of the messages' frame succeed.
 
     Return None if the frames are not connected, if all edges between them are static, or if there
     are no messages to check.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         heard: The headers of the messages.
         fixed: Target frame of the lookups.
-        warm: Whether to leave out the first second of the streams, and the last of the recording.
+        warm: Whether to ignore the first second of the topic and of the edges, and the last second
+            of the recording.
     """
     path = model.path(heard.frame, fixed)
     links = [track for track in path or () if not track.static and len(track.by_stamp)]
@@ -327,7 +328,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
-    """Yield the topics whose messages a program transforms one by one, with their waits."""
+    """Yield the topics whose messages programs transform one by one, with the waiting times."""
     fixed = model.sensor_frame
     around = {track.parent for track in model.above(fixed)}
     for heard in model.heard:
@@ -336,7 +337,7 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
         if last_part(heard.type) in _NOT_PLACED or heard.type.startswith("nav_msgs/"):
             continue
         if heard.frame in around or last_part(heard.frame) in _WORLDS:
-            continue  # it is placed in the world without the robot's pose
+            continue  # a frame beside the robot, or of the world, does not need the robot's pose
         waits = waits_of(model, heard, fixed)
         if waits is not None and len(waits.waits) < limits["messages"]:
             continue
@@ -345,14 +346,14 @@ def _waiting(model: Model, limits: Limits) -> Iterator[tuple[Heard, Waits]]:
 
 
 def _is_result(model: Model, heard: Heard, link: Track) -> bool:
-    """Whether one node sends both a pose and its transform: nobody places such a pose."""
+    """Whether the publisher of `link` also sends the messages: poses that nobody has to look up."""
     nodes = {one.node for one in model.evidence.publishers if one.topic == heard.topic}
     is_own = heard.frame == link.child and not heard.type.startswith("sensor_msgs/")
     return is_own and bool(nodes & set(link.nodes))
 
 
 def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
-    """Whether two topics wait alike: they have one frame, the same edge delays them, as long."""
+    """Whether two topics have the same frame, the same delaying edge and similar waiting times."""
     (heard, waits), (also, its) = first, other
     if heard.frame != also.frame or waits.link is not its.link:
         return False
@@ -364,9 +365,9 @@ def _is_relay(first: tuple[Heard, Waits], other: tuple[Heard, Waits]) -> bool:
 
 
 def _outrun(model: Model, group: list[tuple[Heard, Waits]], limits: Limits) -> Hit | None:
-    """Return the finding about topics whose messages wait equally long for a transform.
+    """Return a hit about topics whose messages wait equally long for a transform.
 
-    Return None if all waits are short.
+    Return None if the waiting times are short.
     """
     heard, waits = max(group, key=lambda one: int(one[1].served.max(initial=0)))
     served = waits.served
@@ -428,7 +429,7 @@ _WORLDS = frozenset({"map", "world", "earth"})
 
 
 def _only_in_holes(waits: Waits, wait: float) -> bool:
-    """Whether nearly all messages that wait longer than `wait` seconds fall into an edge's gap."""
+    """Whether nearly all messages that wait longer than `wait` seconds are in a gap of an edge."""
     late = waits.waits > wait * NANOSECONDS
     for link in waits.links:
         for begin, end in holes(link, gap.limits):
@@ -442,7 +443,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     Args:
         heard: Headers of the messages.
         waits: Waiting times of the messages.
-        wait: Time that the listener waits, seconds.
+        wait: Timeout of the listener, seconds.
     """
     worst = int(waits.served.max(initial=0))
     if worst < 10_000_000:
@@ -468,7 +469,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
 
 
 def _is_robot(link: Track) -> bool:
-    """Whether an edge places the robot: it may rest in a recording, and is never a mount."""
+    """Whether an edge is the robot's pose in a world, map or odometry frame, and so not a mount."""
     around = last_part(link.parent)
     return link.is_localisation or around in _WORLDS or around.startswith("odom")
 
@@ -551,7 +552,7 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
     fixed = model.fixed_frame
     for heard in model.heard:
         if not heard.is_spatial or last_part(heard.type) == "NavSatFix":
-            continue  # a satellite fix is placed by its numbers, not by its frame
+            continue  # a satellite fix contains its own global position
         links = [
             t for t in model.path(heard.frame, fixed) or () if not t.static and len(t.by_stamp)
         ]

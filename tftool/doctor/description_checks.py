@@ -1,4 +1,4 @@
-"""Checks of a robot's description against its frames: links without a frame, other mounts."""
+"""Checks of a robot description against tf: links without a frame, mounts with other poses."""
 
 import math
 from collections.abc import Iterator

@@ -39,27 +39,28 @@ Places = npt.NDArray[np.int32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
-    """Evidence about frames: everything that the checks of a diagnosis read.
+    """Evidence about frames: the complete input of the doctor's checks.
 
     Attributes:
-        name: Name in messages.
-        kind: Kind of source: "MCAP", "scenario".
+        name: Name of the source, for messages.
+        kind: Kind of source, such as "MCAP" or "scenario".
         transforms: All transforms as columns, with log times.
         headers: Headers of messages, by topic.
         clock: Times in the messages on `/clock`, and their log times, nanoseconds.
         topics: All topics.
         publishers: All publishers (streams of messages).
-        damage: Sentences about parts that could not be read.
+        damage: Sentences about unreadable parts of the source.
         start: Log time of the first message, nanoseconds.
         end: Log time of the last message, nanoseconds.
-        timed: Whether log times are known; a buffer has none.
-        recorded: Whether the evidence is a recording, which can be played.
+        timed: Whether log times are known; False for a buffer.
+        recorded: Whether the source is a recording.
         joints: Joint names in all joint states; None if none were recorded.
-        robot: Robot model from the given or recorded description; None without a readable one.
+        robot: Robot model from the given or recorded description; None if no description can be
+            read.
         mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None without odometry.
-        negative: For each topic of Odometry with negative variances: the number of such messages,
-            the number of all, and the least variance.
+        negative: Number of messages with negative variances, number of all messages, and least
+            variance, by topic; only Odometry topics with negative variances.
         mounts: Sensors' mounts (static poses) measured from motion; None if not requested.
     """
 
@@ -86,7 +87,7 @@ class Evidence:
 
     @property
     def is_generated(self) -> bool:
-        """Whether a program made up the log times: ten topics or more share one exact period."""
+        """Whether a program invented the log times: ten or more topics have one exact period."""
         periods = {
             step
             for headers in self.headers.values()
@@ -97,7 +98,7 @@ class Evidence:
 
     @property
     def lacks_clock(self) -> bool:
-        """Whether a recording has no `/clock`: stamps near 1970 need not be a simulation's."""
+        """Whether the source is a recording without `/clock`, so stamps near 1970 may be real."""
         return self.recorded and not len(self.clock[0])
 
 
@@ -111,7 +112,8 @@ class Described:
     Attributes:
         robot: The described robot; None if no description can be read.
         mistakes: Mistakes in the description, as sentences.
-        namespace: Namespace of the description's topic, "/arm" for "/arm/robot_description".
+        namespace: Namespace of the description's topic: "/arm" for the topic
+            "/arm/robot_description".
     """
 
     robot: Robot | None = None
@@ -147,7 +149,7 @@ def _recorded_description(source: Recorded) -> Described:
 
 
 def _mistakes(error: DescriptionError) -> tuple[str, ...]:
-    """Return each mistake as text with line and column, without the source line."""
+    """Return each mistake in a description as "file:line:column: text"."""
     return tuple(
         f"{mistake.file}:{mistake.line}:{mistake.column}: {mistake.text}"
         for mistake in error.mistakes[: error.MOST]
@@ -158,16 +160,17 @@ class Moment(Protocol):
     """A time as given by the user: seconds since the start, or a stamp."""
 
     def stamp(self, epoch: Stamp) -> Stamp:
-        """Return the time as a stamp, for a source that begins at the stamp `epoch`."""
+        """Return the time as a stamp in nanoseconds; `epoch` is the first stamp of the source."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """Part of a recording to examine; by default all of it.
+    """Part of a recording to examine; by default the whole recording.
 
     Attributes:
-        described: The robot's description; None for the recorded one, if any.
-        tf_topics: Topics of transforms to read, each with its static topic; empty for all.
+        described: The robot's description; None for the recorded description, if any.
+        tf_topics: Topics of moving transforms to read, such as /tf; the static topic of each is
+            read too. Empty for all topics.
         begin: Time at which the part begins; None for the recording's start.
         end: Time at which the part ends; None for the recording's end.
     """
@@ -245,7 +248,7 @@ def _evidence_of_source(
 def _negative_variances(
     source: Recorded, topics: Sequence[str]
 ) -> dict[str, tuple[int, int, float]]:
-    """Return the numbers of Odometry messages with a negative variance (see `Evidence`)."""
+    """Return the attribute `negative` of `Evidence`, from the messages on Odometry topics."""
     least: dict[str, list[float]] = {}
     for message in source.messages(topics) if topics else ():
         # A message ends with a pose, its covariance, a twist, and its covariance.
@@ -261,14 +264,14 @@ def _negative_variances(
 
 
 _GENERATED = 10
-"""Number of topics with one exact period from which log times are not times of arrival."""
+"""Minimum number of topics with one exact period that proves invented log times."""
 
 _ODOMETRY_TAIL = 8 * (7 + 36 + 6 + 36)
 """Bytes of an Odometry message after its names."""
 
 
 def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:
-    """Return the evidence received between two log times, with all earlier static transforms."""
+    """Cut the evidence to the data between two log times, and keep earlier static transforms."""
     read_clock, received = evidence.clock
     ticks = (received >= begin) & (received <= end)
     return replace(
@@ -318,7 +321,7 @@ def _cut_headers(headers: Headers, begin: Stamp, end: Stamp) -> Headers:
 
 
 def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
-    """Return the evidence in a buffer, as if each sample was received at its stamp."""
+    """Return the evidence in a buffer; the stamps of the samples also serve as log times."""
     parts: dict[tuple[str, str, bool], list[tuple[Records, Places]]] = {}
     logs: list[Stamps] = []
     senders: list[npt.NDArray[np.int32]] = []
@@ -362,7 +365,7 @@ def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
 
 
 def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
-    """Return an array of indices for each distinct name; fast if all names are equal."""
+    """Return, for each distinct name, the array of its indices in `names`."""
     if not len(names) or bool((names == names[0]).all()):
         return [np.arange(len(names), dtype=np.int32)] if len(names) else []
     found: dict[str, list[int]] = {}
@@ -435,11 +438,11 @@ def evidence_of(
 
     Args:
         given: The recording, the buffer or the frames.
-        described: The robot's description; None for the recorded one, if any.
+        described: The robot's description; None for the recorded description, if any.
 
     Raises:
         InputError: If the recording cannot be read.
-        TypeError: If the argument is none of these types.
+        TypeError: If `given` is not a recording, a buffer or frames.
     """
     if isinstance(given, Frames):
         return evidence_of_frames(given, Scope(described))
@@ -451,7 +454,7 @@ def evidence_of(
 
 
 def _beside(evidence: Evidence, described: Described | None) -> Evidence:
-    """Return the evidence with the given description's robot; unchanged without a description."""
+    """Return the evidence with its robot replaced by the given description, if there is one."""
     if described is None:
         return evidence
     return replace(evidence, robot=described.robot, mistakes=described.mistakes)

@@ -1,8 +1,8 @@
 """Explanation of one lookup: the failing edge, the missing time, and the remedies.
 
-The lookup is made by an assumed listener, whose buffer contains the samples that had arrived,
-pruned as in tf2. The result is that of a real buffer with these samples. Reasons and remedies come
-from the edges, not from tf2's error text, which may name an edge that the lookup does not need.
+An assumed listener makes the lookup, in a real buffer with the samples that had arrived by then,
+pruned as in tf2. Reasons and remedies are derived from the edges of the path, because tf2's error
+text may name an edge that the lookup does not need.
 """
 
 from collections.abc import Sequence
@@ -45,26 +45,27 @@ class Explanation:
         target: Target frame of the lookup.
         source: Source frame of the lookup.
         stamp: Time of the lookup; 0 for the latest.
-        asked: Log time at which the lookup is made.
-        because: Reason for this log time: "when /scan of that stamp arrived"; empty if the user
-            gave the time.
+        asked: Log time at which the lookup is made, nanoseconds.
+        because: Reason for the log time `asked`, such as "when /scan of that stamp arrived"; empty
+            if the user gave the time.
         after: Time from the stamp to the lookup, on the clock of the stamps, nanoseconds.
         available: Whether the lookup succeeds.
         exception: Name of tf2's exception; empty if the lookup succeeds.
         text: Text of tf2's error.
         epoch: The first stamp of moving edges.
         links: Edges of the path from source to target, in this order.
-        refusing: Edge without data at the time of the lookup; None without such an edge, or without
-            a path.
+        refusing: Edge without data at the time of the lookup; None if there is no such edge or no
+            path.
         answerable_from: Log time from which the lookup succeeds; None for never.
         answerable_until: Log time at which the needed samples are pruned; None for never.
         cause: Cause of the result.
         why: The cause in sentences.
         remedies: Remedies, the smallest first.
         useless: Sentences about common attempts that do not help.
-        failed: In a session, the fraction of the listening time in which the same lookup would
-            have failed; else None.
-        in_whole: Whether the lookup succeeds with the whole recording, as in `tftool echo`.
+        failed: Fraction of the listening time in which the same lookup would have failed; None
+            unless the source is a session.
+        in_whole: Whether the lookup succeeds with all samples of the recording, as in
+            `tftool echo`.
     """
 
     target: str
@@ -90,15 +91,15 @@ class Explanation:
 
     @property
     def check(self) -> str | None:
-        """Return the id of the check for the cause of the failure; None if the lookup succeeds."""
+        """Return the id of the doctor's check that finds this cause; None if there is none."""
         return CHECK_OF.get(self.cause)
 
 
 def traced(model: Model, question: Question) -> Explanation:
-    """Return the explanation of one lookup in the buffer that a listener would have.
+    """Return the explanation of one lookup in the buffer of an assumed listener.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         question: The lookup, and the listener that makes it.
     """
     trace = LookupTrace(model, question)
@@ -151,9 +152,9 @@ def traced(model: Model, question: Question) -> Explanation:
 
 
 def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
-    """Return the index of the failing edge; None if no edge fails.
+    """Return the index of the failing edge in `way`; None if no edge fails.
 
-    If several edges fail, prefer an edge for which waiting is useless.
+    If several edges fail, prefer an edge whose samples all are newer than the lookup.
     """
     refusing = [
         number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS
@@ -170,7 +171,7 @@ MOMENTS = 1000
 
 
 def over_time(model: Model, question: Question, found: Explanation) -> Explanation:
-    """Add to an explanation the fraction of the session in which the lookup would have failed.
+    """Return `found` with the fraction of the session in which the lookup would have failed.
 
     Args:
         model: The evidence of a session.
@@ -196,7 +197,13 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
 def _holds(
     way: Sequence[Track], asks: Stamps, question: Question
 ) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
-    """Return a mask of the log times `asks` at which the lookup succeeds, shape of `asks`."""
+    """Return a mask of the log times `asks` at which the lookup succeeds.
+
+    Args:
+        way: Edges of the lookup's path.
+        asks: Log times, nanoseconds, shape (n,).
+        question: The lookup.
+    """
     holds = np.ones(len(asks), dtype=bool)
     newest, oldest = [], []
     for track in way:
@@ -222,7 +229,12 @@ def _holds(
 def _misleading(
     links: tuple[TracedLink, ...], quoted: tuple[str | None, Stamp] | None
 ) -> tuple[str, ...]:
-    """Return a note if tf2's error text is about an edge outside the path; else an empty tuple."""
+    """Return a note if tf2's error text is about a frame outside the path; else an empty tuple.
+
+    Args:
+        links: Edges of the lookup's path.
+        quoted: Frame and stamp in the error text; None without such an error.
+    """
     if quoted is None or not links or quoted[0] in {link.child for link in links}:
         return ()
     frame, stamp = quoted
@@ -246,14 +258,14 @@ def explain(
 
     Args:
         recording: A recording, a buffer, or opened frames.
-        target_frame: Frame in which the result would be expressed.
+        target_frame: Frame in which to express the result.
         source_frame: Frame to look up.
         time: Time of the lookup, nanoseconds; 0 for the latest.
-        asked_at: Log time at which the lookup is made. None for the arrival of the message with
-            that stamp in the source frame; without such a message, `time` itself, or the end of a
-            buffer.
+        asked_at: Log time at which the lookup is made. None for the arrival of the message with the
+            stamp `time` in the source frame; without such a message, `time` itself. For the latest
+            time and for a buffer, None is the end of the data.
         cache_time: Cache time of the listener, nanoseconds.
-        timeout: Time that the listener waits, nanoseconds.
+        timeout: Timeout of the listener's lookup, nanoseconds.
 
     Raises:
         InputError: If nothing of the recording can be read.

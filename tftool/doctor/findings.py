@@ -35,7 +35,7 @@ class Severity(Enum):
 
     @property
     def rank(self) -> int:
-        """Return 0 for the worst severity, and larger numbers for lesser severities."""
+        """Return the number of worse severities: 0 for the worst severity."""
         return list(Severity).index(self)
 
 
@@ -65,7 +65,7 @@ class Fix:
 
     Attributes:
         text: The remedy as a sentence.
-        command: Command to type; empty if there is none.
+        command: Shell command of the remedy; empty for a remedy without a command.
     """
 
     text: str
@@ -74,7 +74,7 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One fault of the frames, found by a check. Names are exactly as recorded.
+    """One fault of the frames, found by a check. All names are spelled as in the recording.
 
     Attributes:
         id: Id of the check; `tftool doctor --explain ID` describes it.
@@ -86,15 +86,17 @@ class Finding:
         frames: Names of the frames concerned.
         topics: Names of the topics concerned.
         publishers: Names of the nodes concerned, if known.
-        since: Log time of the first evidence, or its stamp; None if it has no time.
-        until: Log time of the last evidence, or its stamp; None if it has no time.
+        since: Log time of the first evidence, or its stamp without log times; None if the fault
+            has no time.
+        until: Log time of the last evidence, or its stamp without log times; None if the fault
+            has no time.
         count: Number of occurrences.
-        facts: Numbers behind the finding; stamps and durations in whole nanoseconds.
+        facts: Values used in the texts, by name; stamps and durations in whole nanoseconds.
         evidence: Observations, one line each.
-        consequence: What the fault leads to.
+        consequence: Effect of the fault, such as a failing lookup.
         fixes: Remedies, the most likely first.
-        because_of: Id of the finding that explains this one; None if there is none.
-        known: Whether the report given as the baseline already has this finding.
+        because_of: Id of the finding that causes this finding; None if there is none.
+        known: Whether the baseline report already contains this finding.
     """
 
     id: str
@@ -118,14 +120,14 @@ class Finding:
 
     @property
     def is_shown(self) -> bool:
-        """Whether a report shows the finding without --verbose: notes need that option."""
+        """Whether a report without --verbose shows the finding: all severities except notes."""
         return self.because_of is None and self.severity is not Severity.NOTE
 
     @property
     def fingerprint(self) -> str:
-        """Return a key of the check and the names, which is the same in all recordings.
+        """Return a key of the check's id and the names concerned.
 
-        A baseline report recognises known findings by this key. Numbers do not change it.
+        A baseline report recognises known findings by this key, which contains no numbers.
         """
         return fingerprint(self.id, self.frames, self.edges, self.topics)
 
@@ -137,7 +139,7 @@ class Finding:
 def fingerprint(
     check: str, frames: Iterable[str], edges: Iterable[Iterable[str]], topics: Iterable[str]
 ) -> str:
-    """Return a hash of a check's id and names; it identifies a finding across recordings."""
+    """Return a hash of a check's id and names, which identifies a finding across recordings."""
     named = [check, sorted(frames), sorted(list(edge) for edge in edges), sorted(topics)]
     return hashlib.sha256(json.dumps(named).encode()).hexdigest()[:16]
 
@@ -148,7 +150,7 @@ class Skipped:
 
     Attributes:
         id: Id of the check.
-        reason: Reason why it could not run.
+        reason: Reason why the check could not run.
     """
 
     id: str
@@ -157,9 +159,9 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Hit:
-    """One observation of a check; `judge` merges similar ones and adds the texts.
+    """One observation of a check; `judge` turns similar hits into one finding with texts.
 
-    The attributes mean the same as in `Finding`. `facts` also fills the placeholders in the texts
+    The attributes have the meanings of `Finding`. `facts` also fills the placeholders in the texts
     of the check.
     """
 

@@ -1,7 +1,6 @@
-"""Marks that screens show beside frames with findings.
+"""Marks (ids of checks) that trees and screens show beside frames with findings.
 
-For a buffer without possible faults, this module does not import numpy and the checks: that import
-takes as long as all other work for showing a tree.
+The slow import of numpy and of the checks is made only for buffers that may contain faults.
 """
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
@@ -10,9 +9,9 @@ from tftool.buffer.sample import Snapshot
 
 
 def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
-    """Return the names of a buffer's frames with findings, each with the ids of the checks.
+    """Return the ids of the checks that find a fault, by frame name.
 
-    A frame is marked `two-parents`, `clock-mixture` or `edge-stopped`.
+    Only the checks `two-parents`, `clock-mixture` and `edge-stopped` run.
 
     Args:
         buffer: The buffer.
@@ -24,7 +23,7 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
 
 
 def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
-    """Whether no check can find a fault: one parent per frame, one clock, and no late edge."""
+    """Whether a buffer has one parent per frame, one clock and no late edge, and so no fault."""
     moving = [info for info in snapshot.frames if info.samples and not info.is_static]
     if not moving:
         return True
@@ -39,10 +38,10 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
 
 
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
-    """Return the marks of the frames in a buffer that may contain faults; see `marks`.
+    """Return the marks of a buffer that may contain faults; see `marks`.
 
-    A frame is marked `edge-stopped` if the newest sample on its clock is newer than the frame's own
-    newest sample by more than ten of the frame's periods, and by more than one second.
+    A frame gets the mark `edge-stopped` if its newest sample is older than the newest sample of any
+    frame on the same clock, by more than ten periods and more than one second.
     """
     from tftool.doctor.clock_checks import clock_mixture
     from tftool.doctor.evidence import evidence_of_buffer

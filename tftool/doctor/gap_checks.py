@@ -1,4 +1,4 @@
-"""Checks of missing transforms: edges that stop, pause or are sent once."""
+"""Checks for missing transforms: edges that stop, pause or have a single sample."""
 
 import re
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ def _least_gap(track: Track, limits: Limits) -> float:
 
 
 def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the gaps of an edge that are too long for its period, as (last stamp, next stamp)."""
+    """Return the gaps that are too long for an edge's period, as (stamp before, stamp after)."""
     # A stamp that is wrong by years does not make a gap.
     stamps = track.sorted_stamps
     if track.wild.any():
@@ -118,7 +118,7 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_used(model: Model, track: Track) -> bool:
-    """Whether an edge is part of a robot, or messages with a position are in frames below it."""
+    """Whether an edge belongs to a robot, or a message with a position is in a frame below it."""
     below = model.below(track.child)
     return not is_world(track.parent) or any(
         heard.is_spatial and heard.frame.removeprefix("/") in below for heard in model.heard
@@ -126,7 +126,7 @@ def _is_used(model: Model, track: Track) -> bool:
 
 
 def _needed_in(model: Model, track: Track, begin: int, end: int) -> int:
-    """Count the sensor messages with stamps between two that an edge has to place."""
+    """Count the sensor messages, in frames below an edge, with stamps between `begin` and `end`."""
     below = model.below(track.child)
     return sum(
         int(np.count_nonzero((heard.stamps > begin) & (heard.stamps < end)))
@@ -150,9 +150,9 @@ _SEEN = re.compile(
 
 
 def is_detection(model: Model, track: Track) -> bool:
-    """Whether an edge is probably an object that a camera detects, such as a marker.
+    """Whether the child of an edge is probably an object that a camera detects, such as a marker.
 
-    Its child has no children and no messages, and its name or its irregular rate fits a detection.
+    Such a child has no children and no messages. Its name or irregular rate fits a detection.
     """
     if len(model.below(track.child)) > 1 or any(h.frame == track.child for h in model.heard):
         return False
@@ -256,7 +256,7 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the short gaps of an edge that places a robot, if there are many; else none."""
+    """Return the short gaps of the robot's pose in the world, if there are many; else no gap."""
     small = {**limits, "seconds": limits["again"], "periods": limits["missed"]}
     found = _in_service(model, track, small)
     many = bool(found) and len(found) >= limits["times"]
@@ -265,10 +265,10 @@ def _repeated(model: Model, track: Track, limits: Limits) -> list[tuple[int, int
 
 
 def _places_robot(model: Model, track: Track, begin: int) -> bool:
-    """Whether an edge has placed a robot in map, odom or world for a while, and is no detection.
+    """Whether an edge is the pose of a moving robot in odom or a world frame, and not a detection.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         track: The edge.
         begin: Last stamp before a gap of the edge.
     """
@@ -284,7 +284,7 @@ def _places_robot(model: Model, track: Track, begin: int) -> bool:
 
 
 def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
-    """Return the next step for a gap that no other stream is known to share."""
+    """Return the remedy for a gap of one edge, with the streams that continued during the gap."""
     streams: list[Track | Heard] = [one for one in model.dynamic if one is not track]
     streams += model.heard
     names = [one.name for one in streams if _is_going_on(one, begin, end)]
@@ -294,7 +294,7 @@ def _publisher_at(model: Model, track: Track, begin: int, end: int) -> Fix:
 
 
 def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Return the gaps of an edge, without one after its first sample or before the recording."""
+    """Return an edge's gaps, except those right after the first sample or before the recording."""
     found = holes(track, limits)
     if not found or not model.evidence.timed:
         return found
@@ -303,14 +303,20 @@ def _in_service(model: Model, track: Track, limits: Limits) -> list[tuple[int, i
 
 
 def _is_going_on(stream: Track | Heard, begin: int, end: int) -> bool:
-    """Whether a stream has at least half of its usual number of samples in a gap of another."""
+    """Whether a stream has at least half of its usual samples between two stamps.
+
+    The stamps `begin` and `end` bound a gap of another stream.
+    """
     inside = np.count_nonzero((stream.stamps > begin) & (stream.stamps < end))
     usual = len(stream.stamps) * (end - begin) / max(1, int(np.ptp(stream.stamps)))
     return bool(usual > 2 and 2 * inside > usual)
 
 
 def _is_silent(stream: Track | Heard, begin: int, end: int) -> bool:
-    """Whether a stream has nothing in the middle of a gap, although it has more before."""
+    """Whether a stream has no samples in the middle of a gap, where samples are usual.
+
+    The stamps `begin` and `end` bound the gap, which another stream has.
+    """
     margin = (end - begin) // 5
     low, high = np.searchsorted(np.sort(stream.stamps), (begin + margin, end - margin))
     usual = len(stream.stamps) * (end - begin - 2 * margin) / max(1, int(np.ptp(stream.stamps)))
@@ -398,7 +404,7 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_sibling(track: Track, other: Track) -> bool:
-    """Whether an edge with many samples has the parent and the kind of name of another."""
+    """Whether `other` has many samples, the parent of `track` and a similar child, as marker_7."""
     alike = (other.parent, family(other.child)) == (track.parent, family(track.child))
     return alike and len(other.stamps) >= _OFTEN
 

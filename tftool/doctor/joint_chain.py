@@ -1,7 +1,7 @@
 """Explanation of a lookup between two links of a robot description: the joints between them.
 
-A description has no times. So a lookup in it can fail for two reasons only: the description has no
-such link, or a joint between the links has no position.
+A description has no times. So a lookup fails for two reasons only: the description lacks one of the
+links, or a joint between the links has no position.
 """
 
 import shlex
@@ -24,9 +24,9 @@ class ChainLink:
     Attributes:
         joint: The joint.
         position: Joint position, radians or metres; None if the joint is fixed.
-        is_given: Whether the user gave the position, of the joint or of the joint it mimics.
+        is_given: Whether the user gave the position of `leader`.
         leader: Name of the joint that determines the position: the joint itself, or the joint
-            that it mimics.
+            that a mimic joint follows.
         is_known: Whether the pose of the child link is known; False for a floating joint.
     """
 
@@ -42,14 +42,14 @@ class ChainExplanation:
     """Explanation of a lookup between two links of a description.
 
     Attributes:
-        target: Target of the lookup.
-        source: Source of the lookup.
+        target: Target link of the lookup.
+        source: Source link of the lookup.
         exception: Name of tf2's exception; empty if the lookup succeeds.
         text: Text of tf2's error.
-        cause: "works", "unknown-frame" or "split".
+        cause: "works", "unknown-frame", or "split" for a joint without a position.
         links: The joints from source to target, in this order.
         why: The cause in sentences.
-        remedies: Remedies, each a sentence and a command to type, which may be empty.
+        remedies: Remedies, each as a sentence and a shell command, which may be empty.
     """
 
     target: str
@@ -63,7 +63,7 @@ class ChainExplanation:
 
     @property
     def available(self) -> bool:
-        """Whether the lookup would succeed."""
+        """Whether the lookup succeeds."""
         return not self.exception
 
 
@@ -75,8 +75,8 @@ def chained(
     Args:
         robot: The description.
         given: Positions that the user gave, by joint name.
-        target: Target of the lookup.
-        source: Source of the lookup.
+        target: Target link of the lookup.
+        source: Source link of the lookup.
         name: Name of the description on the command line.
 
     Raises:
@@ -101,7 +101,7 @@ def chained(
 
 
 def _way(robot: Robot, target: str, source: str) -> list[RobotJoint]:
-    """Return the joints from source to target; a path always exists, because there is one root."""
+    """Return the joints from source to target; all links have one root, so a path exists."""
     joints = {joint.child: joint for joint in robot.joints.values()}
     legs = up_to_join(source, target, lambda link: climbed(link, joints.get))
     ups, downs = legs or ([], [])

@@ -1,4 +1,4 @@
-"""Judge that runs all checks on the evidence, and groups consequences under their causes."""
+"""Diagnosis: run all checks on the evidence, and group consequences below their causes."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -52,7 +52,7 @@ class Diagnosis:
     """Result of all checks on some evidence.
 
     Attributes:
-        findings: Findings by area, errors first; consequences directly after their cause.
+        findings: Findings by area, errors first; each consequence directly after its cause.
         skipped: Checks that could not run, with the reasons.
         ran: Number of checks that ran.
         model: Model of the evidence that was checked.
@@ -69,9 +69,9 @@ class Diagnosis:
 
     @property
     def worst(self) -> Severity | None:
-        """Return the worst severity of new findings; None if there are none.
+        """Return the worst severity of the new findings; None without new findings.
 
-        Two kinds do not count: findings of the baseline, and consequences of other findings.
+        Findings of the baseline report and consequences of other findings do not count.
         """
         found = [f.severity for f in self.findings if f.because_of is None and not f.known]
         return min(found, key=lambda severity: severity.rank, default=None)
@@ -90,10 +90,10 @@ def judge(
         evidence: Evidence about the frames.
         settings: Settings of the assumed listener, and thresholds.
         select: Ids or areas of the checks to run; empty for all.
-        ignore: Ids or areas to leave out.
+        ignore: Ids or areas of the checks to leave out.
 
     Raises:
-        UsageError: If there is no such check, area or threshold.
+        UsageError: If a check, an area or a threshold is unknown.
     """
     settings = settings or Settings()
     refuse_unknown(settings, select, ignore)
@@ -144,7 +144,11 @@ def _has(evidence: Evidence, need: str) -> bool:
 
 
 def _named(words: Sequence[str]) -> list[str]:
-    """Return the ids of all checks that the words select; a word is a check's id or an area."""
+    """Return the ids of the selected checks; each word is a check's id or an area.
+
+    Raises:
+        UsageError: If a word is neither.
+    """
     areas = {area.value.replace(" ", "-"): area for area in Area}
     found: list[str] = []
     for word in words:
@@ -159,7 +163,13 @@ def _named(words: Sequence[str]) -> list[str]:
 
 
 def unknown(word: str, known: Sequence[str], what: str) -> str:
-    """Return the error text for an unknown word, with the most similar known word."""
+    """Return the error text for an unknown word, such as a mistyped id of a check.
+
+    Args:
+        word: The unknown word.
+        known: Words to suggest; the text suggests the most similar word, if any.
+        what: Kind of word, such as "check".
+    """
     near = near_names(word, known)
     hint = f"did you mean {near[0]}?" if near else "'tftool doctor --list' shows all."
     return f"There is no {what} '{word}': {hint}"
@@ -170,7 +180,7 @@ def _limits(check: Check, settings: Settings) -> Limits:
 
 
 def refuse_unknown(settings: Settings, select: Sequence[str], ignore: Sequence[str]) -> None:
-    """Raise an error for unknown checks, areas and thresholds.
+    """Validate the names of checks, areas and thresholds.
 
     Raises:
         UsageError: If a check, an area or a threshold is unknown.
@@ -232,7 +242,7 @@ def _cause_of(
 ) -> str | None:
     """Return the id of the finding that explains a hit; None if there is none.
 
-    If several findings could explain the hit, this is the first one without a cause of its own.
+    If several findings could explain the hit, the first finding without a cause of its own is used.
 
     Args:
         number: Index of the hit.
@@ -330,7 +340,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits, words: Mapping[str, s
 
 
 def _concerned(hits: list[Hit]) -> list[str]:
-    """Return the names of the hits' edges for a headline; without edges, topics or frames."""
+    """Return names for a headline: of the hits' edges, else of the topics, else of the frames."""
     edges = dict.fromkeys(f"{child} in {parent}" for hit in hits for parent, child in hit.edges)
     topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
     frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)
@@ -347,23 +357,24 @@ def diagnose(
 ) -> list[Finding]:
     """Return the doctor's findings about a recording, a buffer or opened frames.
 
-    A buffer keeps neither log times nor messages: checks that need them are skipped.
+    A buffer contains no log times and no messages, so checks of these are skipped.
 
     Args:
         recording: A recording, a buffer, or opened frames.
         select: Ids or areas of the checks to run; empty for all.
-        ignore: Ids or areas to leave out.
+        ignore: Ids or areas of the checks to leave out.
         cache_time: Cache time of the assumed listener, nanoseconds.
         urdf: File with the robot's description; None for the recorded description, if any.
 
     Returns:
-        The findings, by area, errors first. Findings with `because_of` are consequences.
+        The findings, by area, errors first. Findings with the attribute `because_of` are
+        consequences of other findings.
 
     Raises:
         InputError: If nothing of the recording can be read.
         TypeError: If the source has no frames.
-        UsageError: If there is no such check or area, or the description needs xacro, which is
-            not installed.
+        UsageError: If a check or an area is unknown, or if the description needs xacro and xacro
+            is not installed.
     """
     settings = Settings(cache_time=cache_time)
     described = None if urdf is None else described_by(urdf)

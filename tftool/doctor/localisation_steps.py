@@ -1,4 +1,4 @@
-"""Jumps of frames (localisation steps) that the motion before and after does not explain."""
+"""Jumps of frames (localisation steps), as when a localiser corrects the pose of the robot."""
 
 from dataclasses import dataclass
 
@@ -34,16 +34,16 @@ FEWEST = 6
 
 @dataclass(frozen=True, slots=True)
 class LocalisationStep:
-    """One jump of one edge (the pose of a child in its parent).
+    """One jump of one edge.
 
     Attributes:
         edge: Parent and child of the edge.
-        stamp: First stamp after the step.
+        stamp: First stamp after the jump.
         within: Time since the previous sample, nanoseconds.
-        moved: Displacement that the velocity does not explain, metres.
-        turned: Rotation that the velocity does not explain, radians.
-        drift_moved: Displacement since the previous step (or the start), metres.
-        drift_turned: Rotation since the previous step (or the start), radians.
+        moved: Part of the displacement that the velocity does not explain, metres.
+        turned: Part of the rotation that the velocity does not explain, radians.
+        drift_moved: Displacement from the previous jump (or the start) to this jump, metres.
+        drift_turned: Rotation from the previous jump (or the start) to this jump, radians.
     """
 
     edge: Edge
@@ -59,13 +59,13 @@ def steps_of(model: Model, target: str = "", source: str = "") -> tuple[Localisa
     """Return the jumps of all moving edges between two frames, in the order of stamps.
 
     Args:
-        model: The evidence, prepared.
-        target: One end of the chain. If both ends are empty, the edges from map to odometry are
-            used; without such edges, the edges from the robot's base up to the root.
-        source: The other end of the chain.
+        model: Model of the evidence.
+        target: Frame at one end of the chain. If both frames are empty, the chain is the edges from
+            map to odometry; without such edges, the edges from the robot's base up to the root.
+        source: Frame at the other end of the chain.
 
     Raises:
-        LookupException: If a frame is unknown, or no edges join the frames.
+        LookupException: If a frame is unknown, or no edges connect the frames.
     """
     found = [step for track in _chain(model, target, source) for step in _steps(track)]
     return tuple(sorted(found, key=lambda step: (step.stamp, step.edge)))
@@ -124,15 +124,18 @@ def _steps(track: Track) -> list[LocalisationStep]:
 
 
 def _unexplained(changes: Floats, gaps: Floats) -> tuple[Floats, float]:
-    """Return the part of each change that the motion around it does not explain, and the noise.
+    """Compute the jump in each change of a pose, and the noise of the motion.
 
-    If a change is between the velocities before and after it, it is acceleration and no step. The
-    velocities are computed per second and per sample, because stamps may be less regular than the
-    motion; the smaller of the two unexplained parts is returned.
+    A change between the velocities before and after the change is acceleration, and not a jump.
+    Velocities are computed per second and per sample, because stamps may be less regular than the
+    motion. The smaller jump of these two computations is used.
 
     Args:
-        changes: Change from each sample to the next, shape (n, 3).
+        changes: Translation or rotation vector from each sample to the next, shape (n, 3).
         gaps: Time between the samples, seconds, shape (n,).
+
+    Returns:
+        Lengths of the jumps, shape (n,), and standard deviation of the noise; metres or radians.
     """
     lengths, apart = [], []
     for scale in (gaps[:, None], np.ones((len(gaps), 1))):

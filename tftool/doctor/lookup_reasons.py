@@ -1,4 +1,4 @@
-"""Reasons for failed lookups, from the edges of the path, and the remedies."""
+"""Reasons for failed lookups, derived from the edges of the path, with remedies."""
 
 import math
 from collections.abc import Sequence
@@ -30,7 +30,7 @@ USUAL_WAIT = 0.1
 
 
 class Cause(Enum):
-    """Cause of a lookup's failure; WORKS if the lookup succeeds."""
+    """Cause of a lookup's failure; WORKS for a lookup that succeeds."""
 
     LATE = "late"
     CLOCK_OFFSET = "clock-offset"
@@ -53,12 +53,12 @@ class Remedy:
     """Remedy for a failed lookup.
 
     Attributes:
-        kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher", "clock".
+        kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher" or "clock".
         text: The remedy as a sentence.
-        command: Command to type; empty if there is none.
-        least: Smallest sufficient amount, nanoseconds; None for a remedy without an amount.
-        advised: Recommended amount, nanoseconds.
-        possible: Whether the remedy can help at all.
+        command: Shell command of the remedy; empty for a remedy without a command.
+        least: Smallest sufficient timeout, period or cache time, nanoseconds; None for other kinds.
+        advised: Recommended value instead of `least`, nanoseconds.
+        possible: Whether the remedy can make the lookup succeed.
     """
 
     kind: str
@@ -71,7 +71,7 @@ class Remedy:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TraceResult:
-    """Result of a traced lookup, from which its reason is derived."""
+    """Result of a traced lookup, from which the reason for a failure is derived."""
 
     trace: LookupTrace
     way: list[Track] | None
@@ -84,7 +84,7 @@ class TraceResult:
 
 @dataclass(frozen=True, slots=True)
 class Reason:
-    """Reason for a lookup's result, with sentences and remedies."""
+    """Reason for a lookup's success or failure, with sentences and remedies."""
 
     cause: Cause
     why: tuple[str, ...]
@@ -93,7 +93,7 @@ class Reason:
 
 
 def misnamed(trace: LookupTrace) -> Reason | None:
-    """Return the reason for an unknown frame name; None if both names are known."""
+    """Return the reason if tf lacks the target or the source frame; None if tf has both frames."""
     model = trace.model
     for name in (trace.question.target, trace.question.source):
         if name.startswith("/") or not name:
@@ -109,9 +109,9 @@ def misnamed(trace: LookupTrace) -> Reason | None:
 
 
 def _described(model: Model, name: str) -> str | None:
-    """Return a sentence on why tf lacks a frame that the robot description defines.
+    """Explain in a sentence why tf lacks a frame that the robot description defines.
 
-    Return None if the description has no such link.
+    Return None if the description does not define the frame.
     """
     robot, states = model.evidence.robot, model.evidence.joints
     if robot is None or name not in robot.links or name == robot.root:
@@ -189,7 +189,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return the text about a successful lookup: why it may still fail in a user's node."""
+    """Return the reason for a successful lookup, with causes of failures in a user's node."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)
@@ -214,9 +214,9 @@ def works(known: TraceResult) -> Reason:
 
 
 def _unread(known: TraceResult) -> Reason | None:
-    """Return the text about a lookup whose transforms no listener reads; None for others.
+    """Return the reason if no listener reads a transform of the path; else None.
 
-    See the check `wrong-type`.
+    The topic of the transform has a wrong type: see the check `wrong-type`.
     """
     for hit in wrong_type(known.trace.model):
         for track in known.way or ():
@@ -231,9 +231,9 @@ def _unread(known: TraceResult) -> Reason | None:
 
 
 def _dropped_by_ros1(known: TraceResult) -> Reason | None:
-    """Return the text about a lookup that ROS 1 refuses, because of a rotation of a wrong length.
+    """Return the reason if ROS 1 drops a transform of the path, else None.
 
-    Return None for other lookups. See the check `bad-quaternion`.
+    ROS 1 drops rotations with a wrong length: see the check `bad-quaternion`.
     """
     for track in known.way or () if is_ros1(known.trace.model.evidence) else ():
         squares = track.squares[track.usable]
@@ -248,7 +248,7 @@ def _dropped_by_ros1(known: TraceResult) -> Reason | None:
 
 
 def refusing_link(known: TraceResult) -> Reason:
-    """Return the reason why an edge of the path has no data at the time of the lookup."""
+    """Return the reason why an edge of the path has no data at the lookup's time."""
     trace = known.trace
     if known.refusing is None or known.way is None:
         return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
@@ -314,7 +314,7 @@ def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
 
 
 def _on_another_clock(model: Model, way: Sequence[Track]) -> Reason | None:
-    """Return the reason for a failed lookup whose path has edges on two clocks; else None.
+    """Return the reason if the stamps on a lookup's path come from two clocks; else None.
 
     See the check `clock-offset`.
     """
@@ -427,10 +427,10 @@ def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
 
 
 def _ended(known: TraceResult) -> Reason | None:
-    """Return the reason why a lookup of the latest time fails if an edge has no new samples.
+    """Return the reason if a lookup of the latest time fails because an edge stopped; else None.
 
-    The latest common time is then that of the edge's last sample, which the other edges no longer
-    have in their caches. Return None for other lookups.
+    The latest common time is then the stamp of the stopped edge's last sample. The caches of the
+    other edges no longer reach back to this stamp.
     """
     trace = known.trace
     for track in known.way or ():
@@ -500,11 +500,12 @@ def _waits(trace: LookupTrace, heard: Heard) -> Waits | None:
 
 
 def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
-    """Return the remedy to wait, with the timeout that this lookup needs.
+    """Return a remedy of the kind "timeout", with the timeout that this lookup needs.
 
     Args:
         known: The traced lookup.
-        heard: Messages of the looked-up topic, whose needed timeouts are added; None for no topic.
+        heard: Topic whose messages need the transform; the text adds the timeouts that these
+            messages need. None without a topic.
     """
     trace = known.trace
     if known.begin is None:
@@ -537,4 +538,4 @@ CHECK_OF = {
     Cause.NAME: "slash-twins",
     Cause.LOOP: "loop",
 }
-"""Id of the check that looks for each cause."""
+"""Id of the check that finds each cause."""

@@ -1,4 +1,4 @@
-"""Mounts of sensors measured from recorded motion, over a recording or in parts of it."""
+"""Mounts of sensors, measured from the motion in a whole recording and in windows."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -29,10 +29,10 @@ _MOST_WINDOWS: Final = 6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MountWindow:
-    """A mount measured over a part (window) of a recording.
+    """A mount measured over one window (part) of a recording.
 
     Attributes:
-        begin: First stamp of the part.
+        begin: First stamp of the window.
         shift: Measured minus published mount, metres and degrees, shape (6,).
         widths: Half-widths of the shift's 95 % interval, shape (6,); NaN if undetermined.
     """
@@ -44,18 +44,18 @@ class MountWindow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeasuredMount:
-    """A frame's mount measured from motion, compared with the published mount.
+    """A sensor's mount measured from motion, compared with the published mount.
 
     Attributes:
         parent: Frame on which the sensor is mounted.
-        child: The mounted frame.
+        child: Frame of the sensor.
         name: Name of the recording.
         begin: First stamp of the measurement.
-        mount: The measured mount.
+        mount: The measured mount (pose of `child` in `parent`).
         shift: Measured minus published mount, metres and degrees, shape (6,).
         widths: Half-widths of the shift's 95 % interval, shape (6,); NaN if undetermined.
-        windows: Measurements of parts of the recording, in the order of time.
-        earlier: The frame's mount in the previous recording; None without a previous recording.
+        windows: Measurements in parts of the recording, in the order of time.
+        earlier: The sensor's mount in the previous recording; None without a previous recording.
     """
 
     parent: str
@@ -72,13 +72,14 @@ class MeasuredMount:
 def measured_mounts(
     model: "Model", before: Sequence[MeasuredMount] = ()
 ) -> tuple[MeasuredMount, ...]:
-    """Measure the mounts of all sensors whose motion is recorded independently of the body's.
+    """Measure the mounts of all sensors whose own motion was recorded, as by visual odometry.
 
-    A mount is the constant pose of the sensor on the body, computed from the two motions.
+    A mount is the constant pose of a sensor on the robot's body, computed from the recorded motions
+    of the sensor and of the body.
 
     Args:
         model: The evidence of a recording.
-        before: Mounts in earlier recordings, oldest first, to compare with.
+        before: Mounts in earlier recordings, oldest first, for the attribute `earlier`.
     """
     found = []
     for first, second, published in _pairs(model):
@@ -141,9 +142,9 @@ def _between(path: TransformArray, begin: int, end: int) -> TransformArray:
 
 
 def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Transform]]:
-    """Yield (motion, motion, mount) for two frames that are mounted on one rigid body.
+    """Yield the motions of two frames on one rigid body, and the published mount between them.
 
-    The two motions are recorded independently of each other; the mount is the published one.
+    The two motions were recorded independently of each other.
     """
     edges = model.evidence.transforms.edges
     moving = {one.child: one for one in edges if not one.static and len(one) >= _LEAST}
@@ -170,7 +171,11 @@ def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Tra
 
 
 def _climbed(frame: str, static: dict[str, Edge]) -> tuple[str, Transform]:
-    """Follow static edges up from a frame; return the topmost frame reached, and the pose in it."""
+    """Follow static edges up from a frame.
+
+    Returns:
+        The topmost frame reached, and the pose of `frame` in the topmost frame.
+    """
     mount = Transform.identity()
     seen = {frame}
     while frame in static and static[frame].parent not in seen:

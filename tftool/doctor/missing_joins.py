@@ -1,4 +1,4 @@
-"""Proposals for missing transforms, from the data or the robot description."""
+"""Proposals for missing transforms, derived from the data and the robot description."""
 
 import re
 import shlex
@@ -27,9 +27,9 @@ class Join:
 
     Attributes:
         edge: Parent and child to publish; None if unknown.
-        why: The evidence, as a part of a sentence.
+        why: The evidence, as a clause of a sentence.
         fix: The remedy.
-        guess: Whether the evidence is only a name or a convention.
+        guess: Whether the evidence is only the name of a frame or a convention.
     """
 
     edge: Edge | None
@@ -39,10 +39,10 @@ class Join:
 
 
 def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
-    """Return a proposal for a transform that joins two trees; None without evidence.
+    """Return a proposal for a transform that connects two trees; None without evidence.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         main: The larger tree.
         lesser: The smaller tree.
     """
@@ -66,10 +66,10 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
 
 
 def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join | None:
-    """Return a proposal to publish a frame that no transform names; None without evidence.
+    """Return a proposal for the transform of a frame that tf lacks; None without evidence.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         name: Name of the frame.
         kinds: Types of the messages in this frame.
     """
@@ -91,7 +91,15 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
 def own_trees(
     model: Model, odd: Sequence[Track | Heard], others: Sequence[Track | Heard]
 ) -> tuple[str, ...]:
-    """Return the frames of the trees on another clock; empty if a tree has data of both clocks."""
+    """Return the frames of the trees whose stamps all come from the odd clock.
+
+    The result is empty if a tree has data of both clocks.
+
+    Args:
+        model: Model of the evidence.
+        odd: Edges and topics on the odd clock.
+        others: Edges and topics on the other clock.
+    """
     trees: list[set[str]] = []
     for group in (odd, others):
         used = {
@@ -108,14 +116,15 @@ def own_trees(
 
 
 def has_base(model: Model) -> bool:
-    """Whether the transforms contain a robot: a base frame on which sensors are mounted."""
+    """Whether the transforms contain a robot's base frame, such as base_link."""
     return any(base_of(tree) for tree in model.trees)
 
 
 def is_mount(model: Model, name: str) -> bool:
-    """Whether an unknown frame is probably fixed to the robot, by the description or its name.
+    """Whether a frame that tf lacks is probably mounted on the robot, judged by its name.
 
-    A robot's base is not, and no frame is if tf knows no part of the robot.
+    Links of the robot description count as mounts, but base frames do not. The result is False if
+    tf has no frame of a robot at all.
     """
     around = all(is_world(frame) or last_part(frame).startswith("odom") for frame in model.frames)
     if around or last_part(name) in BASES:
@@ -131,12 +140,12 @@ _MOUNT = re.compile(
 
 
 def is_world(name: str) -> bool:
-    """Whether a name belongs to a frame that is fixed to the world, not mounted on a robot."""
+    """Whether a name is that of a world frame, such as map, and not of a frame on a robot."""
     return not _WORLDS.isdisjoint(last_part(name).lower().split("_"))
 
 
 def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
-    """Propose the description's joint above a root; None unless its parent is in `others`."""
+    """Propose the description's joint between a root and a frame in `others`, or return None."""
     joint = model.joint_above.get(root)
     if joint is None or model.prefix + joint.parent not in others:
         return None
@@ -148,7 +157,7 @@ def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
 
 
 def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
-    """Propose the edge of an Odometry message between the two trees; None without such an edge."""
+    """Propose an edge between two trees from Odometry messages, or return None."""
     odometry = model.evidence.odometry
     if odometry is None:
         return None
@@ -172,7 +181,10 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
 
 
 def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
-    """Propose an edge that connected the trees until its child got another parent; else None."""
+    """Propose the edge that once connected two trees, before its child got another parent.
+
+    Return None if no edge ever connected the trees.
+    """
     for track in model.tracks:
         ends = {model.tree_of[name].root for name in track.edge}
         if ends == {main.root, lesser.root}:
@@ -186,10 +198,15 @@ def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
 
 
 def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Track]) -> Fix | None:
-    """Propose another child for a moving edge whose child also has static parents.
+    """Return the remedy for a child frame with both a moving and a static parent.
 
-    The moving edge should end at the root of the static mounts instead. Return None if that
-    would not give a tree.
+    The remedy is to end the moving edge at the root of the static mounts. Return None if the result
+    would not be a tree.
+
+    Args:
+        model: Model of the evidence.
+        moving: Moving edges to the child.
+        statics: Static edges to the child.
     """
     if {track.parent for track in moving} & {track.parent for track in statics}:
         return None
@@ -206,7 +223,10 @@ def ends_at_the_root(model: Model, moving: Sequence[Track], statics: Sequence[Tr
 
 
 def _localised(tree: Tree, other: Tree) -> Join | None:
-    """Propose the edge from map to odom (REP-105) if `other` has map and `tree` begins at odom."""
+    """Propose the edge from a map frame in `other` to the root of `tree`, an odom frame (REP-105).
+
+    Return None for other trees.
+    """
     if not last_part(tree.root).startswith(("odom", "camera_init")):
         return None
     maps = sorted(frame for frame in other.frames if last_part(frame) == "map")
@@ -218,9 +238,9 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
 
 
 def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
-    """Propose an edge to a tree's root from a frame with a similar name, or return None.
+    """Propose an edge between the root of `tree` and a frame of `other` with a similar name.
 
-    For example, base_footprint and base_link are similar names.
+    For example, base_footprint and base_link are similar names. Return None without similar names.
     """
     root = tree.root
     for name in sorted(other.frames):
@@ -236,10 +256,9 @@ def _by_another_name(model: Model, tree: Tree, other: Tree) -> Join | None:
 
 
 def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | None = None) -> Fix:
-    """Return the remedy for a missing static transform.
+    """Return the remedy for a missing static transform: a command that publishes the transform.
 
-    If the recording has no static transforms at all, the remedy is to record or add them, not to
-    publish this one.
+    If the recording lacks all static transforms, the remedy is to record or add them.
     """
     if not model.lacks_statics or not model.evidence.recorded:
         return Fix(text, static_publisher(parent, child, pose, ros1=is_ros1(model.evidence)))
@@ -258,7 +277,7 @@ def _mount(model: Model, text: str, parent: str, child: str, pose: Transform | N
 
 
 def distinctive_words(name: str) -> frozenset[str]:
-    """Return the distinctive words in a frame name: "laser" in base_laser_link."""
+    """Return the distinctive words of a frame name, such as "laser" for base_laser_link."""
     return frozenset(last_part(name).lower().split("_")) - _PLAIN
 
 
@@ -281,7 +300,7 @@ def _prefix(name: str) -> str:
 
 
 def base_of(tree: Tree) -> str:
-    """Return the name of a tree's base frame, such as base_link; empty if there is none."""
+    """Return the name of a tree's base frame, such as base_link; empty without a base frame."""
     for name in (*BASES, "body"):
         found = sorted(frame for frame in tree.frames if last_part(frame) == name)
         if found:
@@ -292,9 +311,9 @@ def base_of(tree: Tree) -> str:
 def static_publisher(
     parent: str, child: str, pose: Transform | None = None, *, ros1: bool = False
 ) -> str:
-    """Return the command that publishes a static transform.
+    """Return the shell command that publishes a static transform.
 
-    If the pose is unknown, the command contains letters such as X and YAW in place of numbers.
+    If the pose is None, the command contains placeholders such as X and YAW.
     """
     if ros1:
         known = () if pose is None else (*pose.translation, *pose.rotation)
@@ -314,12 +333,12 @@ def static_publisher(
 
 
 def mount_command(model: Model, main: Tree, root: str) -> str:
-    """Return the command that publishes a sensor's mount on a robot; empty for other frames.
+    """Return the shell command that publishes a sensor's mount on a robot; empty for other frames.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         main: The robot's tree.
-        root: Root of another tree.
+        root: Root of another tree: the frame of the sensor.
     """
     base = base_of(main)
     if not base or model.lacks_statics or not is_mount(model, root):

@@ -1,6 +1,6 @@
-"""Model of the evidence that the checks read: streams on one clock, trees, jumps of the clock.
+"""Model of the evidence: streams of stamps on one clock, trees of frames, and jumps of the clock.
 
-This module reads no files; see `evidence`.
+The checks read this model. The module `evidence` reads the files.
 """
 
 import re
@@ -40,8 +40,8 @@ class Settings:
 
     Attributes:
         cache_time: Cache time of the listener's buffer, nanoseconds.
-        fixed_frame: Frame in which to place sensors; empty for the usual frame.
-        limits: Thresholds that replace the defaults, by check and name.
+        fixed_frame: Target frame for sensor data; empty for the usual frame, such as odom.
+        limits: Thresholds that replace the defaults, by id of the check and name of the threshold.
         tf_topics: Topics of transforms to which the listener subscribes; empty for the usual
             topics.
     """
@@ -61,14 +61,14 @@ SHIFT = seconds(2)
 
 @dataclass(frozen=True, slots=True)
 class Shift:
-    """Constant difference between the stamps' clock and the recorder's.
+    """Constant difference between the clock of the stamps and the clock of the recorder.
 
     Attributes:
         by: Time from stamp to reception of most messages, nanoseconds; negative if the stamps are
             later.
-        spread: Median deviation of the streams from `by`, nanoseconds.
-        streams: Number of streams with this shift.
-        of: Number of all streams.
+        spread: Median variation (10 % to 90 % quantile) of this time in a stream, nanoseconds.
+        streams: Number of streams (edges and topics) with this shift.
+        of: Number of all compared streams.
     """
 
     by: Duration
@@ -79,13 +79,13 @@ class Shift:
 
 @dataclass(frozen=True, slots=True)
 class Lap:
-    """A time at which the clock jumped back, as when a bag is played in a loop.
+    """Backward jump of the clock, as when a bag is played in a loop.
 
     Attributes:
         log: Log time of the jump.
-        before: The last stamp before the jump.
-        after: The first stamp after the jump.
-        streams: Number of streams that jumped.
+        before: The newest stamp before the jump.
+        after: The oldest stamp after the jump.
+        streams: Number of streams (edges and topics) that jumped.
     """
 
     log: Stamp
@@ -99,9 +99,9 @@ class Tree:
     """Frames that are connected by the newest edges.
 
     Attributes:
-        root: The frame without a parent; if there is none, some frame of the loop.
+        root: The frame without a parent; in a loop, one of the frames of the loop.
         frames: All frames, including the root.
-        is_circle: Whether the frames form a loop, without a root.
+        is_circle: Whether the frames hang from a loop, which has no root.
     """
 
     root: str
@@ -110,17 +110,20 @@ class Tree:
 
 
 class Model:
-    """The evidence, prepared for all checks.
+    """Model of the evidence: the values that the checks derive from the evidence in common.
 
     Attributes:
         evidence: The evidence.
         settings: Settings of the listener.
         tracks: Samples of each edge, without the edges in `nameless`.
-        nameless: Edges that no listener can use: a frame name is empty, or both names are equal.
+        nameless: Edges that no listener can use, because a frame name is empty or both names are
+            equal.
         heard: Headers of messages, one stream for each topic and frame.
-        laps: Times at which the clock jumped back. All other data is from before the first jump.
+        laps: Backward jumps of the clock. The other attributes only contain data before the first
+            jump.
         reference: Sentence about the clock used for latencies; empty for the recorder's clock.
-        shift: Constant by which all stamps differ from their reception; None if there is none.
+        shift: Constant by which most stamps differ from the times of reception; None if there is
+            no such constant.
     """
 
     def __init__(self, evidence: Evidence, settings: Settings | None = None) -> None:
@@ -157,7 +160,7 @@ class Model:
 
     @cached_property
     def unshifted(self) -> tuple[Track, ...]:
-        """Moving edges on the recorder's clock, if most other stamps are shifted; else empty."""
+        """Moving edges without the shift that most other streams have; empty if `shift` is None."""
         if self.shift is None:
             return ()
         by = self.shift.by
@@ -169,17 +172,17 @@ class Model:
 
     @cached_property
     def has_named_publishers(self) -> bool:
-        """Whether transforms have two or more publishers with known names."""
+        """Whether two or more nodes with known names publish transforms."""
         return len({one.node for one in self.evidence.transforms.publishers if one.node}) > 1
 
     @cached_property
     def was_played(self) -> bool:
-        """Whether `rosbag play` published some of the data, by the name of its node."""
+        """Whether a node with the name of `rosbag play` or `ros2 bag play` published some data."""
         return any(is_player(one.node) for one in self.evidence.publishers)
 
     @cached_property
     def words(self) -> Mapping[str, str]:
-        """Commands and settings for texts, of the ROS version that made the recording."""
+        """Commands and settings of the recording's ROS version, by placeholder in the texts."""
         return ros_words(self.evidence)
 
     @cached_property
@@ -210,18 +213,18 @@ class Model:
 
     @cached_property
     def epoch(self) -> Stamp:
-        """First stamp of a moving edge; without moving edges, the first log time."""
+        """First stamp of all moving edges, nanoseconds; without such edges, the first log time."""
         firsts = [int(t.sorted_stamps[0]) for t in self.dynamic if len(t.sorted_stamps)]
         return min(firsts, default=self.start)
 
     @cached_property
     def end(self) -> Stamp:
-        """Log time at which the examined data ends: at the clock's first backward jump, if any."""
+        """Log time at which the examined data ends, nanoseconds: at the first jump back, if any."""
         return self.laps[0].log if self.laps else min(self.evidence.end, 2**61)
 
     @cached_property
     def edges_above(self) -> dict[str, list[Track]]:
-        """Edges above each child, by the child's name, in the order of `tracks`."""
+        """Edges that end at each child frame, by the child's name, in the order of `tracks`."""
         edges: dict[str, list[Track]] = {}
         for track in self.tracks:
             edges.setdefault(track.child, []).append(track)
@@ -229,7 +232,7 @@ class Model:
 
     @cached_property
     def parents(self) -> dict[str, Track]:
-        """Newest edge above each child, by the child's name."""
+        """Edge from the newest parent to each child frame, by the child's name."""
         latest: dict[str, tuple[int, Track]] = {}
         for track in self.tracks:
             if not len(track.stamps):
@@ -242,12 +245,12 @@ class Model:
 
     @cached_property
     def frames(self) -> frozenset[str]:
-        """Names of all frames in transforms."""
+        """Names of all parent and child frames in transforms."""
         return frozenset(name for track in self.tracks for name in track.edge)
 
     @cached_property
     def prefix(self) -> str:
-        """Return the prefix that frame names have before the link names; usually empty."""
+        """Prefix that frame names have before the link names of the description; usually empty."""
         robot = self.evidence.robot
         if robot is None:
             return ""
@@ -255,7 +258,7 @@ class Model:
 
     @cached_property
     def joint_above(self) -> Mapping[str, RobotJoint]:
-        """Joint above each frame, by the frame's name; empty without a robot description."""
+        """Joint whose child link is the frame, by the frame's name; empty without a description."""
         robot = self.evidence.robot
         joints = () if robot is None else robot.joints.values()
         return {self.prefix + joint.child: joint for joint in joints}
@@ -268,7 +271,7 @@ class Model:
 
     @cached_property
     def trees(self) -> tuple[Tree, ...]:
-        """Trees of the frames, as connected by the newest parents, the largest first."""
+        """Trees that the frames form with their newest parents, the largest tree first."""
         root_of: dict[str, tuple[str, bool]] = {}
         for frame in sorted(self.frames):
             walked: dict[str, None] = {}
@@ -296,7 +299,7 @@ class Model:
 
     @cached_property
     def tree_of(self) -> dict[str, Tree]:
-        """Tree of each frame, by the frame's name."""
+        """Tree that contains the frame, by the frame's name."""
         return {frame: tree for tree in self.trees for frame in tree.frames}
 
     def above(self, frame: str) -> list[Track]:
@@ -316,7 +319,7 @@ class Model:
         return path is not None and all(track.static for track in path)
 
     def below(self, frame: str) -> frozenset[str]:
-        """Return a frame and all its descendants, as connected by the newest edges."""
+        """Return a frame and all its descendants in the tree of the newest parents."""
         found: set[str] = set()
         waiting = [frame]
         while waiting:
@@ -327,7 +330,7 @@ class Model:
         return frozenset(found)
 
     def is_minor(self, track: Track) -> bool:
-        """Whether an edge only places a part of a robot that no sensor message is in: a wheel."""
+        """Whether an edge is a minor part of a robot, such as a wheel, without sensor data."""
         below = self.below(track.child)
         is_robot = any(last_part(frame) in BASES for frame in self.tree_of[track.child].frames)
         if not is_robot or len(below) > 2 or last_part(track.child).startswith(("odom", "map")):
@@ -348,15 +351,15 @@ class Model:
 
     @cached_property
     def sensor_frame(self) -> str:
-        """Return the target frame for sensor data: the requested one, odom, map, world or a root.
+        """Target frame for sensor data: `settings.fixed_frame`, else odom, map, world or a root.
 
-        The first that exists is used.
+        The first of these frames that exists is used.
         """
         return self._fixed("odom", "map", "world")
 
     @cached_property
     def fixed_frame(self) -> str:
-        """Return the fixed frame: the requested one, else the first of map, odom, world, a root."""
+        """Fixed frame: `settings.fixed_frame`, else the first of map, odom, world and a root."""
         return self._fixed("map", "odom", "world")
 
     def _fixed(self, *usual: str) -> str:
@@ -376,11 +379,11 @@ class Model:
 
     @cached_property
     def warm(self) -> tuple[Stamp, Stamp]:
-        """Return the log times between which coverage is checked: `WARM_UP` from both ends."""
+        """Log times of the begin and end of coverage checks: `WARM_UP` inside the recording."""
         return self.start + WARM_UP, self.end - WARM_UP
 
     def log_of(self, stamp: Stamp) -> Stamp:
-        """Convert a time on the stamps' clock to log time."""
+        """Convert a time on the clock of the stamps to log time, nanoseconds."""
         read, received = self.evidence.clock
         if stamp >= SIMULATED_BELOW or self.evidence.end < SIMULATED_BELOW:
             return stamp if self.shift is None else stamp + self.shift.by
@@ -390,7 +393,7 @@ class Model:
         return int(through_clock(np.array([stamp]), received, read)[0])
 
     def _streams(self) -> list[Stream]:
-        """Return the streams that can show a backward jump: not static, and with several items."""
+        """Return the topics and moving edges with several stamps, which show backward jumps."""
         streams: list[Stream] = [
             track for track in self.tracks if not track.static and len(track.stamps) > 1
         ]
@@ -458,7 +461,7 @@ class Model:
             stream.arrivals = np.where(is_sim, on_clock, stream.arrivals)
 
     def _find_shift(self, streams: list[Stream]) -> None:
-        """Find the constant by which most stamps differ from arrivals, and remove it."""
+        """Set `shift` to the constant by which most stamps differ from arrivals, and remove it."""
         late, spreads, moving, kept = [], [], [], []
         for stream in streams:
             is_moving = False
@@ -501,9 +504,9 @@ class Model:
 
     @cached_property
     def _clock(self) -> tuple[Stamps, Stamps]:
-        """Return times of the simulation's clock, and the log times at which they were read.
+        """Estimate a simulation's clock from the stamps of all streams, without `/clock`.
 
-        Without messages on `/clock`, the times are estimated.
+        Return times of the clock and the corresponding log times, nanoseconds, shape (n,) each.
         """
         kept: list[tuple[Stamps, Stamps]] = []
         offset, steady = 0, True
@@ -534,12 +537,12 @@ class Model:
 
 
 def is_player(node: str) -> bool:
-    """Whether a node plays a recording, by the name that `rosbag play` and `ros2 bag play` use."""
+    """Whether a node has the name of `rosbag play` or `ros2 bag play`."""
     return re.fullmatch(r"play_\d{15,}|rosbag2_player", last_part(node)) is not None
 
 
 def _copies(one: Stream, other: Stream) -> bool:
-    """Whether most stamps of two streams are equal, as if one were computed from the other."""
+    """Whether most stamps of two streams are equal, as if a node computed one from the other."""
     shares = (np.isin(one.stamps, other.stamps), np.isin(other.stamps, one.stamps))
     return all(float(share.mean()) > 0.5 for share in shares)
 
@@ -549,7 +552,7 @@ def _is_nameless(track: Track) -> bool:
 
 
 def _steps_back(stamps: Stamps) -> list[int]:
-    """Return the indices of stamps that are older than the stamp before by more than `LAP`.
+    """Return the index of each stamp that is older than the previous stamp by more than `LAP`.
 
     A step between a simulation's clock and the wall clock does not count.
     """

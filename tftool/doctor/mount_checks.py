@@ -1,4 +1,4 @@
-"""Checks of mounts against recorded motion; they run on request, as they take seconds."""
+"""Checks of mounts against recorded motion, which take seconds and run only on request."""
 
 from collections.abc import Iterator
 
@@ -88,14 +88,14 @@ def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
-    """Return the change of a mount between two parts of a recording, and its uncertainty.
+    """Compute the change of a mount between two parts of a recording, with the uncertainty.
 
     Args:
         one: The mount, measured over several windows of the recording.
         split: Index of the first window after the change.
 
     Returns:
-        Change in metres and degrees, and half-widths of its 95 % interval, shape (6,) each.
+        Change, and half-widths of its 95 % interval, metres and degrees, shape (6,) each.
     """
     shifts = np.array([window.shift for window in one.windows])
     weights = np.array([window.widths for window in one.windows]) ** -2.0
@@ -110,9 +110,13 @@ def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
 
 
 def _outside(shift: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
-    """Return a sentence for each axis on which `shift`, a mount's error, exceeds its bound.
+    """Return a clause for each axis on which the difference of two mounts exceeds its bound.
 
-    The bound is at least that of `limits`. An undetermined error (NaN) never exceeds it.
+    Args:
+        shift: Difference of the mounts, metres and degrees, shape (6,); NaN never exceeds a bound.
+        bounds: Largest normal difference, shape (6,).
+        widths: Half-widths of the difference's 95 % interval for the text, shape (6,).
+        limits: Thresholds "metres" and "degrees", the minimum of all bounds.
     """
     said = []
     for place, name in enumerate((*AXES, *ANGLES)):

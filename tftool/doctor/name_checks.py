@@ -1,4 +1,4 @@
-"""Checks of names: frames of messages that tf lacks, and different names for one frame."""
+"""Checks of names: message frames that are not in tf, and several spellings of one frame."""
 
 import re
 from collections import defaultdict
@@ -97,14 +97,14 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def is_navsat_output(heard: Heard) -> bool:
-    """Whether navsat_transform_node sends messages, in a frame that nobody publishes."""
+    """Whether a topic comes from navsat_transform_node, whose frame nobody publishes in tf."""
     return last_part(heard.type) == "NavSatFix" and last_part(heard.topic) == "filtered"
 
 
 def _severity(
     model: Model, name: str, heards: Iterable[Heard], fixes: Sequence[Fix]
 ) -> Severity | None:
-    """Return the severity of a finding about an unknown frame; None for an error."""
+    """Return the severity of a finding about a frame that tf lacks; None for an error."""
     if any(last_part(heard.type) in PLACED for heard in heards):
         return None if has_base(model) else Severity.WARNING
     # A recording for a localiser has goals and reference poses in its map.
@@ -114,7 +114,7 @@ def _severity(
 
 
 def _sharing(heards: Iterable[Heard]) -> list[str]:
-    """Return the namespaces of the robots that publish the same topic; empty for one robot."""
+    """Return the namespaces of several robots that publish the same topic; empty for one robot."""
     robots: dict[str, set[str]] = defaultdict(set)
     for heard in heards:
         robot, _, topic = heard.topic.removeprefix("/").partition("/")
@@ -124,18 +124,18 @@ def _sharing(heards: Iterable[Heard]) -> list[str]:
 
 
 def _is_scoped(model: Model, name: str) -> bool:
-    """Whether a frame name was composed by a simulator: robot/base_link/gpu_lidar."""
+    """Whether a simulator composed a frame name, such as robot/base_link/gpu_lidar."""
     simulated = len(model.evidence.clock[0]) or any(one.families[0] for one in model.heard)
     return bool(simulated) and name.strip("/").count("/") >= 2
 
 
 def _slashed(heard: Heard, model: Model) -> Iterable[str]:
-    """Return all known frames if a topic's frame has a leading slash; else an empty tuple."""
+    """Return all frames in tf if the frame of a topic has a leading slash; else an empty tuple."""
     return model.frames if heard.frame.startswith("/") else ()
 
 
 def alike_frames(model: Model, name: str) -> list[str]:
-    """Return known frames that were probably meant by an unknown name."""
+    """Return the frames in tf that an unknown name probably means."""
     kinds = [heard.type for heard in model.heard if heard.frame.removeprefix("/") == name]
     fitting = (frame for kind in kinds for frame in _fitting(model, kind))
     return list(dict.fromkeys((*fitting, *_near(model, name))))
@@ -145,7 +145,7 @@ _NUMBER = re.compile(r"\d+")
 
 
 def _near(model: Model, name: str) -> list[str]:
-    """Return known frames that share a distinctive word with an unknown name, or resemble it."""
+    """Return the frames in tf that share a distinctive word with an unknown name or resemble it."""
     words = {word for word in distinctive_words(name) if not word.isdigit()}
     found = near_names(last_part(name), sorted(model.frames), 3)
     # Names that differ only in a number belong to two things of one kind.
@@ -154,7 +154,10 @@ def _near(model: Model, name: str) -> list[str]:
 
 
 def _fitting(model: Model, kind: str) -> list[str]:
-    """Return the frames without children and messages whose name fits a message type."""
+    """Return the frames whose name fits a message type, such as "laser" for LaserScan.
+
+    Only frames without children and without messages are returned.
+    """
     used = {heard.frame for heard in model.heard}
     parents = {track.parent for track in model.tracks}
     words = _KINDS.get(last_part(kind), ())
@@ -236,7 +239,10 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _outside(model: Model, heard: Heard, known: str) -> str:
-    """Return how all messages of a topic are outside of a frame's time; empty if they are not."""
+    """Return the time from a topic's stamps to the frame's samples, as a clause of a sentence.
+
+    The clause is empty if some of the stamps are between the first and the last sample.
+    """
     path = [track for track in model.above(known) if not track.static and len(track.by_stamp)]
     for track in path:
         first, last = int(track.sorted_stamps[0]), int(track.sorted_stamps[-1])
@@ -346,7 +352,7 @@ class _Spelled:
 
 
 def _bare(name: str) -> str:
-    """Return a name in lower case, without hyphens, underscores and spaces."""
+    """Return a frame name in lower case, without hyphens, underscores and spaces."""
     return re.sub(r"[-_\s]", "", name).casefold()
 
 
@@ -361,13 +367,13 @@ def _is_typo(one: _Spelled, other: _Spelled, limits: Limits) -> bool:
 
 
 def distance(one: str, other: str, most: int) -> int:
-    """Return the number of letters to insert, delete, replace or swap between two words.
+    """Return the least number of letters to insert, delete, replace or swap between two words.
 
     Args:
         one: The first word.
         other: The second word.
-        most: Largest distance of interest; for a larger distance, the result is any number
-            above `most`.
+        most: Largest distance to compute; if the distance is larger, the result is any number above
+            `most`.
 
     Source:
         Damerau, "A technique for computer detection and correction of spelling errors",
@@ -555,7 +561,7 @@ def _awkward(name: str, limits: Limits) -> str:
 
 
 def _names(model: Model) -> list[str]:
-    """Return all frame names in transforms and messages, without leading slashes."""
+    """Return the frame names in transforms and messages, without leading slashes."""
     heard = {h.frame.removeprefix("/") for h in model.heard if h.is_spatial}
     return sorted((model.frames | heard) - {""})
 

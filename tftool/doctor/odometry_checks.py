@@ -1,4 +1,4 @@
-"""Checks of odometry messages against the transforms of the same frames, and of their variances."""
+"""Checks of Odometry messages: differences from tf, negative variances, repeated poses."""
 
 from collections.abc import Iterator
 
@@ -62,9 +62,9 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _is_same_base(model: Model, told: Track) -> bool:
-    """Whether a message's child and parent are both frames of the robot's base.
+    """Whether an Odometry edge connects two base frames of a robot, such as base_footprint.
 
-    All frames between them in tf must be base frames too, such as base_footprint.
+    All frames in tf between these two frames must be base frames too.
     """
     above = model.above(told.child)
     parents = [track.parent for track in above]
@@ -92,7 +92,10 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
 
 
 def _base_below(model: Model, told: Track) -> Track | None:
-    """Return the edge from odometry's parent to the base, if the odometry names no child frame."""
+    """Return the tf edge from the parent in an Odometry message to the robot's base.
+
+    Return None if the message names a child frame, or if tf has no such edge.
+    """
     bases = [
         track
         for track in model.dynamic
@@ -104,17 +107,17 @@ def _base_below(model: Model, told: Track) -> Track | None:
 def _disagreement(
     track: Track, told: Track, topic: str, end: Stamp, limits: Limits
 ) -> "Hit | None":
-    """Return a hit if an edge and an odometry topic often have different poses at one stamp.
+    """Return a hit if an edge in tf and an Odometry topic often have different poses at one stamp.
 
     Args:
         track: The edge in tf.
-        told: The poses in the odometry messages.
-        topic: Name of the odometry topic.
-        end: Log time after which messages are ignored.
+        told: The poses in the Odometry messages.
+        topic: Name of the Odometry topic.
+        end: Log time after which Odometry messages are ignored.
         limits: The thresholds.
 
     Returns:
-        The hit; None if few poses differ, or the edge is static.
+        The hit; None if few poses differ, or if no stamps are equal.
     """
     places = told.by_stamp[told.logs[told.by_stamp] <= end]
     _, mine, theirs = np.intersect1d(track.sorted_stamps, told.stamps[places], return_indices=True)
@@ -149,7 +152,10 @@ def _disagreement(
 
 
 def _far_apart(track: Track, told: Track, topic: str, limits: Limits) -> Hit | None:
-    """Return a hit if tf and a message place the robot far apart, whatever the sources."""
+    """Return a hit if a robot's poses in tf and in Odometry are always far apart; else None.
+
+    Far apart means farther than the threshold "far" plus the distance that the robot moved.
+    """
     places = track.by_stamp
     near = np.searchsorted(track.sorted_stamps, told.stamps).clip(max=len(places) - 1)
     some = places[near]
@@ -285,7 +291,12 @@ def odometry_cancelled(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _reach(positions: Floats, share: float) -> float:
-    """Return a percentile of the distances from the median position, metres; 0.0 for none."""
+    """Return a percentile of the distances from the median position, metres.
+
+    Args:
+        positions: Positions, metres, shape (n, 3); without positions, the result is 0.0.
+        share: The percentile, 0 to 100.
+    """
     if not len(positions):
         return 0.0
     away = np.linalg.norm(positions - np.median(positions, axis=0), axis=1)

@@ -1,4 +1,4 @@
-"""Checks of arrivals: times at which all streams are silent, and streams that stall."""
+"""Checks of arrivals: times without any message, and streams that stall."""
 
 from collections.abc import Iterator
 
@@ -83,10 +83,10 @@ def outage(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _receiver_stalls(model: Model, limits: Limits) -> Hit | None:
-    """Return a hit if the receiver, not a sender, stopped again and again; else None.
+    """Return a hit if the recorder itself stalled again and again; else None.
 
-    All streams are silent together, the time on `/clock` goes on meanwhile, and several messages
-    of `/clock` arrive at once afterwards.
+    During such a stall nothing arrives. Afterwards several messages of `/clock` arrive at once,
+    whose times show that the simulation continued.
     """
     times, clock = model.evidence.clock
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
@@ -130,12 +130,12 @@ _BURST = 3
 
 
 def _is_hole(stream: Track | Heard, begin: int, end: int, least: float) -> bool:
-    """Whether a stream's stamps also have a gap at a time when nothing arrived.
+    """Whether the stamps of a stream also have a gap during a pause of arrivals.
 
     Args:
         stream: The stream.
-        begin: Log time at which nothing arrived any more.
-        end: Log time at which data arrived again.
+        begin: Log time of the last arrival before the pause.
+        end: Log time of the first arrival after the pause.
         least: Smallest difference between two stamps that counts as a gap, nanoseconds.
     """
     stamps = np.sort(stream.stamps)

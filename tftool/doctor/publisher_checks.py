@@ -1,4 +1,4 @@
-"""Checks of publishers: several parents or publishers of one frame, moving statics."""
+"""Checks of publishers: several parents or publishers of a frame, moving static transforms."""
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
@@ -184,9 +184,12 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _folded(told_of: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
-    """Return the conflicts without those of one node that follows another conflict.
+    """Merge each conflict that only follows from another conflict into that conflict.
 
-    A node that computes a frame from a transform with two publishers alternates, too.
+    If a node computes a child from a transform with two publishers, the child alternates too.
+
+    Args:
+        told_of: Conflicts by edge.
     """
     sure = {edge[0]: hit for edge, hit in told_of.items() if hit.confidence is Confidence.CERTAIN}
     kept = {}
@@ -202,7 +205,7 @@ def _folded(told_of: dict[tuple[str, str], Hit]) -> dict[tuple[str, str], Hit]:
 
 
 def _has_one_source(model: Model) -> bool:
-    """Whether all joint states come from one node, whose name is known."""
+    """Whether a single node, whose name is known, sends all joint states."""
     topics = {one.topic for one in model.evidence.headers.values() if one.type == JOINT_STATES}
     nodes = [one.node for one in model.evidence.publishers if one.topic in topics]
     return len(nodes) == 1 and bool(nodes[0])
@@ -406,7 +409,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _could_move(model: Model, track: Track) -> bool:
-    """Whether other evidence than the poses shows that an edge may move."""
+    """Whether the description, Odometry or joint states show that an edge may move."""
     joint = model.joint_above.get(track.child)
     if joint is not None:
         return joint.moves
@@ -424,10 +427,10 @@ def _could_move(model: Model, track: Track) -> bool:
 
 
 def _joints_by_statics(model: Model) -> list[Track]:
-    """Return the moving edges whose child is a link of a robot_state_publisher's robot.
+    """Return the moving edges that are joints of a robot, judged by the static messages.
 
-    robot_state_publisher sends all fixed joints in one static message. So a frame that is a parent
-    in such a message is a link of the robot, and a moving edge to it is a joint.
+    robot_state_publisher sends all fixed joints in one static message. So the parents in such a
+    message are links of the robot, and a moving edge to such a parent is a joint.
     """
     counts = Counter(number for one in model.statics for number in one.messages.tolist())
     carriers = {
@@ -472,7 +475,7 @@ def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
-    """Return the edges of each child that has at least `least` edges, by the child's name."""
+    """Return the edges to each child frame with at least `least` parents, by the child's name."""
     grouped: dict[str, list[Track]] = defaultdict(list)
     for track in tracks:
         if len(track.by_stamp):
@@ -481,13 +484,14 @@ def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]
 
 
 def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
-    """Return how often a frame changed its parent, the mean seconds between, and the first time.
+    """Count the changes of a frame's parent.
 
     Args:
         tracks: The edges from the parents to the frame.
 
     Returns:
-        Number of changes, seconds, and log time of the first change (0 without a change).
+        Number of changes, mean time between them in seconds, and log time of the first change in
+        nanoseconds (0 without a change).
     """
     stamps = np.concatenate([track.sorted_stamps for track in tracks])
     logs = np.concatenate([track.logs[track.by_stamp] for track in tracks])
@@ -500,7 +504,7 @@ def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
 
 
 def _root(model: Model, frame: str, without: str) -> str:
-    """Return the topmost ancestor of `frame`; stop below `without` if that is an ancestor."""
+    """Return the topmost ancestor of `frame`, or the ancestor just below the frame `without`."""
     for track in model.above(frame):
         if track.parent == without:
             break

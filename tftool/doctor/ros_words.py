@@ -1,4 +1,4 @@
-"""Commands and settings for the texts of remedies, for ROS 1 or ROS 2."""
+"""Commands and settings of ROS 1 and ROS 2 for the texts of remedies."""
 
 from collections.abc import Mapping
 
@@ -44,12 +44,12 @@ _BOTH = {name: f"{text} (ROS 1: {_ROS1[name]})" for name, text in _ROS2.items()}
 
 
 def is_ros1(evidence: Evidence) -> bool:
-    """Whether evidence comes from ROS 1: a bag, or messages in ROS 1's encoding."""
+    """Whether evidence comes from ROS 1: from a ROS 1 bag, or in the message encoding of ROS 1."""
     return evidence.kind == "ROS 1 bag" or any(one.encoding == "ros1" for one in evidence.topics)
 
 
 def ros_words(evidence: Evidence) -> Mapping[str, str]:
-    """Return the commands and settings of a recording's ROS version; ROS 2's if it is unknown."""
+    """Return the commands and settings of ROS 1 or ROS 2, by placeholder; ROS 2 if unknown."""
     return _ROS1 if is_ros1(evidence) else _ROS2
 
 
@@ -58,7 +58,7 @@ def in_words(text: str, words: Mapping[str, str] = _BOTH) -> str:
 
     Args:
         text: The text.
-        words: Text for each placeholder; by default a text that names both ROS 1 and ROS 2.
+        words: Commands and settings, by placeholder; by default of both ROS 1 and ROS 2.
     """
     for name, word in words.items():
         text = text.replace(f"{{{name}}}", word)

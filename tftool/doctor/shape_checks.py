@@ -181,12 +181,12 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
-    """Return the remedy if no data shows where to connect a root.
+    """Return the remedy for a root frame if no data shows the missing parent.
 
     Args:
-        model: The evidence, prepared.
-        root: Name of the root for the sentence.
-        mount: Command that publishes the mount of a sensor; empty for other roots.
+        model: Model of the evidence.
+        root: Name of the root frame.
+        mount: Command that publishes the root as a sensor's mount; empty for other frames.
     """
     is_cut = model.lacks_statics and model.evidence.recorded
     static = "; the statics are missing from the recording, and it may be one of them" * is_cut
@@ -195,9 +195,9 @@ def nothing_says(model: Model, root: str, mount: str = "") -> Fix:
 
 
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
-    """Whether a tree only has a frame and its versions with other axes, such as odom_ned.
+    """Whether a tree contains only a frame and copies with other axes, such as odom and odom_ned.
 
-    A tree whose frames have messages is never such a tree.
+    The result is False if `topics`, the number of messages in the tree by topic, is not empty.
     """
     others = {f"{tree.root}_{axes}" for axes in ("ned", "enu", "frd", "flu")}
     return not topics and len(tree.frames) > 1 and tree.frames <= {tree.root, *others}

@@ -1,4 +1,4 @@
-"""Checks of the order of stamps: zero, frozen, repeated and old stamps, and time that goes back."""
+"""Checks of stamps: zero, frozen, repeated, old and late stamps, and a wrong order."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ from tftool.recordings.contract import Stamps
 check = checks_of(Area.CLOCKS)
 
 COMPARE_CLOCKS = Fix("compare the clocks of the computers (`date`, `chronyc tracking`)")
-"""Next step if the stamps of one computer differ from the clock of another."""
+"""Remedy if the stamps of a computer differ from the clock of another computer."""
 
 
 @check(
@@ -109,11 +109,11 @@ def stands_still(stream: Track | Heard) -> bool:
 
 
 def _frozen(stream: Track | Heard, limits: Limits) -> tuple[int, int, int] | None:
-    """Return the stamp that a stream repeats most; None if no stamp is repeated for long.
+    """Find the stamp that a stream repeats most often.
 
     Returns:
-        The stamp, the number of its samples, and the time between the first and the last of them,
-        nanoseconds.
+        The stamp, the number of samples with this stamp, and the time from the first to the last of
+        these samples, nanoseconds; None if no stamp is repeated for long.
     """
     stamps = stream.stamps
     if limits["times"] > 1 and not (stamps[1:] == stamps[:-1]).any():
@@ -317,7 +317,7 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _newest_before(tracks: list[Track]) -> tuple[Stamps, Stamps]:
-    """Return all stamps in order of arrival, and for each the newest stamp that had arrived.
+    """Return all stamps in order of arrival, and the newest stamp up to each arrival.
 
     Stamps of a simulation's clock and of the wall clock are compared separately.
     """
@@ -418,7 +418,7 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _falls_behind(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if some samples of a moving transform are late, and other data is in time."""
+    """Return a hit if some samples of a transform are late while other data arrives in time."""
     if track.is_localisation or not track.moves or len(track.stamps) < _FEWEST_LATE:
         return None
     usual, tenth = (int(one) for one in np.percentile(track.latency, (50, 90)))
@@ -459,12 +459,12 @@ _STEADY = seconds(0.1)
 
 
 def _in_time(model: Model, track: Track, least: float) -> Hit | None:
-    """Return a hit if Odometry brings the poses of a late transform in time; else None.
+    """Return a hit if an Odometry topic has the poses of a late transform in time; else None.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         track: The transform.
-        least: Minimum latency, seconds, of a transform that is late.
+        least: Minimum median latency of a late transform, seconds.
     """
     odometry = model.evidence.odometry
     is_late = track.median_latency > least * NANOSECONDS
@@ -511,7 +511,14 @@ _ROUNDED = 1e-4
 
 
 def _are_same(track: Track, some: Places, other: Track, others: Places) -> Mask:
-    """Return a mask of the pairs with one pose, within rounding and the signs of x, y and z."""
+    """Return a mask of the pairs of samples with equal poses, except for signs of x, y and z.
+
+    Args:
+        track: First stream of transforms.
+        some: Rows in `track`, shape (n,).
+        other: Second stream of transforms.
+        others: Rows in `other`, shape (n,).
+    """
     mine, theirs = np.abs(track.translations[some]), np.abs(other.translations[others])
     apart = np.abs(mine - theirs).max(axis=1)
     dots = np.einsum("ij,ij->i", track.rotations[some], other.rotations[others])
@@ -537,7 +544,7 @@ def _late(model: Model, stream: "Track | Heard") -> Hit:
 
 
 def _relayed_late(model: Model, stream: "Track | Heard") -> str:
-    """Return a remedy if a node delays data that reaches it in time; else an empty string."""
+    """Return a remedy if a node received data in time but sent it late; else an empty string."""
     for source in model.heard:
         if not source.is_spatial or 4 * abs(source.median_latency) > stream.median_latency:
             continue

@@ -1,4 +1,4 @@
-"""Streams of stamps with arrival times: samples of an edge, or headers of a topic."""
+"""Streams of stamps with arrival times: the samples of an edge, or the headers of a topic."""
 
 import math
 import re
@@ -43,10 +43,11 @@ class Stream:
     """Stamped items (samples or headers) in the order of their log times.
 
     Attributes:
-        stamps: Stamps before the clock first jumped back (the first lap), nanoseconds, shape (n,).
-        logs: Log times of these items, nanoseconds, shape (n,).
-        lap: Number of items n in the first lap.
-        arrivals: Log times converted to the clock of the stamps, once `Model` knows both clocks.
+        stamps: Stamps of the first lap (before the clock first jumped back), nanoseconds,
+            shape (n,).
+        logs: Log times of the first lap, nanoseconds, shape (n,).
+        lap: Number n of items in the first lap.
+        arrivals: Log times on the clock of the stamps, nanoseconds, shape (n,); set by `Model`.
     """
 
     def __init__(self, stamps: Stamps, logs: Stamps) -> None:
@@ -58,22 +59,22 @@ class Stream:
         self.arrivals: Stamps = self.all_logs
 
     def in_order(self, column: npt.NDArray[Number]) -> npt.NDArray[Number]:
-        """Return the rows of a column in the order of log times."""
+        """Return the rows of `column`, one row per item, sorted by log time."""
         return column if self.order is None else column[self.order]
 
     @property
     def stamps(self) -> Stamps:
-        """Stamps before the clock first jumped back (the first lap), nanoseconds, shape (n,)."""
+        """Stamps of the first lap (before the clock first jumped back), nanoseconds, shape (n,)."""
         return self.all_stamps[: self.lap]
 
     @property
     def logs(self) -> Stamps:
-        """Log times before the clock first jumped back (the first lap), nanoseconds, shape (n,)."""
+        """Log times of the first lap (before the clock jumped back), nanoseconds, shape (n,)."""
         return self.all_logs[: self.lap]
 
     @cached_property
     def latency(self) -> Stamps:
-        """Return the delay from each stamp to its arrival, nanoseconds."""
+        """Delay from each stamp to the arrival of the item, nanoseconds, shape (n,)."""
         return self.arrivals - self.stamps
 
     @cached_property
@@ -84,9 +85,9 @@ class Stream:
 
     @cached_property
     def wild(self) -> Mask:
-        """Return a mask of single stamps that differ much from their arrival, shape (n,).
+        """Mask of stray stamps, more than an hour off their neighbours, shape (n,).
 
-        If many stamps differ, no stamp is marked: the stamps come from another clock.
+        If more than 1 % of the stamps differ, the mask is False: the stamps come from two clocks.
         """
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:
@@ -108,7 +109,7 @@ class Stream:
 
     @cached_property
     def families(self) -> tuple[int, int]:
-        """Return how many stamps are on a simulation's clock, and how many on the wall clock."""
+        """Numbers of stamps on a simulation's clock and on the wall clock, without zero stamps."""
         zero = int(np.count_nonzero(self.stamps == 0))
         wall = int(np.count_nonzero(self.stamps >= SIMULATED_BELOW))
         return len(self.stamps) - wall - zero, wall
@@ -135,7 +136,7 @@ class Track(Stream):
 
     @property
     def edge(self) -> tuple[str, str]:
-        """Names of parent and child."""
+        """Names of the parent and the child frame."""
         return self.parent, self.child
 
     @property
@@ -145,33 +146,33 @@ class Track(Stream):
 
     @cached_property
     def records(self) -> Stamps:
-        """Stamps and poses of all laps as recorded, shape (n, 8)."""
+        """Rows of all laps, int64, shape (m, 8): a stamp and the bits of a pose (7 doubles)."""
         return self.in_order(self._edge.records)
 
     @cached_property
     def translations(self) -> Floats:
-        """Translations of the samples in `stamps`, metres, shape (n, 3)."""
+        """Translations of the samples, metres, shape (n, 3)."""
         return self.in_order(self._edge.translations)[: self.lap]
 
     @cached_property
     def rotations(self) -> Floats:
-        """Rotations of the samples in `stamps` as recorded, x y z w, shape (n, 4)."""
+        """Rotations of the samples as recorded, quaternions x y z w, shape (n, 4)."""
         return self.in_order(self._edge.rotations)[: self.lap]
 
     @cached_property
     def senders(self) -> npt.NDArray[np.int32]:
-        """Index of the publisher of each sample in `stamps`, shape (n,)."""
+        """Index of each sample's publisher in the list of all publishers, shape (n,)."""
         senders: npt.NDArray[np.int32] = self.in_order(self._transforms.senders_of(self._edge))
         return senders[: self.lap]
 
     @cached_property
     def messages(self) -> Places32:
-        """Number of the message of each sample in `stamps`, shape (n,)."""
+        """Index of each sample's message in the recording, shape (n,)."""
         return self.in_order(self._edge.messages)[: self.lap]
 
     @cached_property
     def publishers(self) -> list[Publisher]:
-        """Return the publishers of the edge, with or without known node names."""
+        """Publishers of the edge; the node name of a publisher may be unknown."""
         senders = self.senders
         if len(senders) and senders.min() == senders.max():
             return [self._transforms.publishers[senders[0]]]
@@ -179,17 +180,17 @@ class Track(Stream):
 
     @cached_property
     def nodes(self) -> tuple[str, ...]:
-        """Return the names of the publishing nodes, as far as known."""
+        """Known names of the nodes that publish the edge."""
         return tuple(sorted({one.node for one in self.publishers if one.node}))
 
     @cached_property
     def topics(self) -> tuple[str, ...]:
-        """Return the names of the topics with the edge's transforms."""
+        """Names of the topics that contain transforms of the edge."""
         return tuple(sorted({one.topic for one in self.publishers}))
 
     @cached_property
     def is_orderly(self) -> bool:
-        """Whether all samples are known to be usable and sorted by stamp."""
+        """Whether the reader found all samples usable and sorted by stamp."""
         return (
             self.order is None
             and self._edge.kept == len(self._edge) > 0
@@ -199,7 +200,7 @@ class Track(Stream):
 
     @cached_property
     def finite(self) -> Mask:
-        """Return a mask of the samples without NaN and infinity, shape (n,)."""
+        """Mask of the samples without NaN and infinity, shape (n,)."""
         if self.is_orderly:
             return np.ones(self.lap, dtype=np.bool_)
         finite = np.isfinite(self.translations).all(axis=1)
@@ -208,7 +209,7 @@ class Track(Stream):
 
     @cached_property
     def squares(self) -> Floats:
-        """Squared lengths of the rotations, shape (n,)."""
+        """Squared lengths of the quaternions in `rotations`, shape (n,)."""
         rotations = self.rotations
         with np.errstate(all="ignore"):
             squares: Floats = np.einsum("ij,ij->i", rotations, rotations)
@@ -216,10 +217,10 @@ class Track(Stream):
 
     @cached_property
     def usable(self) -> Mask:
-        """Return a mask of the samples that tf2 would store.
+        """Mask of the samples that tf2 would store, shape (n,).
 
-        tf2 stores samples with finite numbers and a quaternion that is not zero. A moving sample
-        also needs a stamp that is not 0.
+        tf2 stores samples with finite numbers and a nonzero quaternion. A sample on a moving topic
+        also needs a nonzero stamp.
         """
         if self.is_orderly:
             return self.finite
@@ -228,7 +229,7 @@ class Track(Stream):
 
     @cached_property
     def by_stamp(self) -> npt.NDArray[np.intp]:
-        """Indices of usable samples in the order of stamps; equal stamps in order of arrival."""
+        """Indices of the k usable samples, sorted by stamp and then by arrival, shape (k,)."""
         if self.is_orderly:
             return np.arange(self.lap)
         places = np.flatnonzero(self.usable)
@@ -237,7 +238,7 @@ class Track(Stream):
 
     @property
     def last(self) -> int:
-        """Return the index of the newest usable sample; for a static edge, of the last arrived.
+        """Index of the usable sample with the newest stamp; of a static edge, the last to arrive.
 
         Raises:
             IndexError: If no sample is usable.
@@ -252,28 +253,35 @@ class Track(Stream):
 
     @cached_property
     def steps(self) -> Stamps:
-        """Differences between neighbouring sorted stamps, nanoseconds, without zeros."""
+        """Differences between consecutive sorted stamps without zero differences, nanoseconds."""
         steps = self.sorted_stamps[1:] - self.sorted_stamps[:-1]
         positive: Stamps = steps[steps > 0]
         return positive
 
     @cached_property
     def period(self) -> int:
-        """Median of `steps`, nanoseconds; 0 without steps."""
+        """Period of the edge, the median of `steps`, nanoseconds; 0 without steps."""
         return int(median(self.steps)) if len(self.steps) else 0
 
     @cached_property
     def first_arrivals(self) -> Stamps:
-        """Return, for each of `sorted_stamps`, the first arrival of a sample not older than it.
+        """First arrival of a sample that is at least as new as each of `sorted_stamps`.
 
-        The shape is (k,).
+        Times on the clock of the stamps, nanoseconds, shape (k,).
         """
         arrivals = self.arrivals[self.by_stamp]
         earliest: Stamps = np.minimum.accumulate(arrivals[::-1])[::-1]
         return earliest
 
     def served_from(self, stamps: Stamps) -> Stamps:
-        """Return the time from which a lookup at each stamp can succeed on this edge; or NEVER."""
+        """Return the time from which lookups at each stamp can succeed on this edge.
+
+        Args:
+            stamps: Times of the lookups, nanoseconds, shape (m,).
+
+        Returns:
+            Times of arrival, nanoseconds, shape (m,); NEVER for a lookup that always fails.
+        """
         if self.static:
             return np.full(len(stamps), np.iinfo(np.int64).min)
         places = np.searchsorted(self.sorted_stamps, stamps, side="left")
@@ -282,32 +290,37 @@ class Track(Stream):
         return served
 
     def apart(self, some: Places, others: Places) -> Floats:
-        """Return the distance between each sample in `some` and its partner in `others`, metres."""
+        """Return the distance between paired samples, metres, shape (m,).
+
+        Args:
+            some: Indices of the first samples, shape (m,).
+            others: Indices of the second samples, shape (m,).
+        """
         away = self.translations[some] - self.translations[others]
         apart: Floats = np.sqrt(np.einsum("ij,ij->i", away, away))
         return apart
 
     @cached_property
     def strides(self) -> Floats:
-        """Distances between usable samples that follow one another by stamp, metres, (k - 1,)."""
+        """Distance from each sample in `by_stamp` to the next, metres, shape (k - 1,)."""
         return self.apart(self.by_stamp[1:], self.by_stamp[:-1])
 
     def turned(self, some: Places, others: Places) -> Floats:
-        """Return the angle between each sample in `some` and its partner in `others`, radians."""
+        """Return the angle between paired samples, radians, shape (m,); arguments as in `apart`."""
         return angles_between(unit(self.rotations[some]), unit(self.rotations[others]))
 
     def has_turns(self, some: Places, others: Places, radians: float) -> bool:
-        """Whether one of the angles that `turned` returns exceeds `radians`; computed faster."""
+        """Whether any angle of `turned(some, others)` exceeds `radians`; faster than `turned`."""
         dots = np.einsum("ij,ij->i", self.rotations[some], self.rotations[others])
         lengths = np.sqrt(self.squares[some] * self.squares[others])
         return bool((np.abs(dots) < math.cos(radians / 2.0) * lengths).any())
 
     @cached_property
     def is_localisation(self) -> bool:
-        """Whether a localiser publishes the edge, so that REP-105 permits jumps.
+        """Whether a localiser publishes the edge, judged by the frame names of REP-105.
 
         Such an edge is the pose of odom or map in map, earth or world. Some localisers publish the
-        inverse: map in odom.
+        inverse, the pose of map in odom.
         """
         parent, child = last_part(self.parent), last_part(self.child)
         if parent.startswith("odom"):
@@ -353,7 +366,7 @@ class Heard(Stream):
 
     @property
     def name(self) -> str:
-        """Name of the stream for sentences: the topic."""
+        """Name of the stream in sentences: the name of the topic."""
         return self.topic
 
     @property
@@ -363,7 +376,7 @@ class Heard(Stream):
 
 
 def bounded(stamps: Stamps) -> Stamps:
-    """Clip stamps so that differences fit into 64 bits; valid stamps of ROS do not change."""
+    """Clip stamps so that their differences fit into 64 bits; valid ROS stamps do not change."""
     if len(stamps) and (stamps.max() > FAR or stamps.min() < -FAR):
         return np.clip(stamps, -FAR, FAR)
     return stamps
@@ -421,14 +434,14 @@ def is_spatial(kind: str) -> bool:
 
 
 def unsorted_share(stamps: Stamps) -> int:
-    """Return the number of stamps that are older than a stamp received before them."""
+    """Count the stamps, in order of arrival, that are older than a stamp before."""
     if len(stamps) < 2:
         return 0
     return int(np.count_nonzero(stamps[1:] < np.maximum.accumulate(stamps)[:-1]))
 
 
 def rate(track: Stream) -> float:
-    """Return the rate of a track, samples per second; 0.0 if unknown."""
+    """Return the rate of a stream, samples per second; 0.0 for a single sample or equal stamps."""
     if len(track.stamps) < 2:
         return 0.0
     span = int(track.stamps.max()) - int(track.stamps.min())
@@ -436,7 +449,7 @@ def rate(track: Stream) -> float:
 
 
 def overlap(tracks: Sequence[Track]) -> bool:
-    """Whether there is a time at which all tracks have data; static tracks always do."""
+    """Whether all tracks have data at some common time; static tracks have data at any time."""
     spans = [(int(t.sorted_stamps[0]), int(t.sorted_stamps[-1])) for t in tracks if _lives(t)]
     return not spans or max(low for low, _ in spans) <= min(high for _, high in spans)
 
@@ -455,13 +468,13 @@ _FAMILY = re.compile(
 
 
 def family(name: str) -> str:
-    """Return a frame name with "#" for numbers and for words such as left and front.
+    """Replace numbers and words such as left and front in a frame name by "#".
 
-    Frames of the same kind, such as four wheels, get the same result.
+    So frames of the same kind, such as the four wheels of a robot, get the same result.
     """
     return _FAMILY.sub("#", name.lower())
 
 
 def last_part(name: str) -> str:
-    """Return the last part of a frame name, after any namespace."""
+    """Return the part of a name after the last slash."""
     return name.rsplit("/", 1)[-1]

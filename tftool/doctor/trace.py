@@ -1,4 +1,4 @@
-"""Buffer of an assumed listener at the time of one lookup, and the outcome at each edge."""
+"""Trace of a lookup: the buffer of an assumed listener, and the outcome at each edge."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ MOST_SET = 200_000
 
 
 class LinkVerdict(Enum):
-    """Outcome of a lookup at one edge (link) of its path."""
+    """Outcome of a lookup at one edge (link) of the path."""
 
     ANSWERS = "answers"
     FORWARD = "forward"
@@ -35,7 +35,7 @@ class LinkVerdict(Enum):
 
 @dataclass(frozen=True, slots=True)
 class TracedLink:
-    """One edge (link) of a lookup's path, with the samples that the assumed listener has.
+    """One edge (link) of a lookup's path, with the samples in the assumed listener's buffer.
 
     Attributes:
         parent: Parent frame.
@@ -43,14 +43,15 @@ class TracedLink:
         is_static: Whether the edge is static.
         publisher: Publisher of the edge; None if unknown.
         count: Number of samples in the buffer.
-        oldest: Stamp of the oldest sample in the buffer, or arrival time if static; None without a
-            sample.
-        newest: Stamp of the newest sample in the buffer, or arrival time if static; None without a
-            sample.
+        oldest: Stamp of the oldest sample in the buffer, or arrival time of a static edge; None
+            without samples.
+        newest: Stamp of the newest sample in the buffer, or arrival time of a static edge; None
+            without samples.
         period: Median period, nanoseconds; 0 if unknown.
         latency: Median time from stamp to arrival, nanoseconds.
         verdict: Outcome of the lookup at this edge.
-        short_by: Time between the lookup and the nearest data, nanoseconds.
+        short_by: Time from the lookup's time to the nearest sample, nanoseconds; 0 if the edge has
+            data.
     """
 
     parent: str
@@ -67,7 +68,7 @@ class TracedLink:
 
     @property
     def edge(self) -> Edge:
-        """Names of parent and child."""
+        """Names of the parent and the child frame."""
         return self.parent, self.child
 
     @property
@@ -84,11 +85,12 @@ class Question:
         target: Target frame.
         source: Source frame.
         stamp: Time of the lookup; 0 for the latest.
-        asked: Log time at which the lookup is made. If None, the lookup is made when the message in
-            the source frame with the stamp `stamp` arrives, or at `stamp` without such a message.
+        asked: Log time at which the lookup is made. None for the arrival of the message with the
+            stamp `stamp` in the source frame; without such a message, `stamp` itself. For the
+            latest time, None is the end of the data.
         settings: Settings of the listener.
-        timeout: Time that the listener waits, nanoseconds.
-        topic: Topic of the message that needs the transform; empty if there is none.
+        timeout: Timeout of the lookup, nanoseconds.
+        topic: Topic of the message that needs the transform; empty for any topic.
     """
 
     target: str
@@ -104,7 +106,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
     """Find the message of a topic whose stamp is nearest to a time.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         topic: Name of the topic.
         near: The time; None for the topic's first message.
 
@@ -112,7 +114,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
         The stream with the message, and the message's stamp.
 
     Raises:
-        InputError: If there is no message with a header on the topic.
+        InputError: If the topic has no message with a header.
     """
     heards = [heard for heard in model.heard if heard.topic == topic and len(heard.stamps)]
     if not heards:
@@ -133,7 +135,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
 
 
 class LookupTrace:
-    """Trace of one lookup of an assumed listener along the edges of the path."""
+    """One lookup of an assumed listener, followed along the edges of the path."""
 
     def __init__(self, model: Model, question: Question) -> None:
         self.model = model
@@ -145,9 +147,9 @@ class LookupTrace:
         self.asked, self.because, self.after = self._asked()
 
     def _message(self) -> Heard | None:
-        """Return the messages in the source frame that the lookup is about; None without any.
+        """Return the topic in the source frame whose message needs the lookup; None if unknown.
 
-        They are on the question's topic, or on the first topic that has the question's stamp.
+        This is the topic of the question, else the first topic with a message of that stamp.
         """
         for heard in self.model.heard:
             if heard.frame != self.question.source or not len(heard.stamps):
@@ -182,9 +184,9 @@ class LookupTrace:
         return places
 
     def held(self, track: Track) -> Stamps:
-        """Return the sorted stamps of an edge's samples in the buffer at the lookup.
+        """Return the stamps of an edge's samples in the buffer when the lookup is made, sorted.
 
-        They have arrived, and tf2 has not pruned them.
+        These samples have arrived, and tf2 has not pruned them.
         """
         stamps = track.stamps[self.arrived(track)]
         if not track.static and len(stamps) > 1:
@@ -194,7 +196,7 @@ class LookupTrace:
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """Return the newest stamp, ignoring the last one received unless it is the only one."""
+        """Return the newest stamp before the last arrival; for a single stamp, this stamp."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:
@@ -207,9 +209,9 @@ class LookupTrace:
         return None if legs is None else [*legs[0], *reversed(legs[1])]
 
     def _parent(self, frame: str) -> Track | None:
-        """Return the edge above a frame at the lookup's time; None if there is none.
+        """Return the edge from a frame's parent at the lookup's time; None for a root.
 
-        If the frame has several parents, this is the edge with the sample nearest in time.
+        If the frame has several parents, the edge with the sample nearest in time is returned.
         """
         tracks = [t for t in self.model.edges_above.get(frame, ()) if len(t.by_stamp)]
         if len(tracks) < 2:
@@ -219,7 +221,7 @@ class LookupTrace:
         return min(tracks, key=lambda track: int(np.abs(track.sorted_stamps - self.stamp).min()))
 
     def link(self, track: Track) -> TracedLink:
-        """Return an edge with its samples in the buffer, and the lookup's outcome at this edge."""
+        """Return the state of an edge in the buffer, and the lookup's outcome at this edge."""
         held = self.held(track)
         verdict, short_by = self._verdict(track, held)
         if track.static and len(held):
@@ -284,7 +286,7 @@ class LookupTrace:
         return buffer
 
     def settle(self, way: Sequence[Track]) -> None:
-        """Set `moment` for a lookup of the latest time: the newest time that all edges have."""
+        """Set `moment` to the latest common time of the edges, for a lookup of the latest time."""
         if self.stamp == LATEST:
             newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
             self.moment = min(newest, default=LATEST)
@@ -294,7 +296,8 @@ class LookupTrace:
     def answerable(self, tracks: Sequence[Track]) -> tuple[Stamp | None, Stamp | None]:
         """Return the first and the last log time at which the lookup can succeed.
 
-        The first is None if it never can; the last is None if it can until the end.
+        Both times are None if the lookup always fails. The last time is None if the lookup succeeds
+        until the end.
         """
         begins: list[int] = []
         ends: list[int] = []
@@ -323,4 +326,4 @@ class LookupTrace:
 
 
 def _silent(_level: str, _text: str) -> None:
-    """Ignore a log line of the buffer that imitates a listener; the checks report its faults."""
+    """Ignore the log of the assumed listener's buffer, because the checks report the faults."""

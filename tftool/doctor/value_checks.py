@@ -1,4 +1,4 @@
-"""Checks of numbers: NaN, invalid rotations, jumps, axes."""
+"""Checks of poses: NaN, invalid rotations, jumps, wrong axes and wrong units."""
 
 import math
 from collections.abc import Iterator
@@ -122,7 +122,7 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _fate(model: Model, track: Track, place: int, severity: Severity) -> tuple[str, str]:
-    """Return the effect of a rotation of a wrong length on tf2, and what that leads to."""
+    """Return two clauses on a quaternion of a wrong length: tf2's reaction, and the effect."""
     if severity is Severity.ERROR:
         return "tf2 drops them", "a lookup at these stamps gets other samples, or no frame"
     if is_ros1(model.evidence):
@@ -208,12 +208,12 @@ def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | None:
-    """Return the hit about jumps among some samples of an edge; None without jumps.
+    """Return a hit about jumps in one publisher's samples of an edge; None without jumps.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         track: The edge.
-        places: Samples of one publisher in the order of their stamps, shape (n,).
+        places: Indices of the publisher's samples, sorted by stamp, shape (n,).
         limits: Thresholds of `teleport`.
     """
     some, others = places[:-1], places[1:]
@@ -269,7 +269,7 @@ def _jump(model: Model, track: Track, places: Places, limits: Limits) -> Hit | N
 
 
 def _look(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, ...]:
-    """Return the commands that print a pose before and after a jump."""
+    """Return remedies with the commands that print a pose before and after a jump."""
     echo = f"tftool echo {quoted(edge[0])} {quoted(edge[1])} RECORDING --at"
     # A small number is seconds since the start of the recording, not a stamp.
     begin = model.epoch if after < SIMULATED_BELOW else 0
@@ -284,15 +284,15 @@ def _look(model: Model, edge: Edge, before: Stamp, after: Stamp) -> tuple[Fix, .
 
 
 def _others(track: Track, places: Places, worst: int) -> str:
-    """Return the stamps of the jumps except the worst one, as a part of a sentence."""
+    """Return the stamps of all jumps except the worst jump, as a clause of a sentence."""
     others = [moment(int(track.stamps[place])) for place in places.tolist() if place != worst]
     return f"; also at {several(others)}" if others else ""
 
 
 def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if a localiser moves the robot again and again; else None.
+    """Return a hit if a localiser corrects the robot's pose again and again; else None.
 
-    An initial pose is no correction: the first step does not count if it is the largest.
+    A first step that is also the largest step is the initial pose, and does not count.
     """
     places = track.by_stamp
     if len(places) < limits["samples"] or last_part(track.parent).startswith("odom"):
@@ -322,7 +322,7 @@ def _corrections(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 
 def _poor_detections(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Return a hit if an object jumps by metres between its detections; else None."""
+    """Return a hit if a detected object jumps by metres from detection to detection; else None."""
     if is_world(track.parent) or len(track.by_stamp) < 2 or not is_detection(model, track):
         return None
     gaps = np.diff(track.sorted_stamps) / NANOSECONDS
@@ -348,11 +348,11 @@ def _repeated_jumps(
     """Return a hit about several steps of an edge.
 
     Args:
-        model: The evidence, prepared.
+        model: Model of the evidence.
         track: The edge.
-        steps: Numbers of the steps.
-        moved: Lengths of all steps in the order of stamps, metres.
-        words: Words about the number of steps, the longest step, and the consequence.
+        steps: Indices of the reported steps in `moved`, shape (m,).
+        moved: Lengths of all steps, sorted by stamp, metres, shape (n,).
+        words: Clauses about the size of the steps, the longest step, and the consequence.
         shown: Target and source of the lookup that shows the steps.
     """
     places = track.by_stamp
@@ -383,9 +383,15 @@ def _repeated_jumps(
 
 
 def _trigger(model: Model, jumps: Stamps) -> tuple[str, int]:
-    """Return the position topic after whose messages all jumps come, and the longest delay.
+    """Find the rare position topic whose messages trigger all jumps, such as a GPS topic.
 
-    Without such a topic, or if the delays may be chance, the topic is empty.
+    Args:
+        model: Model of the evidence.
+        jumps: Log times of the jumps, nanoseconds, shape (n,).
+
+    Returns:
+        The topic, empty if there is none, and the longest delay from a message to its jump,
+        nanoseconds.
     """
     best = "", _SOON
     for heard in model.heard:
@@ -464,7 +470,7 @@ def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _stem(name: str) -> str | None:
-    """Return an optical frame's name without its optical suffix; None for other frames."""
+    """Return an optical frame's name without "_optical_frame"; None for other frames."""
     part = last_part(name)
     for ending in _ENDINGS:
         if part.endswith(ending):

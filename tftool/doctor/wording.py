@@ -1,6 +1,6 @@
-"""Formatting of facts for the sentences of the checks, and of lines of evidence.
+"""Formatting of facts in the sentences of the checks, and lines of evidence.
 
-Similar observations about many frames are merged into one line.
+Similar observations of many frames share one line of evidence.
 """
 
 import math
@@ -69,7 +69,7 @@ def metres(length: float) -> str:
 
 
 def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
-    """Format a list with its first items: "a, b and 12 more"."""
+    """Format a long list as the first items and the number of other items: "a, b and 12 more"."""
     shown = [str(name) for name in names[:most]]
     rest = len(names) - len(shown)
     return f"{', '.join(shown)} and {rest} more" if rest else ", ".join(shown)
@@ -77,22 +77,22 @@ def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
 
 @dataclass(frozen=True, slots=True)
 class NearNumbers:
-    """Range of nearly equal numbers: the smallest and the largest."""
+    """Range from the smallest to the largest of several nearly equal numbers."""
 
     low: float
     high: float
 
 
 def filled(template: str, facts: Mapping[str, Fact]) -> str:
-    """Return a check's sentence with its placeholders replaced by formatted facts."""
+    """Replace the placeholders in a check's sentence by formatted facts."""
     return _FORMATTER.vformat(template, (), facts)
 
 
 class _Words(string.Formatter):
-    """Formatter of placeholders in the sentences of checks.
+    """Formatter of placeholders in the sentences of checks, such as {wait:span}.
 
-    The formats are `{wait:span}`, `{at:moment}`, `{at:dated}`, `{jump:m}`, `{turn:deg}`,
-    `{share:%}`, and `{concerned:is|are}` for words that depend on a number.
+    The formats are span (duration), moment and dated (stamp), m (metres), deg (radians as degrees),
+    % (fraction), times (number), and a choice such as is|are between singular and plural.
     """
 
     def format_field(self, value: Any, format_spec: str) -> Any:
@@ -147,7 +147,7 @@ def evidence_lines(detail: str, hits: Sequence[Hit]) -> list[str]:
     """Return a line of evidence for each hit; similar hits about many frames share one line.
 
     Args:
-        detail: The check's line, with placeholders for facts.
+        detail: Template of a line, with placeholders for facts.
         hits: Hits of one finding.
     """
     subject, colon, rest = detail.partition(": ")
@@ -171,7 +171,13 @@ def _facts(hit: Hit) -> dict[str, Fact]:
 
 
 def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
-    """Whether two hits have the same publishers and kind, and nearly equal facts in `told`."""
+    """Whether two hits have the same publishers and nearly equal facts, and so share a line.
+
+    Args:
+        first: One hit.
+        other: The other hit.
+        told: Names and formats of the facts in the line.
+    """
     kinds = [(bool(one.edges), bool(one.topics), one.publishers) for one in (first, other)]
     if kinds[0] != kinds[1]:
         return False
@@ -188,7 +194,14 @@ def _is_alike(first: Hit, other: Hit, told: Sequence[tuple[str, str]]) -> bool:
 
 
 def _line(name: str, rest: str, hits: Sequence[Hit], told: Sequence[tuple[str, str]]) -> str:
-    """Return one line of evidence for several similar hits; differing numbers become a range."""
+    """Return one line of evidence for several similar hits, with ranges of differing numbers.
+
+    Args:
+        name: Name of the fact that is the subject of the line, such as "edge".
+        rest: Template of the line after the subject.
+        hits: The hits.
+        told: Names and formats of the facts in the line.
+    """
     facts = _facts(hits[0])
     for key, _ in told:
         values = [_facts(hit).get(key) for hit in hits]
@@ -209,7 +222,7 @@ def _subject(name: str, hits: Sequence[Hit]) -> str:
 
 
 def rounded_up(nanoseconds: int) -> int:
-    """Round nanoseconds up to a multiple of 10 ms, the interval at which tf2 tries again."""
+    """Round nanoseconds up to a multiple of 10 ms, the interval at which tf2 repeats a lookup."""
     return math.ceil(nanoseconds / 10_000_000) * 10_000_000
 
 
@@ -217,10 +230,10 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
     """Return a sentence with the rate that an edge needs; empty if its rate is high enough.
 
     Args:
-        link: Name of the link that delays a lookup.
+        link: Name of the edge that delays a lookup.
         period: Period of the edge, nanoseconds; 0 if unknown.
         later: Latency of the edge minus the latency of the message, nanoseconds.
-        wait: Time that the listener waits, seconds.
+        wait: Timeout of the listener's lookup, seconds.
     """
     left = wait - later / NANOSECONDS
     told = f"a {wait * 1e3:g} ms wait"
