@@ -1,4 +1,4 @@
-"""Playback of a recording's topics other than tf: recorded bytes, sent when they are due."""
+"""Playback of a recording's topics except tf: each message's bytes are sent at its time."""
 
 import heapq
 from collections.abc import Callable, Iterator
@@ -28,7 +28,7 @@ MOST_WAITING_BYTES: Final = 256_000_000
 
 
 class TopicFeed:
-    """Player of those topics of a recording that have a known type and carry no transforms.
+    """Player of the topics of a recording, except transforms, `/clock` and topics of unknown types.
 
     Attributes:
         topics: Names of the topics that are sent.
@@ -41,8 +41,9 @@ class TopicFeed:
         Args:
             link: Connection to the session, which sends the messages.
             source: The recording.
-            clock: Clock that converts a log time to a time of the playback.
-            node: Name of the publishing node if the recording names none.
+            clock: Clock of the playback, which converts the log time of a message to the time to
+                send the message.
+            node: Name of the node that publishes the topics.
         """
         self._link = link
         self._source = source
@@ -71,7 +72,7 @@ class TopicFeed:
         self._read_to: Stamp | None = 0
 
     def seek(self, moment: Stamp) -> None:
-        """Continue from a time; the file is read again from its beginning."""
+        """Continue from a time of the playback in nanoseconds; read the file from its beginning."""
         self._messages = self._source.messages(self.topics) if self.topics else iter(())
         self._waiting.clear()
         self._bytes, self._read_to = 0, 0
@@ -81,7 +82,7 @@ class TopicFeed:
             self._read(moment)
 
     def send_until(self, moment: Stamp) -> None:
-        """Send all messages that are due up to a time."""
+        """Send all messages whose time is not after `moment`, nanoseconds of the playback."""
         self._read(moment)
         while self._waiting and self._waiting[0][0] <= moment:
             message = self._take()
@@ -89,7 +90,7 @@ class TopicFeed:
             self._read(moment)
 
     def next_due(self) -> Stamp | None:
-        """Return the time of the next message; None at the end."""
+        """Return the time of the next message in nanoseconds; None at the end of the recording."""
         return self._waiting[0][0] if self._waiting else None
 
     def close(self) -> None:
@@ -103,7 +104,7 @@ class TopicFeed:
         return message
 
     def _read(self, moment: Stamp) -> None:
-        """Read on in the file until every message due before a time has been read."""
+        """Read the file a little ahead of the time `moment`; messages are stored sorted by time."""
         while (
             self._read_to is not None
             and (self._read_to <= moment + AHEAD or not self._waiting)

@@ -102,10 +102,11 @@ class Graph:
         self._foreign: set[int] = set()
 
     def add(self, key: str, found: GraphEntity | Process) -> GraphEntity | Process | None:
-        """Add an entity or process under a key, by which it can be removed.
+        """Add an entity or process under a key, which `remove` needs.
 
         Returns:
-            The entity or process; None if nothing was added.
+            The entity or process; None if the graph is full, or shows no such entity (known key,
+            other domain, own entity).
         """
         if key in self._entities or key in self._processes or found.session == self.own:
             return None
@@ -181,7 +182,18 @@ class Graph:
         return any(one.session not in guests for one in self._entities.values())
 
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
-        """Return the publisher with a gid, else the topic's only one; None if there are several."""
+        """Return the publisher with an id, by which a message names its sender.
+
+        ROS 2 nodes may announce another id. So for an unknown id, the topic's only publisher
+        outside tftool processes is returned.
+
+        Args:
+            gid: Id in a message.
+            topic: Name of the message's topic.
+
+        Returns:
+            The publisher; None if it is unknown or not unique.
+        """
         unknown = []
         for one in self.entities(PUBLISHER, name=topic):
             if one.gid == gid:

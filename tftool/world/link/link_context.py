@@ -59,7 +59,7 @@ class LinkContext:
 
     @property
     def unanswering(self) -> str:
-        """Sentence about local processes that do not respond, with a remedy; or ""."""
+        """Sentence about local processes that do not respond, with advice; "" if all respond."""
         found = [str(pid) for pid in self.middleware.unanswering]
         if not found:
             return ""

@@ -36,7 +36,7 @@ class Inbox:
         self._closed = False
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Make the calls in an event loop from now on, the queued calls first."""
+        """Make all calls in the event loop `loop` from now on, beginning with the queued calls."""
         with self._lock:
             self._loop = loop
             self._scheduled = bool(self._waiting)

@@ -85,7 +85,7 @@ class Reach:
         """Return whether the session is always in another process, so this process never hosts it.
 
         Args:
-            hosts: Whether the command hosts turtles if no other process does.
+            hosts: Whether the command runs a world itself if no other process runs one.
         """
         return not hosts
 

@@ -122,7 +122,7 @@ class Middleware:
         self.watcher: Watcher | None = None
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
-        """Call callbacks in the event loop `loop`, and report changes of the graph to `watcher`."""
+        """Start to call callbacks in `loop`, and to report changes of the graph to `watcher`."""
         raise NotImplementedError
 
     def tell_frames(self, names: Sequence[str]) -> None:
@@ -175,7 +175,7 @@ class Middleware:
             name: Name of the topic.
             ros_type: Type; messages of other types are not received.
             on_message: Function called with every message.
-            is_latched: Whether to request earlier messages.
+            is_latched: Whether to request messages that were sent before this call.
         """
         raise NotImplementedError
 

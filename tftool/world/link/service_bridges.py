@@ -119,7 +119,7 @@ def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answeri
 
 
 class ServiceClient:
-    """Entry in this world for a service of another process, so that nodes can call it."""
+    """Service of another process, made available to the nodes of this process's world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._kind = INTERFACES.find(*server.ros_type.split("/"))
@@ -201,7 +201,7 @@ def _in_bytes(
 
 
 class ActionClient:
-    """Action of another process to which nodes of this world can send goals."""
+    """Action of another process, made available to the nodes of this process's world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._link = link
@@ -247,7 +247,7 @@ class ActionClient:
     async def _follow(
         self, goal_id: bytes, goal: GoalHandle, decided: "asyncio.Future[bool]"
     ) -> None:
-        """Send a goal to the other process, and track it until its end."""
+        """Send a goal to the other process, and track the goal until its end."""
         status: Status = "aborted"
         result: Any = INTERFACES.part(f"{self._type}_Result")()
         try:

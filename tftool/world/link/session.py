@@ -1,8 +1,8 @@
 """Connection between a world and the other processes of its session: topics and services.
 
 Messages of this process's nodes are sent, messages of other processes are received, and a received
-message is never sent again. For the world there is no difference: a service of another process is a
-service of the world.
+message is never sent again. Nodes of the world use another process's topics and services like the
+world's own.
 """
 
 import asyncio
@@ -44,7 +44,7 @@ class Link(LinkContext):
     """Connection of a process to a session, which shares its world's topics, services and actions.
 
     Attributes:
-        departures: Number of processes with transforms that have left.
+        departures: Number of processes that published transforms and have left the session.
     """
 
     def __init__(self, options: Options) -> None:
@@ -99,7 +99,7 @@ class Link(LinkContext):
         self._tell_frames()
 
     def _tell_frames(self) -> None:
-        """Update the list of frames for completion, with a delay of up to a second."""
+        """Write the frame names for shell completion, with a delay of up to a second."""
         if self._closed or self._loop is None:
             return
         frames = self.world.buffer.frames()
@@ -109,7 +109,7 @@ class Link(LinkContext):
         self._loop.call_later(1.0, self._tell_frames)
 
     def _process(self, role: Role) -> Process:
-        """Return the announcement of this process."""
+        """Return the facts with which this process announces itself to other processes."""
         domain, session = self.options.domain, self.middleware.session
         return Process(domain, session, self._since, os.getpid(), role, self.options.command)
 
@@ -137,9 +137,10 @@ class Link(LinkContext):
     # Keeping up with the world
 
     def _world_changed(self) -> None:
-        """Share new topics at once, before their first message; other changes after a short delay.
+        """Share new topics at once, before their first message; share other changes a little later.
 
-        A crowd of turtles changes the world thousands of times, and one update serves all changes.
+        A crowd of turtles changes the world thousands of times. One delayed update then serves many
+        changes.
         """
         if self._closed:
             return
@@ -255,7 +256,7 @@ class Link(LinkContext):
                 self._warn_of_rival(name, name)
 
     def _is_part_of_our_action(self, name: str) -> bool:
-        """Return whether a name is part of an action of this world, which is shared as a whole."""
+        """Return whether a name belongs to an action of this world, such as "x/_action/status"."""
         action, found, _ = name.partition("/_action/")
         offer = self.world.actions().get(action) if found else None
         return offer is not None and not offer.is_remote
@@ -282,7 +283,7 @@ class Link(LinkContext):
             self._clients[name] = made(self, name, entity)
 
     def _announce_clients(self) -> None:
-        """Announce the clients of this world's nodes, whether or not their service has a server."""
+        """Announce the service clients of this world's nodes, even of services without a server."""
         clients = self.world.clients
         own = {
             end
@@ -298,7 +299,7 @@ class Link(LinkContext):
             )
 
     def _is_offered(self, name: str, *, remote: bool) -> bool:
-        """Return whether a service or action has a server here, or, if `remote`, elsewhere."""
+        """Return whether this process serves a service or action (if `remote`: another process)."""
         offers = (self.world.services().get(name), self.world.actions().get(name))
         return any(offer is not None and offer.is_remote is remote for offer in offers)
 
@@ -331,7 +332,7 @@ class Link(LinkContext):
             self._match_soon()
 
     def _match_soon(self) -> None:
-        """Schedule one matching of publishers and subscriptions after a group of changes."""
+        """Schedule one update of publishers and subscriptions for several changes."""
         self._senders.clear()
         self._reconcile_soon()
 

@@ -1,4 +1,4 @@
-"""World (nodes, topics, frames) of a command, the function that runs it, and its connection."""
+"""Session of a command: its world (nodes, topics, frames), and a connection to other processes."""
 
 import asyncio
 from collections import Counter
@@ -43,14 +43,14 @@ def _keep_silent(record: "LogRecord") -> None:
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """World (nodes, topics, frames) of a command, the function that runs it, and its connection.
+    """World (nodes, topics, frames) of a command, with the function that runs the world.
 
     Attributes:
         world: The world, with its frames and topics.
         is_hosted: Whether this process hosts the session.
         name: Name for messages to the user, such as "scenario 'turtles'".
         live: Coroutine function that runs the world until a time, or for ever.
-        head_start: Nanoseconds that are simulated before the work begins.
+        head_start: Nanoseconds to simulate before the command's work begins.
         duration: Duration of the scenario in nanoseconds; None if unlimited.
         link: Connection to other processes; None if there is none.
         tell: Function called with every log message while the world runs.
@@ -77,14 +77,14 @@ class Session:
     def run(
         self, work: Coroutine[Any, Any, T], *, on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """Await some work while the world runs, on the world's clock.
+        """Await `work` while the world runs, on the world's clock; the world ends with `work`.
 
         Args:
-            work: Coroutine whose result is returned.
-            on_interrupt: Function called when a signal ends the work, before the world ends.
+            work: Coroutine with the work of the command.
+            on_interrupt: Function called when a signal ends `work`, before the world ends.
 
         Returns:
-            Result of the work; the world ends with it.
+            Result of `work`.
 
         Raises:
             NodeFailed: If a node of the world failed first.
@@ -95,7 +95,7 @@ class Session:
     async def along(
         self, work: Coroutine[Any, Any, T], on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """Await some work while the world runs, inside a running event loop; see `run`."""
+        """Await `work` while the world runs, inside a running event loop; see `run`."""
         stop_telling = self.world.log.listen(self.tell, "console")
         try:
             return await beside(self._after_head_start(work), self._living(), on_interrupt)
@@ -110,7 +110,7 @@ class Session:
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
-        """Wait for a duration, and a little longer for static transforms that are still missing."""
+        """Wait for a duration; on a robot, wait a little longer for missing static transforms."""
         await self.lasting(duration)
         if self.link is None or not self.link.options.reach.is_robots:
             return
@@ -130,7 +130,7 @@ class Session:
 
 
 async def lasting(clock: Clock, duration: Duration | None) -> None:
-    """Wait for a duration in nanoseconds on the clock `pace_of(clock)`; for ever if it is None."""
+    """Wait for nanoseconds on the clock `pace_of(clock)`; for ever if `duration` is None."""
     if duration is None:
         await asyncio.get_running_loop().create_future()
         return
@@ -156,7 +156,7 @@ def joined_session(
     Args:
         link: Connection to the session.
         clock: Clock of the world.
-        place: Description of the other processes, if they have no name.
+        place: Description of the network, used as a name if no process or node is known yet.
         cache_time: Cache time of the world's buffer, nanoseconds; None for the default.
         tell: Function called with every log message.
     """
@@ -166,7 +166,7 @@ def joined_session(
 
 
 def session_name(link: "Link", place: str) -> str:
-    """Return a session's name for messages: its host process, else one of its ROS nodes."""
+    """Return a name of a session for messages: of its host process, or of one of its ROS nodes."""
     if link.options.reach.only_reads:
         return visible(place)
     processes = link.graph.processes()
@@ -195,7 +195,7 @@ def twins(world: World) -> list[str]:
 
 @contextmanager
 def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[None]:
-    """Share a world with other processes while this block runs; call this inside its event loop.
+    """Share a world with other processes while this block runs, inside the world's event loop.
 
     Args:
         link: Connection to the other processes; None to share nothing.

@@ -25,15 +25,15 @@ class TopicBridge:
 
     Nodes that declare their publishers and subscriptions, with their quality of service, are
     announced one by one. All other nodes are announced together, under the name of the world's
-    first node. One receiver serves all subscriptions, but each latched subscription gets earlier
-    messages itself.
+    first node. One receiver passes new messages to all subscriptions. Earlier messages are
+    requested separately for each latched subscription.
     """
 
     def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
-        """Create the bridge of a topic of messages.
+        """Create the bridge of a topic whose values are ROS messages.
 
         Raises:
-            MalformedMessage: If the bytes of such messages differ between ROS 2 releases.
+            MalformedMessage: If ROS 2 releases encode these messages differently.
         """
         self._link = link
         self._topic = topic
@@ -49,7 +49,7 @@ class TopicBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Update the publishers, and subscribe if the world has a subscriber."""
+        """Update the announced publishers; subscribe if a node of the world subscribes."""
         topic, endpoints = self._topic, self._link.world.endpoints
         # The simulator computes colours only while a subscriber is counted.
         topic.far_subscribers = sum(
@@ -95,7 +95,7 @@ class TopicBridge:
     # In
 
     def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
-        """Announce a subscription, and request earlier messages if it is latched."""
+        """Announce a subscription; if latched, also request the messages sent before."""
         link, name, ros_type = self._link, self._topic.name, self._type
         node = link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality
@@ -271,7 +271,7 @@ class TransformBridge:
                 self._inbound = None
 
     def _takes_paths(self, payload: bytes, authority: str) -> bool:
-        """Insert a large message's transforms as one array per edge; return whether that was done.
+        """Insert a large message's transforms as one array per edge; return False if not inserted.
 
         Raises:
             MalformedMessage: If the bytes are not transforms.
@@ -363,10 +363,10 @@ class ClockFollower:
     """Subscriber that sets a world's clock from `/clock` of another process."""
 
     def __init__(self, world: World, clock: FollowedClock) -> None:
-        """Watch for a publisher of `/clock`, and follow it as soon as it appears.
+        """Set the clock from `/clock` as soon as another process publishes this topic.
 
         Args:
-            world: World of the topics.
+            world: World whose connection receives `/clock`.
             clock: Clock to set.
         """
         self._world = world
@@ -381,7 +381,7 @@ class ClockFollower:
         self._look()
 
     def close(self) -> None:
-        """Stop following `/clock`."""
+        """Stop setting the clock from `/clock`."""
         for stop in self._stops:
             stop()
         if self._stop_listening is not None:

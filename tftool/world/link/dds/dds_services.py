@@ -175,13 +175,17 @@ class CycloneClient:
         self._put(payload[:_HEAD] + beside + payload[_HEAD:])
 
     def announce(self) -> tuple[bytes, bytes]:
-        """Stay in the graph until `withdraw`; return the GUIDs of the reader and the writer."""
+        """Show the client in the graph until `withdraw` is called; calls are counted.
+
+        Returns:
+            GUIDs of the client's reader and writer.
+        """
         self._open()
         self._announced += 1
         return self._gids
 
     def withdraw(self) -> None:
-        """End one announcement; with the last one, close the client."""
+        """Undo one call of `announce`; after the last call is undone, close the client."""
         self._announced -= 1
         self.close()
 

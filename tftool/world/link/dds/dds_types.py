@@ -60,7 +60,7 @@ class Types:
 
         Args:
             full: Full name of the type.
-            beside: Fields before the type's own fields, by name and type.
+            beside: Extra fields, (name, type) each, that precede the fields of the type.
 
         Raises:
             InputError: If a definition is missing.
@@ -153,7 +153,7 @@ def dds_type(ros_type: str) -> str:
 
 
 def ros_part(topic: str, type_name: str) -> Part | None:
-    """Return the meaning of a DDS topic in ROS; None if ROS has no topic of that form."""
+    """Return the ROS topic or service of a DDS topic; None if ROS has no topic of that form."""
     found = _TYPE.fullmatch(type_name)
     prefix, name = topic[:3], topic[3:]
     if found is None or prefix not in (TOPIC, REQUEST, REPLY) or not name:
@@ -168,7 +168,7 @@ def ros_part(topic: str, type_name: str) -> Part | None:
 
 
 def hash_shown(user_data: bytes) -> str:
-    """Return the type hash in an endpoint's user data; "" if there is none."""
+    """Return the type hash that an endpoint's user data contain; "" without a hash."""
     found = _HASH.search(user_data)
     return found[1].decode() if found else ""
 
@@ -185,7 +185,7 @@ def process_data(process: Process) -> bytes:
 
 
 def process_shown(user_data: bytes, domain: int, session: str) -> Process | None:
-    """Return the tftool process in a participant's user data; None if it is another program."""
+    """Return the tftool process that a participant's user data describe; else None."""
     found = _OURS.search(user_data.decode(errors="replace"))
     if found is None or found["role"] not in tuple(Role):
         return None

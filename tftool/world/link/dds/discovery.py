@@ -1,4 +1,4 @@
-"""Discovery in DDS: the built-in topics, and the nodes that ROS 2's participants announce.
+"""Discovery in DDS, from the built-in topics and the messages in which ROS 2 announces nodes.
 
 DDS knows participants and their endpoints. The node of an endpoint is published on
 `ros_discovery_info` by every participant of ROS 2.
@@ -57,7 +57,7 @@ _KINDS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """Endpoint that the built-in topics have announced."""
+    """Endpoint of another process that a built-in topic has announced."""
 
     handle: int
     participant: bytes
@@ -135,7 +135,7 @@ class Discovery:
     """
 
     def __init__(self, participant: Participant, domain: int) -> None:
-        """Start discovery; `look` processes its results.
+        """Start discovery; call `look` later to process the received announcements.
 
         Args:
             participant: This process's participant.
@@ -197,7 +197,7 @@ class Discovery:
         return has_spoken and self._informing.keys() <= self._nodes.keys()
 
     def wait(self, seconds: float) -> bool:
-        """Wait until something has changed; return False at the timeout. Call no callback."""
+        """Wait for announcements; return False at the timeout. Call no callback."""
         changed = self._is_due.wait(seconds)
         self._is_due.clear()
         return changed
@@ -297,14 +297,14 @@ class Discovery:
         self._show(key)
 
     def _show(self, key: tuple[str, bytes]) -> None:
-        """Add an endpoint to the graph, under its node if the node is known."""
+        """Add an endpoint to the graph, under its node, or under a substitute name for the node."""
         found = self._found[key]
         nodes = self._nodes.get(found.participant, ({}, []))[0]
         node = nodes.get(key[1]) or self._node_of(found.participant)
         self._exchange(_key(key), replace(found.entity, node=node))
 
     def _node_of(self, participant: bytes) -> str:
-        """Return a name that stands for the node of a participant that announces no nodes."""
+        """Return a substitute node name for a participant that announces no nodes."""
         # If the process has one node, all endpoints are that node's, even before its list arrives.
         only = self._nodes.get(participant, ({}, []))[1]
         if len(only) == 1:
@@ -326,7 +326,7 @@ class Discovery:
         self._exchange(f"process {participant.hex()}", None)
 
     def _exchange(self, key: str, new: GraphEntity | Process | None) -> None:
-        """Replace the entry of a key in the graph, and report the change."""
+        """Replace the graph's entry under a key (None: remove it), and report the change."""
         old = self.graph.get(key)
         if old == new:
             return

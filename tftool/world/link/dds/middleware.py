@@ -347,7 +347,7 @@ class DdsMiddleware(Middleware):
             )
 
     def _compare(self, found: GraphEntity | Process) -> None:
-        """Log the reason if messages of another process's new publisher cannot be received."""
+        """Log a warning if this process cannot receive a new publisher's messages."""
         if not isinstance(found, GraphEntity) or found.kind != PUBLISHER:
             return
         # tf2's listeners request a fixed quality; other readers lower theirs.
@@ -384,7 +384,7 @@ class _Claim:
 
 
 class _Listening:
-    """Reader of a topic, which is created again with lower QoS if it requested too much."""
+    """Reader of a topic, replaced by a best-effort reader if a publisher is not reliable."""
 
     def __init__(
         self,

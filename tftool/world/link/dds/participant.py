@@ -73,7 +73,10 @@ class LibraryLog:
 
     @contextmanager
     def taking(self) -> Iterator[None]:
-        """Capture the errors of a domain created in this block, where C permits it."""
+        """Capture the errors of a domain that is created in this block.
+
+        On platforms where C's `stderr` is not a variable, such as Windows, nothing is captured.
+        """
         try:
             c = ctypes.CDLL(None)
             stderr = ctypes.c_void_p.in_dll(
@@ -92,7 +95,7 @@ class LibraryLog:
             stderr.value = before
 
     def _open(self, c: ctypes.CDLL) -> int:
-        """Return the C stream to write to, which stays open because domains continue to use it."""
+        """Return the C stream that leads into the pipe; create the stream at the first call."""
         if self._stream is None:
             # Never closed, because the library may write even while the process ends.
             read, write = os.pipe()
@@ -149,14 +152,14 @@ class DdsSample:
 
 
 class Domains:
-    """DDS domains in use by this process: the library has one configuration for each."""
+    """Counts of the uses of each DDS domain in this process; all uses share one configuration."""
 
     def __init__(self) -> None:
         self._held: dict[int, tuple[Any, str, int]] = {}
         self._lock = threading.Lock()
 
     def enter(self, number: int, network: Network) -> None:
-        """Count a use of a domain; the first use opens the domain, and `leave` ends a use.
+        """Count one use of the domain `number`, and open the domain at the first use.
 
         Raises:
             LinkError: If the domain is open with another configuration, or cannot be opened.
@@ -181,7 +184,7 @@ class Domains:
             self._held[number] = made, config, count + 1
 
     def leave(self, number: int) -> None:
-        """Count the end of a use of a domain; close the domain after the last use."""
+        """Undo one call of `enter`; close the domain after the last use."""
         with self._lock:
             made, config, count = self._held.pop(number)
             if count > 1:
@@ -319,7 +322,7 @@ class Participant:
         """Return a reader of one of the library's built-in topics.
 
         Args:
-            topic: The topic.
+            topic: Built-in topic, a class of the library.
             on_change: Function called, in a thread of the library, when there is a new message.
         """
 
@@ -348,7 +351,7 @@ class Participant:
         return self._topics[key]
 
     def _take(self, reader: Any, on_sample: Callable[[DdsSample], object]) -> None:
-        """Pass on all received messages of a reader; called in the library's threads."""
+        """Pass a reader's received messages to the inbox; called in the library's threads."""
         while True:
             taken = reader.take(AT_ONCE)
             for one in taken:
@@ -388,7 +391,7 @@ class TopicWriter:
 
     Attributes:
         gid: GUID of 16 bytes.
-        hide: Function that withdraws the announcement of this writer as a writer of its node.
+        hide: Function that removes this writer from the announced writers of its node.
     """
 
     def __init__(self, made: Any, kind: type[Raw], outbox: Outbox, *, keeps: bool) -> None:
@@ -420,7 +423,7 @@ class TopicWriter:
             self._outbox.put(lambda: made.write(self._kind(payload)), len(payload))
 
     def close(self) -> None:
-        """Close the writer when everything queued is sent."""
+        """Close the writer after all queued messages are sent."""
         made, self._made = self._made, None
         if made is None:
             return

@@ -30,11 +30,11 @@ class Network:
     """Network in which a participant searches for other participants.
 
     Attributes:
-        interfaces: Names or addresses of the interfaces to use; empty for the interfaces on the
-            routes to the peers.
+        interfaces: Names or addresses of the network interfaces to use; empty to use the interfaces
+            on the routes to the peers.
         peers: Addresses to connect to.
         config: Cyclone's configuration set by the user, which replaces tftool's; "" if not set.
-        told: Notices for the user, as sentences.
+        told: Sentences for the user, such as a warning about an environment variable.
     """
 
     interfaces: tuple[str, ...] = ()
@@ -81,11 +81,12 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
     """Return the network in which to search for other participants.
 
     Args:
-        places: Interfaces and addresses that the user gave.
+        places: Interfaces and addresses from the option --dds-on.
         environment: Environment variables of ROS 2; None for this process's.
 
     Raises:
-        LinkError: If a place is no interface and no address, or the environment forbids discovery.
+        LinkError: If a place is neither an interface nor an address, or the environment forbids
+            discovery.
     """
     variables = os.environ if environment is None else environment
     interfaces: list[str] = []
@@ -145,7 +146,7 @@ def _confined(variables: Mapping[str, str]) -> str:
 
 
 def _checked(place: str) -> str:
-    """Return an interface's name, or an address, resolved if it is a host's name.
+    """Return the name of an interface unchanged, or the IP address of a machine by its host name.
 
     Raises:
         LinkError: If the text is neither an interface nor an address.
@@ -174,7 +175,7 @@ def _interfaces() -> list[str]:
 
 
 def _is_own(place: str) -> bool:
-    """Return whether a place is an interface of this machine, by name or address."""
+    """Return whether `place` is the name or address of an interface of this machine."""
     if place in _interfaces():
         return True
     try:
@@ -206,7 +207,7 @@ def _own(used: Iterable[str]) -> list[str]:
 
 
 def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
-    """Return this machine's addresses on the routes to some peers, without sending anything.
+    """Return the addresses of this machine from which packets to `peers` are sent; send no packet.
 
     Raises:
         LinkError: If there is no route to a peer.

@@ -97,7 +97,7 @@ class _Direct(connect):
 
 
 class FoxgloveClient:
-    """Client of one server, which reconnects whenever the connection ends, until `close`."""
+    """Client of one Foxglove server, which reconnects after each loss until `close` is called."""
 
     def __init__(
         self,
@@ -114,7 +114,7 @@ class FoxgloveClient:
             address: Address of the server.
             inbox: Queue of calls to the event loop.
             receiver: Callbacks.
-            place: Address for messages to the user, without secrets.
+            place: Address as shown to the user, without secrets.
             pauses: Seconds before each further attempt to connect.
         """
         self._address = address
@@ -159,7 +159,7 @@ class FoxgloveClient:
 
     @contextlib.contextmanager
     def state(self) -> Iterator[ServerState]:
-        """Yield the server's announcements; a lock prevents changes until the block ends."""
+        """Yield the server's announcements, which a lock keeps unchanged inside this block."""
         with self._lock:
             yield self._state
 
@@ -233,7 +233,7 @@ class FoxgloveClient:
                 await asyncio.wait_for(self._woken.wait(), pause)
 
     async def _connected(self) -> str:
-        """Connect and read until the connection ends; return the reason as part of a sentence."""
+        """Connect and read until the connection ends; return the reason to end a sentence with."""
         try:
             async with _Direct(
                 self._address,
@@ -312,7 +312,7 @@ class FoxgloveClient:
             self._tell_change()
 
     def _tell_change(self) -> None:
-        """Report that announcements changed; changes close together are reported once."""
+        """Report that the server's announcements changed, once for several quick changes."""
         with self._lock:
             is_due, self._is_change_due = self._is_change_due, True
         if not is_due:
@@ -364,11 +364,11 @@ class FoxgloveClient:
             self._send(protocol.request("subscribe", subscriptions=asked))
 
     def _ask_again_later(self, sentence: str) -> bool:
-        """Return whether a server's text refuses a subscription; if so, subscribe again later.
+        """Subscribe again later if `sentence` refuses a subscription; return whether it does.
 
         Servers made with Foxglove's SDK announce a channel slightly before they accept
-        subscriptions to it. A quick subscription is then refused, and without a second subscription
-        no message would ever arrive.
+        subscriptions to it. The server refuses a quick subscription, and without a second
+        subscription no message would ever arrive.
         """
         found = _REFUSED.search(sentence)
         channel = int(found[1] or found[2]) if found else None
@@ -406,7 +406,7 @@ class FoxgloveClient:
 
 
 def _of_closed(error: ConnectionClosed) -> str:
-    """Return the reason why a connection ended, as part of a sentence."""
+    """Return the reason why a connection ended, as the end of a sentence."""
     close = error.rcvd or error.sent
     if close is None:
         return "it broke off"
@@ -418,7 +418,7 @@ def _of_closed(error: ConnectionClosed) -> str:
 
 
 def _of_failure(error: Exception) -> str:
-    """Return the reason why no connection was made, as part of a sentence."""
+    """Return the reason why a connection could not be made, as the end of a sentence."""
     if isinstance(error, ssl.SSLCertVerificationError):
         return (
             f"its certificate is not trusted: {error.verify_message} (SSL_CERT_FILE=FILE names "

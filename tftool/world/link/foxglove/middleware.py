@@ -122,7 +122,7 @@ class FoxgloveMiddleware(Middleware):
             on_message(arrived)
 
     def _conversion(self, channel: FoxgloveChannel) -> Callable[[bytes], bytes] | None:
-        """Return the function that converts a channel's messages to CDR; None if there is none."""
+        """Return the function that converts a channel's messages to CDR; None for no function."""
         if channel not in self._conversions:
             self._conversions[channel] = None
             try:
@@ -159,7 +159,7 @@ class FoxgloveMiddleware(Middleware):
                 self.report(new, True)
 
     def _learn_types(self, state: ServerState) -> None:
-        """Register types that only the server defines, so that they can be recorded and listed."""
+        """Register message types that are defined only by the server, for recording and listing."""
         for channel in state.channels.values():
             size = len(channel.definition) + len(channel.type)
             if channel.type in self._learnt or self._learnt_size + size > MOST_LEARNT:
@@ -172,7 +172,7 @@ class FoxgloveMiddleware(Middleware):
                 self._warn(f"The definition of '{channel.type}' cannot be used: {error}.")
 
     def _shown(self, state: ServerState) -> dict[str, GraphEntity]:
-        """Return the graph's entities that the server has announced, by keys made here."""
+        """Return the nodes and endpoints that the server has announced, by unique keys."""
         found: dict[str, GraphEntity] = {}
         types: dict[str, str] = {}
         nodes: set[str] = set()

@@ -53,7 +53,7 @@ _CLOCK: Final = struct.Struct("<4siI")
 
 
 class ProtocolError(Exception):
-    """Error for a message that violates the protocol; the text is part of a sentence."""
+    """Error for a message that violates the protocol; the text continues "the server sent"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,14 +83,14 @@ class ServerState:
 
     Attributes:
         name: Name of the server; "" until received.
-        capabilities: Capabilities besides topics.
+        capabilities: Optional features that the server announced, such as "time".
         channels: Channels by number.
-        publishers: Names of each topic's publishers.
-        subscribers: Names of each topic's subscribers.
-        providers: Names of each service's nodes.
+        publishers: Names of the nodes that publish, by topic.
+        subscribers: Names of the nodes that subscribe, by topic.
+        providers: Names of the nodes that serve, by service.
         services: Name and type of each service, by its number.
-        warnings: Sentences from the server for the user that were not passed on yet.
-        ignored: Number of channels above the limit.
+        warnings: Sentences from the server that must still be shown to the user.
+        ignored: Number of channels that were not stored because of the limit.
     """
 
     name: str = ""
@@ -106,7 +106,7 @@ class ServerState:
     _warned: int = 0
 
     def take(self, text: str) -> str:
-        """Process one JSON message; return its operation, or "" for an operation that is not used.
+        """Process one JSON message; return its field "op", or "" if tftool ignores the operation.
 
         Raises:
             ProtocolError: If the message violates the protocol.
@@ -223,7 +223,7 @@ def _number(value: Any) -> int:
 
 
 def message_data(frame: bytes) -> tuple[int, bytes] | None:
-    """Return subscription number and payload of a binary message; None for other kinds.
+    """Return (subscription number, payload) of a message with data; None for other binary messages.
 
     Raises:
         ProtocolError: If the message ends too early.
@@ -236,10 +236,10 @@ def message_data(frame: bytes) -> tuple[int, bytes] | None:
 
 
 def server_time(frame: bytes) -> Stamp | None:
-    """Return the time in nanoseconds that a binary message contains; None for other kinds.
+    """Return the time of a message with the server's time; None for other binary messages.
 
     Raises:
-        ProtocolError: If the message is cut off, or the time exceeds 32-bit seconds.
+        ProtocolError: If the message is cut off, or its seconds exceed 32 bits.
     """
     if not frame or frame[0] != 2:
         return None
@@ -275,7 +275,8 @@ class RosTopic(NamedTuple):
 
     Attributes:
         name: Name of the topic, without a leading slash.
-        type: Type, such as "sensor_msgs/msg/LaserScan"; the server's type if ROS has no such type.
+        type: Type, such as "sensor_msgs/msg/LaserScan"; the channel's own type name if unknown in
+            ROS.
     """
 
     name: str
@@ -306,9 +307,9 @@ def _is_foreign(channel: FoxgloveChannel) -> bool:
 
 
 def define(channel: FoxgloveChannel) -> bool:
-    """Register a channel's type from its definition, if unknown; return whether it was registered.
+    """Register the type of a channel from the channel's definition; return whether this was done.
 
-    A definition that would change known types is not registered.
+    A type that is already known, or not defined in ROS 2's language, is not registered.
 
     Raises:
         InputError: If the definition is invalid.
@@ -329,7 +330,7 @@ def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
     """Return the function that converts a channel's messages to CDR.
 
     Raises:
-        InputError: If there is no conversion; the text is part of a sentence.
+        InputError: If the messages cannot be converted; the text says why.
         MalformedMessage: If the type cannot be read.
     """
     if _is_foreign(channel):
@@ -350,10 +351,10 @@ def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
 
 
 def _definitions(channel: FoxgloveChannel) -> Interfaces | None:
-    """Return the server's definitions for a channel's type; None if it sends none.
+    """Return the definitions that the server sends for a channel's type; None without a definition.
 
     Raises:
-        InputError: If definitions are invalid, contain themselves or have too many fields.
+        InputError: If a definition is invalid, contains itself or has too many fields.
     """
     if channel.schema_encoding not in ("ros1msg", "ros2msg") or not channel.definition.strip():
         return None

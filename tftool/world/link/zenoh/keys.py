@@ -38,7 +38,7 @@ _PROCESS = re.compile(
 
 @cache
 def type_hash(ros_type: str) -> str:
-    """Return a type's hash (RIHS01); later changes of its definition have no effect.
+    """Return a type's hash (RIHS01); the hash is computed once, from the first definition.
 
     Raises:
         InputError: If the definition is unknown.
@@ -88,7 +88,7 @@ def quality(stated: Quality) -> str:
 
 
 def read_quality(text: str) -> Quality:
-    """Parse the quality of service in a token; missing or unknown parts become defaults."""
+    """Parse the quality of service in a token; missing or unknown fields get defaults."""
     parts = [*text.split(":"), "", "", ""]
     history, _, depth = parts[2].partition(",")
     return Quality(
@@ -107,7 +107,7 @@ def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
 
     Args:
         entity: The entity; if it has no type hash, the hash of this process is used.
-        node_id: Number of its node within the session.
+        node_id: Number of the entity's node within the session.
         entity_id: Number of the entity within the session; for a node, the same as `node_id`.
     """
     namespace, _, node = entity.node.rpartition("/")
@@ -124,7 +124,7 @@ def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
 
 
 def parse_token(key: str) -> GraphEntity | Process | None:
-    """Parse the key of a token; return None if it is unreadable."""
+    """Parse the key of a token; return None if the key is malformed."""
     if key.startswith(f"{OURS}/"):
         return _parse_process(key)
     parts = key.split("/")

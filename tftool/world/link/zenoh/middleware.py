@@ -95,7 +95,7 @@ class ZenohMiddleware(Middleware):
             raise
 
     def _reach_out(self, others: dict[str, int]) -> None:
-        """Wait until local processes and those at the option `connect` are connected."""
+        """Wait until local processes, and processes at the option `connect`, are connected."""
 
         # zenoh's own wait is short, and processes of a busy machine respond slowly: if they were
         # ignored, a second world would be hosted. A stopped process never responds.
@@ -364,7 +364,7 @@ class ZenohClient:
 
 
 def _no_answer_at(reach: ZenohReach) -> str:
-    """Return a sentence with advice if no process responds at the address in `connect`."""
+    """Return the error text, with advice, if no process responds at the address in `connect`."""
     protocols = {protocol_of(endpoint) for endpoint in reach.connect}
     text = (
         f"no process answers at {', '.join(reach.connect)} within {REACHING:g} s; "
@@ -382,7 +382,7 @@ def _no_answer_at(reach: ZenohReach) -> str:
 
 
 def _await(condition: Callable[[], bool], patience: float) -> bool:
-    """Poll until a condition is true, at most `patience` seconds; return whether it is."""
+    """Poll until `condition` is true, at most `patience` seconds; return whether it became true."""
     clock, pause = WallClock(), threading.Event()
     # The time is measured, because a check of the condition may take long.
     while not (held := condition()) and clock.elapsed() < seconds(patience):

@@ -178,7 +178,7 @@ def protocol_of(endpoint: str) -> str:
 
 
 def has_port(endpoint: str) -> bool:
-    """Return whether an endpoint has a port, or needs none; zenoh finds nothing without a port."""
+    """Return whether an endpoint has the port that zenoh needs; paths need no port."""
     protocol, _, rest = endpoint.partition("/")
     # After a question mark or a hash are zenoh's settings of the endpoint.
     address = re.split(r"[?#]", rest, maxsplit=1)[0]

@@ -113,7 +113,7 @@ def _member(path: Path) -> str:
 
 
 class Rendezvous:
-    """Entry of one process in the list of the processes of its machine and domain.
+    """Membership of one process in the folder where processes of one machine and domain meet.
 
     Attributes:
         folder: Folder of the members' sockets.
@@ -123,7 +123,7 @@ class Rendezvous:
     """
 
     def __init__(self, domain: int, home: Path | None = None) -> None:
-        """Choose a name and folder; nothing is created before `enter`."""
+        """Choose a member name and a folder; files are only created by `enter`."""
         self.folder = _fitting((folder() if home is None else home) / str(domain))
         self.endpoint = ""
         self.password = ""
@@ -214,7 +214,12 @@ class Rendezvous:
 
 
 def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
-    """Yield endpoint and process id of members that respond; `sweep` removes files of the rest."""
+    """Yield the endpoint and process id of each member that responds.
+
+    Args:
+        folder: Folder of the members' files.
+        sweep: Whether to remove the files of members that do not respond.
+    """
     for path in sorted(folder.iterdir()):
         if path.suffix == ".sock":
             if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):
