@@ -1,4 +1,4 @@
-"""Services and topics that belong to an action in ROS 2, made from the actions of a world."""
+"""Hidden services and topics with which ROS 2 implements an action, for the actions of a world."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -45,7 +45,7 @@ class Tasks:
 
 
 def message(ros_type: str, **fields: Any) -> Any:
-    """Return a message by the full name of its type, which may be a part of an action."""
+    """Create a message by the full name of its type, such as "pkg/action/Go_SendGoal_Response"."""
     return INTERFACES.part(ros_type)(**fields)
 
 
@@ -67,9 +67,10 @@ def _time(stamp: Stamp) -> Any:
 
 
 class ActionParts:
-    """Server of an action's hidden services, and publisher of its hidden topics.
+    """Server of the services of one action (send_goal, cancel_goal, get_result) in ROS 2's form.
 
-    The server tracks every goal that any client sends to the action in this world.
+    The server tracks every goal that any client sends to the action in this world, and passes the
+    contents of the topics `feedback` and `status` to callbacks.
     """
 
     def __init__(
@@ -116,7 +117,7 @@ class ActionParts:
             goal.cancel()
 
     async def send_goal(self, asked: Any) -> Any:
-        """Handle a SendGoal request; return the response when the server has decided."""
+        """Handle a SendGoal request; return the response when the action's server has decided."""
         goal_id = bytes(asked.goal_id.uuid)
         now = self._world.clock.now()
         is_new = goal_id not in self._goals and goal_id not in self._undecided
@@ -132,14 +133,21 @@ class ActionParts:
         return message(f"{self._type}_SendGoal_Response", accepted=accepted, stamp=_time(now))
 
     def _has_room(self) -> bool:
-        """Return whether one more goal may start; old goals that have ended are dropped first."""
+        """Return whether one more goal may start; ended goals are dropped first to make room."""
         if self._make_way(len(self._undecided)) <= 0:
             return True
         self._warn(f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.")
         return False
 
     def _make_way(self, others: int) -> int:
-        """Drop goals that have ended; return how many too many remain to start one more."""
+        """Drop ended goals, to make room for one more goal.
+
+        Args:
+            others: Number of goals on which the action's server has not decided yet.
+
+        Returns:
+            Number of goals above the limit, counting the new goal; not positive if there is room.
+        """
         surplus = len(self._goals) + others + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
         for goal_id in ended[: max(0, surplus)]:
@@ -166,7 +174,11 @@ class ActionParts:
             self._publish_status()
 
     async def _enters(self, goal: GoalHandle) -> bool:
-        """Wait until a server accepts a goal (track it and return True) or rejects it (False)."""
+        """Wait until the action's server decides on a goal; track an accepted goal.
+
+        Returns:
+            Whether the goal was accepted.
+        """
         if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         if goal.goal_id not in self._goals:

@@ -85,7 +85,7 @@ class Clock(ABC):
         """Set the time after which a node that blocks the event loop is ended.
 
         Args:
-            until: End of the run, nanoseconds; None to end no node any more.
+            until: End of the run, nanoseconds; None if a node may block for ever.
         """
 
     @abstractmethod
@@ -95,7 +95,7 @@ class Clock(ABC):
     async def wait_for_end(
         self, tasks: "Collection[asyncio.Task[Any]]"
     ) -> "set[asyncio.Task[Any]]":
-        """Wait for cancelled tasks to end: for `PATIENCE` real seconds, or any time after a signal.
+        """Wait at most `PATIENCE` real seconds (after a signal: without limit) for cancelled tasks.
 
         Returns:
             The tasks that have not ended.
@@ -134,7 +134,7 @@ class Clock(ABC):
         return future
 
     async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait until a time; if it has passed, until this waiter's turn in the present instant."""
+        """Wait until the time `stamp`; after that time, only let earlier waiters run first."""
         await self.timer(stamp, phase, rank)
 
     async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
@@ -158,9 +158,9 @@ class SimClock(Clock):
 
     Attributes:
         alarms: Number of timers of real time that are set.
-        paced: Number of real processes that run beside the world. While there are any, simulated
+        paced: Number of real processes that run beside the world. If the number is not 0, simulated
             time passes no faster than real time, so that these processes keep up.
-        held: Number of real processes for whose end simulated time waits.
+        held: Number of real processes that must end before simulated time passes.
     """
 
     def __init__(self, epoch: Stamp = seconds(1000)) -> None:
@@ -192,7 +192,7 @@ class SimClock(Clock):
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that blocks simulated time for 20 s; end no node if `until` is None."""
+        """End nodes that block simulated time for 20 s; if `until` is None, end no nodes."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
@@ -222,14 +222,15 @@ class SimClock(Clock):
     def wait_really(
         self, loop_timer: float | None, select: Callable[[float | None], list[Any]]
     ) -> list[Any]:
-        """Wait in real time until the next timer is due or an event comes from outside.
+        """Wait in real time until the next timer is due, or a file or thread wakes the event loop.
 
         Args:
             loop_timer: Seconds until asyncio's own next timer; None if asyncio has no timer.
-            select: Function that waits for events from outside, at most for a number of seconds.
+            select: Function that waits for events of files and threads, at most for the given
+                seconds.
 
         Returns:
-            The events; simulated time has advanced by the time that was waited.
+            The events. Simulated time has advanced by the real time of the wait.
         """
         due = self._next_due()
         left = None if due is None else (due - self._now) / NANOSECONDS
@@ -279,7 +280,7 @@ def paced(clock: Clock) -> Iterator[None]:
 
 @contextlib.contextmanager
 def held(clock: Clock) -> Iterator[None]:
-    """Let no simulated time pass inside this block, in which a real process runs."""
+    """Stop simulated time inside this block, in which a real process runs."""
     if isinstance(clock, SimClock):
         clock.held += 1
     try:
@@ -303,10 +304,10 @@ class WallClock(Clock):
 
         Args:
             rate: Seconds of the clock per real second.
-            epoch: First time, such as a recording's start; None for the present less the head
-                start.
-            head_start: Nanoseconds of the past to simulate first, as fast as possible, so that the
-                world is already moving when a user first sees it.
+            epoch: First time of the clock, nanoseconds, such as a recording's start; None for the
+                present time minus `head_start`.
+            head_start: Nanoseconds to simulate first as fast as possible, so that the world is
+                already moving when a user first sees it.
 
         Raises:
             ValueError: If `rate` is not a positive number between a billionth and a billion, the
@@ -393,7 +394,7 @@ class WallClock(Clock):
         asyncio.get_running_loop().call_soon(self._wake)
 
     def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
-        """Return the next time of the past to simulate (a head start); None when that is over."""
+        """Return the time of the head start to simulate next; None after the head start."""
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
@@ -410,10 +411,10 @@ class WallClock(Clock):
 
 
 class FollowedClock(WallClock):
-    """Clock of real time until it is set; from then on it stands still until it is set again.
+    """Clock that shows real time until its time is set; then time moves only when set again.
 
-    It is the clock of a world that shares a session (a group of processes that exchange frames):
-    while another process publishes `/clock`, for example to play a recording, this clock shows the
+    A world that shares a session (a group of processes that exchange frames) uses this clock. While
+    another process publishes `/clock`, for example to play a recording, this clock shows the
     published time. A waiter keeps its remaining duration when time falls back, or when the source
     of time changes.
 
@@ -422,10 +423,10 @@ class FollowedClock(WallClock):
     """
 
     def __init__(self, told: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
-        """Create a clock that shows real time, or stands still at a time from the start.
+        """Create a clock that shows real time, or the fixed time `told` until another time is set.
 
         Args:
-            told: Time in nanoseconds to stand still at; None for real time.
+            told: Fixed time in nanoseconds; None for real time.
             epoch: Time at which the clock began; None for `told`, or for the present.
         """
         super().__init__(epoch=told if epoch is None else epoch)
@@ -435,7 +436,7 @@ class FollowedClock(WallClock):
 
     @property
     def is_told(self) -> bool:
-        """Whether the clock is set to a time, and stands still."""
+        """Whether the clock shows a time that was set, not real time."""
         return self._told is not None
 
     def now(self) -> Stamp:
@@ -464,7 +465,7 @@ class FollowedClock(WallClock):
             self.fell_back.call(-change)
 
     async def told_once(self, patience: Duration) -> None:
-        """Wait until the clock is set for the first time, at most for a duration of real time."""
+        """Wait for the first time to be set, at most `patience` nanoseconds of real time."""
         first = self._first = asyncio.get_running_loop().create_future()
         if self.is_told:
             first.set_result(None)
@@ -482,11 +483,11 @@ class FollowedClock(WallClock):
             self._set_alarm()
 
     def limit(self, until: Stamp | None) -> None:
-        """Set the time after which a blocking node is ended, while the clock shows real time."""
+        """Set the time after which a blocking node is ended; set none unless time is real."""
         super().limit(None if self.is_told else until)
 
     def _shift(self, change: Duration) -> None:
-        """Move every waiter's time by a duration, so that it waits as long as before."""
+        """Move every wake-up time by `change` nanoseconds, so that remaining waits stay equal."""
         self._waiters = [
             (stamp + change, phase, rank, asked, future)
             for stamp, phase, rank, asked, future in self._waiters
@@ -508,8 +509,8 @@ class FollowedClock(WallClock):
 def pace_of(clock: Clock) -> Clock:
     """Return the clock for waits that should take real time, such as "print every second".
 
-    That is the world's own clock `clock`, unless its time comes from another process, which may
-    pause time or run it at any rate. Then a clock of real time is returned.
+    If the time of `clock` comes from another process, which may pause time or run time at any rate,
+    a new clock of real time is returned; else `clock` itself.
     """
     if not isinstance(clock, FollowedClock):
         return clock
@@ -524,7 +525,7 @@ def _set(future: "asyncio.Future[None]") -> None:
 
 
 def _others_wait_their_turn() -> bool:
-    """Return whether the running loop has work to do; asyncio has no public function for this."""
+    """Return whether the running event loop has work to do (asyncio has no public function)."""
     return bool(getattr(asyncio.get_running_loop(), "_ready", ()))
 
 
@@ -589,7 +590,7 @@ def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[
 
 
 def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseException | None:
-    """Cancel the tasks that are left, and return the first exception from them."""
+    """Cancel the tasks that still run on a loop; return the first exception of these tasks."""
 
     async def cancel(tasks: "set[asyncio.Task[Any]]") -> BaseException | None:
         for task in tasks:
@@ -637,7 +638,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
 
 
 class _VirtualSelector(selectors.DefaultSelector):
-    """Selector of a virtual loop: instead of waiting, it lets the clock jump."""
+    """Selector of a virtual loop, which advances the clock instead of waiting."""
 
     POLL_EVERY = 64
 
@@ -647,7 +648,7 @@ class _VirtualSelector(selectors.DefaultSelector):
         self._calls = 0
 
     def select(self, timeout: float | None = None) -> Any:
-        """Poll for signals and threads now and then; let time jump when no task can run."""
+        """Return events of files and threads; if no task can run, advance time without waiting."""
         # A real poll is a system call, which is too slow for each of a million time jumps.
         self._calls += 1
         if self._calls % self.POLL_EVERY == 0 or self.has_files():

@@ -1,7 +1,7 @@
 """Publishers and subscriptions of topics, with their quality of service, and clients of services.
 
-Those of all nodes are stored here, also those of other processes. Topics inside one process, such
-as pressed keys, have no ROS type and no entry.
+The store has the publishers, subscriptions and clients of all nodes, also of other processes.
+Topics inside one process, such as pressed keys, have no ROS type and no entry.
 """
 
 from collections import deque
@@ -24,12 +24,12 @@ class Timing:
 
     Attributes:
         deadline: Longest time between two messages, nanoseconds; None for no limit.
-        lease: Time without a sign of life after which a publisher counts as dead, nanoseconds;
-            None for never.
-        is_manual: Whether a publisher must publish or assert its liveliness to count as alive;
-            else the publisher's process asserts it.
-        lifespan: Age at which a message expires; programs can read it, but no message expires here.
-            None for never.
+        lease: Time without a sign of life after which a publisher counts as dead, nanoseconds; None
+            for never.
+        is_manual: Whether each publisher must assert its liveliness itself; else its process does
+            so for all publishers.
+        lifespan: Age at which a message expires, nanoseconds; None for never. Programs can read
+            this age, but tftool drops no expired message.
     """
 
     deadline: Duration | None = None
@@ -43,10 +43,11 @@ class Quality:
     """Quality of service of a publisher or a subscription.
 
     Attributes:
-        depth: Number of messages that a queue holds, or that are stored for late subscribers.
+        depth: Size of the queue in messages; also the number of messages stored for late
+            subscribers.
         is_reliable: Whether every message must be delivered.
         is_latched: Whether late subscribers get earlier messages (transient local).
-        keeps_all: Whether a queue drops no message, whatever the depth.
+        keeps_all: Whether the queue is unlimited, so that `depth` has no effect.
         timing: Deadline and liveliness; None if unknown.
     """
 
@@ -99,7 +100,8 @@ class Endpoint:
         quality: Offered or requested quality of service.
         is_remote: Whether the endpoint belongs to another process.
         gid: Id of another process's endpoint; empty for an endpoint of this process.
-        deliver: Function that gives a latched subscription earlier messages, with their senders.
+        deliver: Function that passes an earlier message and its publisher to a latched
+            subscription.
         kept: Messages that a latched publisher stores for late subscribers.
     """
 
@@ -158,7 +160,7 @@ class Endpoints:
             self._changed()
 
     def is_alive(self, endpoint: Endpoint) -> bool:
-        """Return whether a publisher meets its liveliness policy; True if nothing is known."""
+        """Return whether a publisher meets its liveliness policy, as last reported."""
         return endpoint not in self._silent
 
     def of(self, topic: str, role: Role) -> list[Endpoint]:
@@ -170,7 +172,7 @@ class Endpoints:
         return list(self._by_topic)
 
     def _compare(self, publisher: Endpoint, subscription: Endpoint) -> None:
-        """Log a warning for both nodes if their endpoints are incompatible."""
+        """Log a warning for both nodes if their endpoints have incompatible quality of service."""
         policy = conflict(publisher.quality, subscription.quality)
         if not policy or publisher.interface != subscription.interface:
             return

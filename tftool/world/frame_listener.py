@@ -25,8 +25,8 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
 
     Args:
         world: World whose transforms are recorded.
-        cache_time: Cache time of the second buffer, nanoseconds; None to keep everything. The
-            world's own buffer prunes, but later lookups may need any time.
+        cache_time: Cache time of the second buffer, nanoseconds; None to keep everything. A second
+            buffer is needed because the world's own buffer drops old transforms.
     """
     buffer = Buffer(cache_time or NO_LIMIT, max_frames=world.buffer.max_frames)
     log, stop = logged_in(world, buffer)
@@ -96,7 +96,7 @@ class HeaderListener:
         self._is_looking = False
 
     def begin(self, world: World) -> None:
-        """Subscribe to the present and future topics of other processes."""
+        """Subscribe to all present and future topics of the other processes in a world."""
         self._world = world
         world.watch(self._look, "doctor")
 
@@ -131,7 +131,7 @@ class HeaderListener:
         self._stops[key] = world.topic(publisher.topic, kind).subscribe(hear, "doctor")
 
     def headers(self) -> "dict[str, Headers]":
-        """Return the received headers as columns, by topic."""
+        """Return the received headers by topic: arrays of stamps, arrival times and frame ids."""
         import numpy as np  # most worlds are never judged
 
         from tftool.recordings.contract import Headers

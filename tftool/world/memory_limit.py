@@ -1,7 +1,8 @@
 """Memory limit for the transforms of a live world; above it, the oldest samples are dropped.
 
-Like tf2's, a buffer prunes only by time. So a publisher with a very high rate, or with stamps a
-nanosecond apart, could fill the memory of every subscriber. Recordings end, so they have no limit.
+A buffer, like tf2's, drops samples only by age. So a publisher with a very high rate, or with
+stamps a nanosecond apart, could fill the memory of every subscriber. Recordings end, so they have
+no limit.
 """
 
 import os
@@ -60,7 +61,7 @@ class MemoryBound:
         self._said: set[str] = set()
 
     def note(self, samples: int) -> None:
-        """Count new samples; now and then, check the memory that all samples use."""
+        """Count new samples; after many samples, check how much memory all samples use."""
         self._unseen += samples
         if self._unseen >= EVERY:
             self._unseen = 0

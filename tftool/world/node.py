@@ -44,8 +44,8 @@ class Node(Resident):
 
         Raises:
             TftoolError: If the world has a node of that name already.
-            TypeError: If the class has no coroutine `run`. `Node` itself needs no `run`: other code
-                may publish and subscribe under its name.
+            TypeError: If the class has no coroutine `run`. An object of `Node` itself needs no
+                `run`, because other code may publish and subscribe under the node's name.
         """
         kind = type(self)
         if kind is not Node and not self._is_passive:
@@ -81,7 +81,7 @@ class Node(Resident):
         """Run a coroutine concurrently with `run`, as part of this node.
 
         The coroutine may outlast `run`, and is cancelled when the node is removed or the world
-        ends. An exception of the coroutine is a failure of this node.
+        ends. An exception of the coroutine makes this node fail.
 
         Returns:
             The task; its result is None if the coroutine failed.
@@ -132,7 +132,7 @@ class Node(Resident):
     # Talking
 
     def publish(self, topic: str, value: Any) -> None:
-        """Publish a value on a topic; a new topic takes the value's type."""
+        """Publish a value on a topic; a topic that does not exist gets the value's type."""
         publisher = self._publishers.get(topic)
         if publisher is None or publisher.kind is not type(value):
             publisher = self.publisher(topic, type(value))
@@ -152,7 +152,7 @@ class Node(Resident):
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Call `callback` with every message of a topic; an exception in it is this node's failure.
+        """Call `callback` with every message of a topic; an exception of `callback` ends this node.
 
         A latched subscription also gets earlier messages of latched publishers.
         """

@@ -140,12 +140,13 @@ def parameter_services(
     listed: Callable[[Sequence[str], int], Any],
     change: Callable[[Sequence[Any]], Any],
 ) -> Iterator[tuple[str, Any, Answer]]:
-    """Yield ROS 2's six parameter services: name below the node, type, handler.
+    """Yield ROS 2's six parameter services as (name below the node's name, type, handler).
 
     Args:
         values: Function that returns a ParameterValue for each name.
         descriptors: Function that returns a ParameterDescriptor for each known name.
-        listed: Function that returns the ListParametersResult for some prefixes and a depth.
+        listed: Function that returns the ListParametersResult for prefixes and a depth (number of
+            levels).
         change: Function that sets either all of the given Parameters or none; returns a
             SetParametersResult.
     """
@@ -167,9 +168,9 @@ def answered(
 
     Args:
         package: Package of the services' types.
-        rows: For each service: its name below the node's, the response's field, and a function that
-            returns the field's value for a request. A type such as GetState is derived from the
-            name get_state; another type follows the name after a colon.
+        rows: For each service: name, field of the response, and a function that returns the field's
+            value for a request. From the name get_state follows the type GetState; "name:Type"
+            states another type.
     """
 
     def handler(field: str, find: Callable[[Any], Any]) -> Answer:
@@ -186,7 +187,7 @@ def answered(
 
 
 def serve_parameters(node: "Node") -> None:
-    """Serve the parameter services of a node until it ends."""
+    """Serve ROS 2's parameter services of a node until the node ends."""
     known = node.parameters.values()
 
     def number(name: str) -> int:

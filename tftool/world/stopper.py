@@ -1,9 +1,9 @@
 """Stopper of a run, which works even while a node blocks the event loop.
 
-A separate thread receives the signals and watches the loop, because a node that never awaits
-prevents the loop from doing so. The first signal cancels the run; code that has not ended after
-two seconds is named; the second signal ends the process. If a run has an end on its own clock and a
-node blocks the loop beyond it, the run is ended in the same way.
+A separate thread receives the signals and watches the loop, because a node that never awaits blocks
+the loop. The first signal cancels the run. Code that does not end within two seconds is named on
+stderr. The second signal ends the process. If a node blocks the loop beyond the end of the run, the
+run is cancelled in the same way.
 """
 
 import asyncio
@@ -41,7 +41,7 @@ _LEAVE_SCREEN = (
 class Overdue(BaseException):
     """Exception raised inside a node that blocks the loop beyond the end of the run.
 
-    It is not an `Exception`, so that it also ends a node that catches each `Exception`.
+    The base is not `Exception`, because a node may catch every `Exception`.
     """
 
 
@@ -97,7 +97,7 @@ class Stopper:
             self._begin()
 
     def limit(self, deadline: float | None, standstill: float | None = None) -> None:
-        """Set when the run must end, or remove the limit when the run has ended.
+        """Set the time at which the run must end; two None remove both limits.
 
         Args:
             deadline: Real seconds from now until the end; None for no end in real time.
@@ -215,7 +215,7 @@ class Stopper:
             self._loop.call_soon_threadsafe(callback)
 
     def _not_returned(self) -> list[str]:
-        """Return the node that blocks the loop, or else all running nodes, with lines of code."""
+        """Return the node that blocks the loop, else all running nodes, with lines of code."""
         current = asyncio.current_task(self._loop)
         if current is not None:
             frame = sys._current_frames().get(self._loop_thread)
@@ -287,7 +287,7 @@ def _stack(frame: FrameType | None) -> Iterable[tuple[str, int]]:
 
 
 def line_of_task(task: "asyncio.Task[Any]") -> str:
-    """Return the user's line of code at which a task waits, as "busy.py:10", or ""."""
+    """Return the user's line of code at which a task waits, such as "busy.py:10"; "" if unknown."""
     return _line(_awaiting(task))
 
 
@@ -304,7 +304,7 @@ def _awaiting(task: "asyncio.Task[Any]") -> list[tuple[str, int]]:
 
 
 def _line(lines: Iterable[tuple[str, int]]) -> str:
-    """Return the innermost line that is in a user's file, as "busy.py:10", or ""."""
+    """Return the innermost line in a user's file, such as "busy.py:10"; "" without such a line."""
     for file, line in lines:
         if is_users_file(file):
             return f"{os.path.basename(file)}:{line}"
@@ -323,7 +323,7 @@ def _say(sentence: str) -> None:
 
 
 def _terminal_settings() -> Any:
-    """Return the settings of the terminal on stdin; None if it is not a terminal."""
+    """Return the settings of the terminal on stdin; None if stdin is not a terminal."""
     try:
         import termios
 

@@ -18,12 +18,13 @@ T = TypeVar("T")
 class Resident:
     """Base of a node, or of a user's program that contains nodes, in a world.
 
-    Nodes know their world; the world knows them only as residents.
+    A node imports and uses its world, but the world depends only on this base class.
 
     Attributes:
         name: Name, unique in the world.
         rank: Number in the order of joining; within a phase, lower numbers run first.
-        is_shown: Whether lists of nodes show the name; false for a program, whose nodes are shown.
+        is_shown: Whether lists of nodes show the name; false for a program, because its nodes are
+            listed.
     """
 
     name: str
@@ -40,9 +41,9 @@ class Resident:
 async def live(world: "World", *, until: Stamp | None = None) -> None:
     """Run a world's nodes until the run ends.
 
-    The run ends at `until` (everything due in that instant still happens), at `world.stop()`, or,
-    without `until`, with the last node. Nodes that still run are then cancelled, and their
-    `finally` blocks awaited.
+    The run ends at `until` (after all timers of that instant), at `world.stop()`, or, without
+    `until`, with the last node. Then the remaining nodes are cancelled, and their `finally` blocks
+    are awaited.
 
     Args:
         world: World whose nodes run, including nodes that join later.
@@ -51,8 +52,8 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
     Raises:
         NodeFailed: If a node raised an exception; the error names the first such node, and has the
             exception as its cause.
-        BrokenPipeError: If a listener writes to a pipe that nobody reads any more.
-        ValueError: If `until` has passed: it is a stamp, not a duration.
+        BrokenPipeError: If a listener writes to a pipe whose reader has ended.
+        ValueError: If the time `until` has passed; `until` is a stamp, not a duration.
     """
     clock = world.clock
     # In real time, `stamp` may be over before this call, which is allowed.
@@ -96,21 +97,22 @@ async def beside(
     helper: Coroutine[Any, Any, object],
     on_cancel: Callable[[], object] | None = None,
 ) -> T:
-    """Await some work while a helper coroutine runs, and end the helper with the work.
+    """Await `work` while the coroutine `helper` runs; cancel `helper` when `work` ends.
 
-    If the helper ends first, the work goes on.
+    If `helper` ends first, `work` continues.
 
     Args:
         work: Coroutine whose result is returned.
-        helper: Coroutine to run meanwhile; it begins first.
-        on_cancel: Function called before work and helper are cancelled from outside.
+        helper: Coroutine to run meanwhile; `helper` starts before `work`.
+        on_cancel: Function called before `work` and `helper` are cancelled because the caller is
+            cancelled.
 
     Returns:
-        Result of the work.
+        Result of `work`.
 
     Raises:
-        Exception: Any exception of the work or of the helper, also while they are being ended. An
-            exception of the helper ends the work.
+        Exception: Any exception of `work` or `helper`, also during their cancellation. An exception
+            of `helper` ends `work`.
     """
     loop = asyncio.get_running_loop()
     helping = loop.create_task(helper)
@@ -143,7 +145,7 @@ class Supervisor:
     Attributes:
         over: Future that is set when the run must end.
         failure: Error about the first node that failed; None if none failed.
-        error: Other error that ended the run; None if there is none.
+        error: Error without a node that ended the run; None if no such error occurred.
     """
 
     def __init__(self, clock: Clock, has_end: bool) -> None:
@@ -171,7 +173,7 @@ class Supervisor:
         return task
 
     def end(self, resident: Resident) -> None:
-        """Cancel the tasks of a resident that leaves the world, and close it."""
+        """Cancel the tasks of a resident that leaves the world, and close the resident."""
         if resident in self._nodes:
             self._nodes.remove(resident)
         for task, owner in self._tasks.items():
@@ -233,7 +235,7 @@ class Supervisor:
             raise
 
     async def _guarded(self, resident: Resident, work: Coroutine[Any, Any, T]) -> T | None:
-        """Await a coroutine of a node; an exception in it is a failure of the node."""
+        """Await a coroutine of a resident; an exception of `work` makes the resident fail."""
         try:
             return await work
         except Overdue as overdue:

@@ -1,4 +1,4 @@
-"""Typed topics within one process, goals of actions, and servers by name.
+"""Typed topics within one process, goals of actions, and servers of services and actions.
 
 Delivery is direct: `publish` calls every subscriber, in order of subscription, and then returns.
 """
@@ -28,12 +28,13 @@ class Topic(Generic[T]):
         kind: Type of the values.
         count: Number of values that were published.
         latest: Value that was published last; None before the first value.
-        on_demand: Function called when a subscriber is added or removed; None without a session.
+        on_demand: Function called when a subscriber is added or removed; None without a connection.
         sender: Publisher of the value that is being delivered; None if unknown.
-        relay: Function that sends values to other processes, called last; None without a session.
+        relay: Function that sends values to other processes, called after all subscribers; None
+            without a connection.
         far_subscribers: Number of subscribers in other processes.
         is_far: Whether the topic is only listed: other processes use it, and this process does not.
-        is_removed: Whether the world has removed the topic; another topic may have its name by now.
+        is_removed: Whether the world has removed the topic. A newer topic may have the same name.
     """
 
     __slots__ = (
@@ -51,7 +52,7 @@ class Topic(Generic[T]):
     )
 
     def __init__(self, name: str, kind: type[T], report: Report | None = None) -> None:
-        """Create a topic without a value; `report` receives exceptions of subscribers."""
+        """Create a topic without a value; `report` is called with exceptions of subscribers."""
         self.name = name
         self.kind = kind
         self.latest: T | None = None
@@ -65,7 +66,7 @@ class Topic(Generic[T]):
         self._subscribers: Listeners[T] = Listeners(report)
 
     def publish(self, value: T, sender: Endpoint | None = None) -> None:
-        """Store a value and pass it to every subscriber, with its publisher if known.
+        """Store a value, and pass the value to every subscriber.
 
         Raises:
             TypeError: If `value` is not of the topic's kind.
@@ -164,7 +165,7 @@ _NUMBERS = itertools.count(1)
 
 
 def new_goal_id() -> bytes:
-    """Return a new goal id of 16 bytes, counted up so that two equal runs have the same ids."""
+    """Return a goal id of 16 bytes from a counter, so that equal runs use equal ids."""
     return next(_NUMBERS).to_bytes(16, "big")
 
 
@@ -173,11 +174,12 @@ class GoalHandle:
 
     Attributes:
         request: Goal message.
-        cancel_requested: Whether the client requested cancellation and the server agreed.
+        cancel_requested: Whether the client has requested the cancellation and the server has
+            accepted.
         feedback: Last feedback; None before the first feedback.
-        on_cancel: Function called when the client requests cancellation, for a server that decides
-            by `decide_cancel`; None for a server that always agrees.
-        decided: Future of whether the server accepts the goal; None if it accepts every goal.
+        on_cancel: Function called when the client requests the cancellation; the server then calls
+            `decide_cancel`. None if every cancellation is accepted.
+        decided: Future of the server's decision to accept the goal; None if every goal is accepted.
         patience: Seconds to wait until a server in another process accepts the goal or a
             cancellation; None for no limit.
         goal_id: Id of 16 bytes.
@@ -220,7 +222,7 @@ class GoalHandle:
             self.on_cancel()
 
     async def cancellation(self) -> bool:
-        """Wait for the server's decision on the last cancellation; return whether it agrees."""
+        """Wait for the decision on the last request to cancel; return whether it was accepted."""
         return self._cancellation is not None and await asyncio.shield(self._cancellation)
 
     async def result(self) -> GoalResult:
@@ -268,10 +270,11 @@ class Offer(Generic[T]):
 
     Attributes:
         take: Function that responds to requests or accepts goals.
-        kind: ROS class of the service or action; None if only this process can use it; then any
-            request is accepted.
+        kind: ROS class of the service or action; None for a server that accepts any request, for
+            this process only.
         node: Name of the server's node; "" if not given.
-        is_remote: Whether the server is in another process; a server in this process replaces it.
+        is_remote: Whether the server is in another process. A server of this process takes
+            precedence.
     """
 
     take: T
@@ -291,7 +294,7 @@ class NamedOffers(Generic[T]):
         """Create an empty store.
 
         Args:
-            what: Word for what is served: "service" or "action".
+            what: Word for messages: "service" or "action".
             changed: Function called when a server is added or removed.
         """
         self._what = what
@@ -306,7 +309,7 @@ class NamedOffers(Generic[T]):
         Args:
             name: Name of the service or action.
             offer: The server.
-            shares: Whether this process may have another server of that name already.
+            shares: Whether this process may have several servers of that name.
 
         Raises:
             TftoolError: If this process has another server of that name and `shares` is false.
@@ -337,7 +340,7 @@ class NamedOffers(Generic[T]):
         return stop
 
     def get(self, name: str) -> Offer[T] | None:
-        """Return the active server of a name; None if there is none."""
+        """Return the active server of a name; None without a server."""
         return self._first.get(name.removeprefix("/"))
 
     def count(self, name: str) -> int:

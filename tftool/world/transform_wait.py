@@ -1,6 +1,6 @@
-"""Waiting for a transform, with a deadline on the clock's time.
+"""Coroutines that wait for a transform, with a deadline on a clock.
 
-Nothing is polled: the insertion that makes a transform possible wakes the waiter.
+A coroutine does not poll the buffer: the insertion that makes a transform possible wakes it.
 """
 
 import asyncio
@@ -28,8 +28,8 @@ async def wait_for_transform(
     """Return the transform between two frames as soon as it is available.
 
     Args:
-        buffer: Buffer to wait on.
-        clock: Clock of the deadline.
+        buffer: Buffer with the transforms.
+        clock: Clock for the timeout.
         target_frame: Frame in which the pose is expressed.
         source_frame: Frame whose pose is returned.
         time: Time of the transform, nanoseconds; 0 for the latest common time.
@@ -38,7 +38,7 @@ async def wait_for_transform(
     Raises:
         TimeoutException: If the transform was not available in time; the cause is the last error.
         InvalidArgumentException: If a frame's name is invalid.
-        TransformException: If the buffer has pruned that time, so that waiting is in vain.
+        TransformException: If the buffer has already dropped the transforms at that time.
         TypeError: If the time or the timeout is not a whole number.
     """
     deadline = None if timeout is None else clock.now() + whole(timeout)
@@ -55,7 +55,7 @@ async def wait_for_transform_full(
     fixed_frame: str,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """Return the transform between two times through a fixed frame, as soon as it is available.
+    """Return the transform between frames at two times through a fixed frame, when available.
 
     Raises the errors of `wait_for_transform`. If all three frames have the same name, and no such
     frame exists, LookupException is raised at once.

@@ -38,7 +38,7 @@ class _Transforms(NamedTuple):
 
 
 class TransformMessage(_Transforms):
-    """Transforms and their sender, the value of the topics `tf` and `tf_static`."""
+    """Value of the topics `tf` and `tf_static`: transforms, and the name of their sender."""
 
     __slots__ = ()
 
@@ -69,7 +69,7 @@ class TopicPublisher(Generic[T]):
         self._topic: Topic[T] | None = None
 
     def publish(self, value: T) -> None:
-        """Publish a value; if the topic was removed meanwhile, it is created again."""
+        """Publish a value. If the topic has been removed, create the topic again."""
         topic = self._topic
         if topic is None or topic.is_removed:
             topic = self._topic = self._world.topic(self.name, self.kind)
@@ -87,12 +87,12 @@ class TopicPublisher(Generic[T]):
         return topic.subscribers
 
     def close(self) -> None:
-        """Close the publisher: the node is no longer listed as a publisher of the topic."""
+        """Close the publisher, so that the node is no longer listed as a publisher of the topic."""
         self._withdraw()
 
 
 class World:
-    """Everything that the nodes of one process share.
+    """Shared state of the nodes of one process: clock, transform buffer, topics, services, log.
 
     Attributes:
         clock: Clock of the world.
@@ -103,7 +103,7 @@ class World:
         endpoints: Publishers and subscriptions of the nodes of all processes.
         clients: Clients of services, of the nodes of all processes.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
-        failure: Error about the node whose exception ended the run, as soon as it is known.
+        failure: Error that names the node whose exception ended the run; None before.
     """
 
     def __init__(
@@ -120,7 +120,8 @@ class World:
             clock: Clock of the world.
             buffer: Transform buffer to use; None for a new buffer.
             cache_time: Cache time of a new buffer, nanoseconds.
-            max_bytes: Largest number of bytes for samples; None for the usual limit.
+            max_bytes: Largest number of bytes for the buffer's samples; None for the limit of
+                `memory_limit.allowed`.
         """
         self.clock = clock
         self.log = Log(clock.now, report=self.report)
@@ -166,7 +167,7 @@ class World:
         return topic
 
     def name_topic(self, name: str, kind: type[Any]) -> None:
-        """Add a topic of other processes; only lists show it until this process uses it."""
+        """Add a topic that only other processes use, so that lists of topics show it."""
         self._topic(name, kind).is_far = True
 
     def _topic(self, name: str, kind: type[Any]) -> Topic[Any]:
@@ -250,19 +251,21 @@ class World:
         keeps: bool = False,
         deliver: Callable[[Any, Endpoint | None], object] | None = None,
     ) -> tuple[Endpoint | None, Callable[[], None]]:
-        """Register a publisher or subscription in the graph, unless its topic has no ROS type.
+        """Register a publisher or subscription in the graph, if the topic has a ROS type.
 
         Args:
-            role: Whether it is a publisher or a subscription.
+            role: Whether to register a publisher or a subscription.
             node: Name of the node.
             name: Name of the topic.
             kind: Type of the values.
             quality: Offered or requested quality of service.
             keeps: Whether a publisher stores its messages for late subscribers.
-            deliver: Function that gives a latched subscription earlier messages.
+            deliver: Function that passes an earlier message and its publisher to a latched
+                subscription.
 
         Returns:
-            The endpoint, and a function that removes it.
+            The endpoint (None for a topic without a ROS type), and a function that removes the
+            endpoint.
         """
         interface = str(getattr(kind, "interface__", ""))
         if not interface:
@@ -276,7 +279,7 @@ class World:
         return MappingProxyType(self._topics)
 
     def remove_topic(self, name: str) -> None:
-        """Remove a topic; values published on its `Topic` object reach no new subscriber."""
+        """Remove a topic; new subscribers get no values that are published on the old `Topic`."""
         name = name.removeprefix("/")
         topic = self._topics.pop(name, None)
         if topic is not None:
@@ -304,8 +307,8 @@ class World:
             kind: ROS class of the service; None if only this process may call it.
             node: Name of the server's node.
             is_remote: Whether the server is in another process.
-            shares: Whether this process may have another server of that name already, as in ROS:
-                the first server responds, and after it has left, the next one.
+            shares: Whether this process may have several servers of that name, as in ROS. The first
+                server responds; after this server has left, the second responds.
 
         Raises:
             TftoolError: If a node of this process serves that name already and `shares` is false.
@@ -383,8 +386,8 @@ class World:
     ) -> Callable[[], None]:
         """Call `callback` with each goal of an action, before the server receives it.
 
-        Returns a function that ends the calls. Exceptions of the callback are reported under
-        `owner`.
+        Return a function that ends the calls. Exceptions of the callback are reported under the
+        name `owner`.
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
@@ -423,7 +426,7 @@ class World:
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Call `callback` when a topic, service, action or node is added or removed.
 
-        The call comes before the first value on a new topic. Returns a function that ends the
+        For a new topic, the call comes before the first value. Return a function that ends the
         calls. Exceptions of the callback are reported under the name `owner`.
         """
         return self._watchers.add(callback, owner)
@@ -439,7 +442,7 @@ class World:
         """Insert transforms into the buffer and publish them on `tf` or `tf_static`.
 
         Transforms that the buffer rejects (with a log message) are not published. A message on
-        `tf_static` always contains the newest static transform of each child from its sender,
+        `tf_static` contains all static transforms of the sender, the newest of each child frame,
         because a late subscriber gets only the sender's last message.
 
         Returns:
@@ -553,7 +556,7 @@ class World:
         return self._supervisor.start_soon(node, work)
 
     def free_name(self, wanted: str) -> str:
-        """Return the wanted name if no node has the name, else with a number appended."""
+        """Return the name `wanted`, with a number appended if a node already has this name."""
         taken = {node.name for node in self.nodes}
         name, number = wanted, 1
         while name in taken:
@@ -624,7 +627,7 @@ class World:
         self._supervisor.fail(node, error)
 
     def report(self, owner: str, failure: Exception) -> None:
-        """Handle the exception of a listener: as a failure of the node that owns it, else as a log.
+        """Handle the exception of a listener: end the run if a node owns the listener, else log it.
 
         Args:
             owner: Name of the listener's owner.

@@ -40,7 +40,7 @@ class Broadcaster(Node):
         Args:
             world: World to join.
             name: Name of the node, also the authority of the frame.
-            turtle: Name of the turtle whose pose is broadcast, also of the child frame.
+            turtle: Name of the turtle whose pose is broadcast; the child frame has the same name.
             frame_id: Frame in which the pose is given.
             topic: Topic of the poses; by default `<turtle>/pose`.
         """
@@ -52,7 +52,7 @@ class Broadcaster(Node):
         self._transform = Transform.identity()
 
     async def run(self) -> None:
-        """Subscribe to the turtle's poses, and broadcast each as a frame."""
+        """Subscribe to the turtle's poses, and broadcast a frame for each pose."""
         self.subscribe(self.topic, Pose, self._on_pose)
 
     def _on_pose(self, pose: Any) -> None:
@@ -66,7 +66,7 @@ class Broadcaster(Node):
 
 
 class StaticBroadcaster(Node):
-    """Node that broadcasts some static transforms once."""
+    """Node that broadcasts static transforms once."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -177,7 +177,7 @@ USAGE = "static_turtle_tf2_broadcaster child_frame_name x y z roll pitch yaw"
 def static_turtle(arguments: Sequence[str]) -> TransformStamped:
     """Parse the seven arguments of the tutorial's static broadcaster.
 
-    The order of the angles is roll, pitch, yaw, unlike static_transform_publisher's.
+    The angles are in the order roll, pitch, yaw; static_transform_publisher uses the reverse order.
 
     Args:
         arguments: child_frame_name x y z roll pitch yaw.
@@ -213,9 +213,9 @@ def _number(text: str) -> float:
 class Noise(Node):
     """Node that broadcasts a frame near another frame, with noise and accumulating drift.
 
-    Each broadcast has its own error, normally distributed in each coordinate and about each axis.
-    The drift is a random walk in the plane: after t seconds it is normally distributed, with the
-    square root of t times the value for one second. Equal seeds give equal errors on every machine.
+    Each broadcast has a new error, normally distributed in each coordinate and about each axis. The
+    drift is a random walk in the plane: its standard deviation grows with the square root of time.
+    Equal seeds give equal errors on every machine.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST

@@ -21,8 +21,8 @@ TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
 class Follower(Node):
     """Node that spawns a turtle and steers it towards a frame by transform lookups.
 
-    With a delay, the turtle goes to the position where the leader was before. The lookup then uses
-    the present for the turtle and an earlier time for the leader, connected through a fixed frame.
+    With `delay`, the turtle drives to an earlier position of the leader. The lookup then takes the
+    turtle's frame now and the leader's frame at the earlier time, connected through `fixed_frame`.
     """
 
     def __init__(
@@ -48,19 +48,20 @@ class Follower(Node):
             world: World to join.
             name: Name of the node.
             leader: Frame to follow.
-            follower: Name of the turtle to steer, also of its frame.
+            follower: Name of the turtle to steer; the turtle's frame has the same name.
             period: Nanoseconds between two commands.
             delay: Age of the leader's pose to follow, nanoseconds.
-            fixed_frame: Frame that does not move during the delay, through which the lookup goes.
-                If None, both frames are looked up in the past, and the turtle steers by its past
-                pose.
+            fixed_frame: Frame that does not move during the delay; the lookup connects both times
+                through this frame. If None, both frames are looked up at the earlier time, so the
+                turtle steers by its earlier pose.
             distance_gains: Gains from a distance in metres to a speed in m/s.
             bearing_gains: Gains from an angle in radians to a turn rate in rad/s.
             dead_band: Distance in metres at which the leader counts as reached.
             speed_limit: Largest speed in m/s; None for no limit.
-            stale_after: Age in nanoseconds of the newest common data at which the turtle stops; if
-                None, the turtle follows old data, as in tf2's tutorial.
-            spawn: x, y and heading at which to spawn the follower; None if it exists already.
+            stale_after: Age of the newest transform in nanoseconds at which the turtle stops; if
+                None, the turtle follows old transforms, like tf2's tutorial.
+            spawn: x, y and heading at which to spawn the follower; None if the turtle exists
+                already.
 
         Raises:
             UsageError: If a name, a time or a gain is invalid.
@@ -117,10 +118,10 @@ class Follower(Node):
         )
 
     def _too_old(self, stamp: Stamp, now: Stamp) -> bool:
-        """Return whether the data is too old to follow; log when that changes.
+        """Return whether the newest transform is too old to follow; log a change of this result.
 
-        A lookup at a given time fails if data is missing; only the latest transform can be old
-        without an error. Static transforms, with stamp 0, are never old.
+        With a delay, the result is False: a lookup at a given time fails if data is missing. Static
+        transforms, with stamp 0, are never too old.
         """
         if self.stale_after is None or self.delay != 0 or stamp == LATEST:
             return False
@@ -143,8 +144,8 @@ class Follower(Node):
 class Spawning:
     """State machine that spawns a turtle as in the tutorial; a node's timer calls `step`.
 
-    One step sends the request, a later step sees the response, and the step after it returns True.
-    With a period of one second, that is three seconds after the start.
+    The first step sends the request, a later step reads the response, and the next step returns
+    True. With a period of one second, the third second after the start is the earliest.
     """
 
     def __init__(self, node: Node, x: float, y: float, theta: float, name: str) -> None:
@@ -155,7 +156,7 @@ class Spawning:
         self._confirmed = False
 
     def step(self) -> bool:
-        """Take the next step; return True if the turtle existed before this step."""
+        """Do the next step of the spawning; return True if the turtle existed before this step."""
         if self._confirmed:
             return True
         if not self._is_asked:

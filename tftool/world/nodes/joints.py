@@ -33,7 +33,7 @@ MOTIONS: Final[tuple[Motion, ...]] = get_args(Motion)
 
 
 def _described(text: str) -> "Robot":
-    """Return the robot that the text of a description describes."""
+    """Return the robot that a description (URDF text) defines."""
     # Imported here, with numpy and expat, because every scenario imports this module.
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import parse_description
@@ -63,9 +63,9 @@ def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
 class RobotStatePublisher(Node):
     """Node that broadcasts a robot's frames: fixed joints at once, other joints from joint states.
 
-    As in ROS 2's node of that name, a message with different numbers of names and positions is
-    ignored, only the named joints move, a mimic joint follows unless the message names it too, and
-    transforms have the stamp of the message.
+    The node works like ROS 2's node of the same name. A message with unequal numbers of names and
+    positions is ignored. Only joints that a message names move, and joints that mimic a named
+    joint. Transforms get the stamp of the message.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -199,8 +199,8 @@ class RobotStatePublisher(Node):
 class JointStatePublisher(Node):
     """Node that publishes a robot's joint positions repeatedly; `move` changes a position.
 
-    As in ROS 2's node of that name, a joint begins at zero if its limits include zero, else in
-    their middle, and a mimic joint follows its joint.
+    The node works like ROS 2's node of the same name. A joint begins at zero if its limits include
+    zero, else in the middle of its limits. A mimic joint follows the joint that it mimics.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE
@@ -243,7 +243,7 @@ class JointStatePublisher(Node):
 
     @property
     def positions(self) -> dict[str, float]:
-        """Positions of all movable joints, with mimic joints; empty without a robot."""
+        """Positions of all movable joints by name, with mimic joints; empty without a robot."""
         return {} if self.robot is None else self.robot.positions(self._given)
 
     def move(self, joint: str, position: float) -> None:
@@ -310,12 +310,12 @@ class MovingRobot(RobotStatePublisher):
             name: Name of the node.
             file: The robot, loaded from the file that the scenario names.
             joints: Fixed positions of joints, which sine and steps do not move.
-            motion: How the other joints move: "still"; "sine", between their limits and back
-                (without limits, a radian); "steps", from limit to middle to limit, with a third
-                of a cycle at each; or "recorded".
+            motion: Motion of the other joints: "still"; "sine" between the limits of a joint
+                (without limits, over a radian); "steps" between lower limit, middle and upper
+                limit, a third of a cycle each; or "recorded", from `recording`.
             recording: Joint states for the motion "recorded".
-            cycle: Nanoseconds of one motion between the limits and back; a little longer for
-                each further joint, so that no two move alike.
+            cycle: Nanoseconds of one motion to the other limit and back, for the first joint. Each
+                further joint takes a little longer, so that no two joints move alike.
             period: Nanoseconds between two joint states.
             frame_prefix: Prefix of every frame's name.
 
@@ -364,7 +364,7 @@ class MovingRobot(RobotStatePublisher):
         return (middle, upper, middle, lower)[math.floor(4.0 * share) % 4]
 
     async def _replay(self) -> None:
-        """Publish recorded joint states, with the recorded time between them."""
+        """Publish the recorded joint states at the recorded intervals."""
         rows = sorted(
             (int(stamp), place, row)
             for place, states in enumerate(self.recording)

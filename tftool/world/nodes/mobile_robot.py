@@ -1,8 +1,8 @@
 """Nodes that simulate a mobile robot's usual frames: map, odom, base_link, laser_link.
 
 Only these nodes know the robot's true pose. Odometry adds up small errors and drifts. Localisation
-corrects the drift now and then, so that odom jumps in the map. A laser sees one point of a wall,
-which is fixed in the map and so moves in odom.
+corrects the drift every few seconds, so that odom jumps in the map. A laser sees one point of a
+wall. This point is fixed in the map and therefore moves in odom.
 """
 
 import math
@@ -57,8 +57,8 @@ class RobotOdometry(Node):
             speed: Speed in m/s until the first command.
             turn_rate: Turn rate in rad/s until the first command.
             scale_error: Fraction by which the wheels overestimate a distance.
-            turn_error: Turn rate in rad/s that the wheels measure in addition to the true one while
-                the robot moves.
+            turn_error: Error in rad/s that the wheels add to the true turn rate while the robot
+                moves.
             period: Nanoseconds between two broadcasts.
         """
         super().__init__(world, name)
@@ -115,7 +115,7 @@ class _Observer(Node):
 
 
 class MapCorrection(_Observer):
-    """Node that broadcasts map to odom, with corrections now and then that make odom jump."""
+    """Node that broadcasts map to odom; regular corrections of the drift make odom jump."""
 
     def __init__(
         self,
@@ -135,7 +135,7 @@ class MapCorrection(_Observer):
         self.period = require_period(period)
 
     async def run(self) -> None:
-        """Broadcast map to odom every period, and correct it every `correct_every`."""
+        """Broadcast map to odom every `period`, and correct the drift every `correct_every`."""
         self._follow_truth()
         map_from_odom = Transform.identity()
         due = self.clock.now() + self.correct_every
@@ -159,7 +159,7 @@ class MapCorrection(_Observer):
 class LaserPoint(_Observer):
     """Node that broadcasts one point of a wall as the laser sees it: laser_link to laser_point.
 
-    Nothing is broadcast before the laser's pose on the robot was received.
+    The broadcasts begin when the transform from robot to laser has been received.
     """
 
     def __init__(
@@ -251,7 +251,7 @@ def _pose_of(truth: Any) -> Transform:
 
 
 def _moved(start: Placement, distance: float, turned: float) -> Placement:
-    """Return a pose moved along an exact arc; the odometry errors come from the wheels alone."""
+    """Return a pose moved along an exact arc, so that odometry errors come only from the wheels."""
     middle = start.theta + turned / 2
     chord = distance * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
     return Placement(

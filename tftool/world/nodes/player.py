@@ -31,9 +31,9 @@ SLOWEST, FASTEST = 0.01, 100.0
 
 
 class Player(Node):
-    """Node that broadcasts a recording's transforms when they are due, and publishes `/clock`.
+    """Node that broadcasts a recording's transforms as they were timed, and publishes `/clock`.
 
-    All times of the node are in the time of the recording's stamps.
+    All times in this class are times of the recording, like the stamps of its transforms.
 
     Attributes:
         rate: Seconds of the recording per real second.
@@ -64,7 +64,8 @@ class Player(Node):
         """Add the node to a world.
 
         Args:
-            world: World to play in; its clock is set if it is a `FollowedClock`.
+            world: World that gets the transforms. If its clock is a `FollowedClock`, the player
+                sets the clock.
             name: Name of the node.
             timeline: Transforms of the recording, with their times.
             pace: Clock of real time, or a test's substitute.
@@ -75,8 +76,8 @@ class Player(Node):
             waits_at_end: Whether to pause at the end, instead of ending.
             is_restamped: Whether to replace stamps by the time of sending, and publish no `/clock`.
             is_silent: Whether to publish no `/clock` although the recording's stamps are kept.
-            names_topics: Whether to name the topic as the sender of a transform if the sending node
-                was not recorded. If false, this node is named.
+            names_topics: Whether the authority of a transform without a recorded node is the topic;
+                else the authority is this node.
             feed: Player of the recording's topics other than tf.
         """
         super().__init__(world, name)
@@ -103,7 +104,7 @@ class Player(Node):
 
     @property
     def position(self) -> Stamp:
-        """Current time of the playback."""
+        """Current time of the playback, as a time of the recording in nanoseconds."""
         if self.is_paused:
             return self._anchor
         passed = self._pace.now() - self._since
@@ -177,7 +178,7 @@ class Player(Node):
             await self._pace.sleep_until(self._next_turn(is_behind), self.phase, self.rank)
 
     def _welcome(self) -> None:
-        """While paused, send the present frames again if there are new subscribers."""
+        """If the player is paused and there are new subscribers, send the current frames again."""
         listeners = self.world.tf.subscribers
         if self.is_paused and listeners > self._listeners:
             self._send_known(self._anchor)
@@ -190,7 +191,7 @@ class Player(Node):
         self._place = self._timeline.place(self.start)
 
     def _send_due(self) -> bool:
-        """Send the messages that are due, up to a limit; return whether more messages are due."""
+        """Send the messages whose time has come, up to a limit; return whether more are waiting."""
         position = self.position
         last = min(self._timeline.place(position, after=True), self._place + AT_ONCE)
         while self._place < last:
@@ -228,9 +229,9 @@ class Player(Node):
             self._broadcast(due)
 
     def _send_known(self, moment: Stamp) -> None:
-        """Send the transforms that a lookup at a time needs.
+        """Send the transforms that lookups at the time `moment` need.
 
-        The last transform of each edge would not be enough. The last stamps of two edges differ,
+        The last transform of each edge would not be enough: the last stamps of two edges differ,
         and a lookup over both edges needs samples before and after a common time.
         """
         last = self._timeline.place(moment, after=True)
@@ -252,7 +253,7 @@ class Player(Node):
         self.world.broadcast(transforms, sender, static=due.static)
 
     def _shift(self, moment: Stamp) -> Duration:
-        """Return the nanoseconds by which a time is played later than it was recorded."""
+        """Return the nanoseconds from a time of the recording to the time of its playback."""
         wait = 0 if self.is_paused else round((moment - self._anchor) / self.rate)
         since = self._pace.now() if self.is_paused else self._since
         return since + wait - moment

@@ -54,7 +54,7 @@ class MessageBroadcaster(Node):
 
 
 class PointDrawer(Node):
-    """Node that logs each point's position in a frame, once the transform at its stamp is known."""
+    """Node that logs each point's position in a frame as soon as the needed transform arrives."""
 
     def __init__(
         self,

@@ -35,10 +35,10 @@ class Taker(Protocol):
 
 
 class Recorder:
-    """Recorder of a world's topics; in a joined session, received bytes are stored unchanged.
+    """Recorder of a world's topics; received messages of other processes are stored unchanged.
 
     Attributes:
-        topics: Names of the topics that are recorded so far.
+        topics: Names of the topics that the recorder has subscribed to so far.
         left_out: Reason for each topic that cannot be recorded, by name.
     """
 
@@ -52,15 +52,16 @@ class Recorder:
         everything: bool = False,
         clock: Clock | None = None,
     ) -> None:
-        """Subscribe to the transforms.
+        """Subscribe to the transforms; `refresh` subscribes to the other topics.
 
         Args:
-            world: World of the topics.
+            world: World whose topics are recorded.
             taker: Receiver of every message.
-            link: Connection to the session that the world has joined; None if it joined none.
+            link: Connection to the session that the world has joined; None for a world without
+                other processes.
             names: Further topics to record, without a leading slash.
             everything: Whether to record all topics.
-            clock: Clock for the time of reception; None for `pace_of(world.clock)`.
+            clock: Clock that gives the log time of a message; None for `pace_of(world.clock)`.
         """
         self._world = world
         self._taker = taker
@@ -86,7 +87,7 @@ class Recorder:
         """Subscribe to topics that are new; call this regularly.
 
         Raises:
-            InputError: If a message could not be written.
+            InputError: If an earlier message could not be written.
         """
         if self._failure is not None:
             raise self._failure
@@ -197,7 +198,7 @@ class Recorder:
         self._guarded(put)
 
     def _guarded(self, put: Callable[[], None]) -> None:
-        """Call a function and store its InputError, which `refresh` raises later."""
+        """Call `put`; store its InputError, if any, until the next `refresh` raises the error."""
         if self._failure is not None:
             return
         try:
@@ -206,7 +207,7 @@ class Recorder:
             self._failure = error
 
     def _channel(self, name: str, ros_type: str, node: str) -> Channel:
-        """Return the channel of a topic and publisher: one for each, to keep senders distinct."""
+        """Return the channel of a topic and a publishing node; each pair has one channel."""
         key = name, ros_type, node
         found = self._channels.get(key)
         if found is None:

@@ -1,4 +1,4 @@
-"""Turtles of a simulator in another process, as far as its topics and services show them."""
+"""Turtles of a simulator in another process, known from the simulator's topics and services."""
 
 import asyncio
 from collections.abc import Callable, Mapping
@@ -39,7 +39,7 @@ _POSE: Final = "/pose"
 
 @dataclass(slots=True)
 class FarTurtle:
-    """Known facts about a turtle of another process.
+    """State of a turtle of another process, as far as topics show it.
 
     Attributes:
         name: Name of the turtle.
@@ -57,10 +57,10 @@ class FarTurtle:
 class FarTurtles(Node):
     """Node that collects the turtles of a simulator in another process, in order to draw them.
 
-    The background is read from the parameters of the node that sends the poses. The strokes of the
-    pens are read by a service if that node is tftool's simulator. ROS 2's own turtlesim does not
-    publish its pens. Then the trail is the path of the turtles from now on, as if all pens had
-    their initial settings.
+    The background is read from the parameters of the node that sends the poses. If that node is
+    tftool's simulator, a service returns the strokes of the pens. ROS 2's own turtlesim has no such
+    service; its trail is drawn along the turtles' paths from now on, as if all pens had their
+    initial settings.
 
     Attributes:
         trail: Lines of the pens.
@@ -71,7 +71,7 @@ class FarTurtles(Node):
     is_shown: ClassVar[bool] = False
 
     def __init__(self, world: World, name: str = "far_turtles") -> None:
-        """Subscribe to the present and future turtles, at most fifty."""
+        """Subscribe to the poses of all present and future turtles, at most fifty."""
         super().__init__(world, name)
         self.trail = Trail()
         self.background: Color = BACKGROUND
@@ -92,7 +92,7 @@ class FarTurtles(Node):
         return MappingProxyType(there)
 
     async def run(self) -> None:
-        """Request the background and the strokes from the simulator, now and then."""
+        """Request background and strokes from the simulator, regularly and after changes."""
         asked, drawn = -RESTING, -1
         async for now in self.every(PERIOD, immediately=True):
             simulator = self._simulator()
@@ -133,7 +133,7 @@ class FarTurtles(Node):
             self._drawing.take(told)
 
     async def _ask(self, service: str, request: Any) -> Any:
-        """Return a service's response; None if there is no such service or no response."""
+        """Return a service's response; None if the service is missing or too slow."""
         if not self.world.has_service(service):
             return None
         try:

@@ -24,7 +24,7 @@ KEPT_SEGMENTS = 20_000
 
 
 class Segment(NamedTuple):
-    """One straight stroke of a pen: ends in metres, colour, width in pixels."""
+    """Straight stroke of a pen: x and y of both ends in metres, colour, width in pixels."""
 
     x0: float
     y0: float
@@ -174,7 +174,7 @@ four numbers for its ends, then red, green, blue and width), and their total num
 
 
 class DrawingService:
-    """Service that returns those strokes of a trail that the client lacks."""
+    """Service that returns the strokes of a trail that a client has not received yet."""
 
     def __init__(self, node: Node, trail: Trail) -> None:
         """Serve the strokes of a trail until the node ends."""
@@ -198,7 +198,7 @@ class DrawingService:
 
 
 class FarDrawing:
-    """Copy of the trail of a simulator in another process, as far as it was received.
+    """Copy of the trail of a simulator in another process, filled with the received strokes.
 
     Attributes:
         is_whole: Whether the copy was complete after the last response.
@@ -212,11 +212,11 @@ class FarDrawing:
         self._wipes = self._drawn = 0
 
     def request(self) -> Any:
-        """Return the request for the strokes that are still missing."""
+        """Return a request for the strokes that have not been received yet."""
         return KIND.Request(began=self._began, wipes=self._wipes, drawn=self._drawn)
 
     def take(self, told: Any) -> bool:
-        """Draw the strokes in a response; return whether the trail has changed."""
+        """Draw the strokes of a response (`told`); return whether the trail has changed."""
         is_new = (told.began, told.wipes) != (self._began, self._wipes) or told.first < self._drawn
         if is_new:
             self._trail.wipe()

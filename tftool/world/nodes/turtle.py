@@ -78,13 +78,13 @@ class Turtle:
         name: Name of the turtle and of its frame.
         pose: Pose message published last, rounded to 32-bit floats.
         place: Exact pose.
-        forward: Speed along its heading in m/s; negative when reversing.
-        sideways: Speed to its left in m/s.
+        forward: Speed along the heading in m/s; negative when reversing.
+        sideways: Speed to the left in m/s.
         turn: Turn rate in rad/s.
         pen_on: Whether the turtle draws.
-        color: Colour of its pen.
-        width: Width of its pen in pixels.
-        wall_hits: Number of updates in which it met the wall.
+        color: Colour of the pen.
+        width: Width of the pen in pixels.
+        wall_hits: Number of updates in which the turtle hit the wall.
     """
 
     __slots__ = (
@@ -131,10 +131,10 @@ class Turtle:
     # Commands and requests from the simulator, at the start of a tick
 
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
-        """Set the velocities of a command, in place of all previous velocities except one.
+        """Set the velocities of a command in place of the previous velocities.
 
-        A simulator that is not holonomic, like turtlesim, keeps the previous sideways speed until
-        the timeout or the rotate action clears it.
+        Unless `holonomic`, the previous sideways speed stays, as in turtlesim, until the timeout or
+        the rotate action clears it.
         """
         self._settled = False
         self._commanded = now
@@ -151,13 +151,13 @@ class Turtle:
         self._teleports.append(where)
 
     def set_pen(self, color: Color, width: int, off: bool) -> None:
-        """Lift the pen, or lower it with a new colour and width; width 0 means one pixel."""
+        """Lift the pen (`off`), or lower it with a colour and a width; width 0 means one pixel."""
         self.pen_on = not off
         if not off:
             self.color, self.width = color, max(width, 1)
 
     def rotate(self, goal: GoalHandle, theta: float, say: Say) -> None:
-        """Accept a heading as goal of the rotate action, and abort a goal that is active."""
+        """Accept a heading as the goal of the rotate action, and abort an earlier goal."""
         if self._goal is not None:
             say(
                 "WARN",
@@ -169,14 +169,14 @@ class Turtle:
         self._goal_start, self._goal_delta = self.place.theta, 0.0
 
     def leave(self) -> None:
-        """Abort the active goal, because the turtle is removed."""
+        """Abort the goal that is active when the turtle is removed."""
         if self._goal is not None:
             self._end_goal("aborted")
 
     # One update
 
     def update(self, now: Stamp, say: Say, draw: Callable[[Segment], object]) -> Segment | None:
-        """Teleport, turn, move and stop at the wall; store the result in `pose`.
+        """Do the turtle's teleports and motion of one tick, up to the wall; store the pose.
 
         Args:
             now: Time of the tick, nanoseconds.
@@ -275,8 +275,8 @@ MOST_WAITING = 10_000
 class TickQueue:
     """Queue of work between two ticks of the simulator, run in order at the next tick.
 
-    Work that arrives in the instant of a tick waits for the next tick, so that the order within an
-    instant does not matter.
+    Work that arrives at the exact time of a tick waits for the next tick, so that the order within
+    one instant has no effect.
     """
 
     def __init__(self, clock: Clock) -> None:
@@ -311,7 +311,7 @@ class TickQueue:
         return answer
 
     def deliver(self, tick: Stamp) -> None:
-        """Run the work that was queued before this tick."""
+        """Run the work that was queued before now; every function gets the tick's time."""
         # The clock's time, not the tick's: a late tick processes all commands until now.
         moment = self._clock.now()
         while self._waiting and self._waiting[0][0] < moment:
@@ -352,7 +352,7 @@ class TurtlePorts:
             turtle: The turtle.
             queue: Queue of work for the next tick.
             say: Function called with log messages.
-            is_holonomic: Function that returns whether a command's linear.y is used now.
+            is_holonomic: Function that returns whether commands may move the turtle sideways.
         """
         self._world, self._prefix, self._turtle = world, f"{prefix}{turtle.name}/", turtle
         self._queue, self._say, self._is_holonomic = queue, say, is_holonomic
@@ -392,7 +392,7 @@ class TurtlePorts:
         self._turtle.leave()
 
     def remove_topics(self) -> None:
-        """Remove topics without a subscriber; a later turtle of that name uses the other topics."""
+        """Remove topics without a subscriber; keep the others for a later turtle of this name."""
         for what in ("pose", "color_sensor", "cmd_vel"):
             topic = self._world.topics().get(self._prefix + what)
             if topic is not None and not topic.subscribers:
@@ -467,10 +467,10 @@ def requested_placement(request: Any) -> Placement:
 
 
 def require_byte(value: int, what: str) -> int:
-    """Return a colour channel's value if it is from 0 to 255; else raise an error about `what`.
+    """Return the value of a colour channel if valid; else raise an error that names `what`.
 
     Raises:
-        UsageError: If the number is not a whole number from 0 to 255.
+        UsageError: If the value is not a whole number from 0 to 255.
     """
     if not (isinstance(value, int) and 0 <= value <= 255):
         raise UsageError(f"{what} must be a whole number from 0 to 255, not {value!r}")

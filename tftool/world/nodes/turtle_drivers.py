@@ -34,11 +34,11 @@ class State(Enum):
 
 
 class DrawSquare(Node):
-    """Node that drives a turtle along squares: forward, stop, turn, stop, with one check per tick.
+    """Node that drives a turtle along squares: forward, stop, turn, stop, and so on.
 
     Attributes:
         state: Present state.
-        goal: Pose to reach next; None before the first pose.
+        goal: Pose to reach next; None before the turtle's first pose.
     """
 
     def __init__(
@@ -204,7 +204,7 @@ class IdleDrawing(Node):
             world: World to join.
             name: Name of the node.
             turtle: Name of the turtle that draws.
-            patience: Nanoseconds without commands before it draws.
+            patience: Nanoseconds without commands after which the turtle draws.
             is_alone: Function that returns whether no other process has joined.
         """
         super().__init__(world, name)
@@ -219,7 +219,7 @@ class IdleDrawing(Node):
         self._told = False
 
     async def run(self) -> None:
-        """Draw whenever the turtle was idle for long enough, until the end of the run."""
+        """Draw whenever the turtle had no command for `patience`, until the end of the run."""
         self._since = self.clock.now()
         self.publisher(f"{self.turtle}/cmd_vel", Twist)
         self.subscribe(f"{self.turtle}/cmd_vel", Twist, self._on_command)
@@ -235,7 +235,7 @@ class IdleDrawing(Node):
             self._send(self._steer(pose))
 
     def touch(self) -> None:
-        """Stop drawing because a person or process drives, and restart the wait."""
+        """Stop drawing because somebody else drives the turtle, and wait for `patience` again."""
         self._since = self.clock.now()
         if self.is_drawing:
             self.is_drawing = False
@@ -265,7 +265,7 @@ class IdleDrawing(Node):
             self.info(f"{self.turtle} draws by itself until a key is pressed.")
 
     def _steer(self, pose: Any) -> Any:
-        """Return the command that steers to a point of the rose slightly ahead."""
+        """Return the command that steers towards the point of the rose a little ahead."""
         for _ in range(_STEPS):
             if _away(pose, self._phase) >= _AHEAD:
                 break
@@ -317,14 +317,14 @@ class KeyPress:
 
 @dataclass(frozen=True, slots=True)
 class KeyMeaning:
-    """Meaning of a key.
+    """Command that a key of the teleop node stands for.
 
     Attributes:
         action: Kind of action: drive, turn to a heading, cancel the turn, or quit.
         linear: For `cmd_vel`: fraction of scale_linear, from -1 to 1.
         angular: For `cmd_vel`: fraction of scale_angular, from -1 to 1.
         theta: For `rotate`: heading in radians.
-        meaning: A word or two for a help line.
+        meaning: Short description for a help line.
     """
 
     action: Action
@@ -356,7 +356,7 @@ KEYS: Mapping[str, KeyMeaning] = MappingProxyType(
 
 
 class Teleop(Node):
-    """Node that converts keys to commands for a turtle; one press is one message.
+    """Node that converts pressed keys to commands for a turtle, one message per press.
 
     Keys come from `press` and from the topic `keys`. The turtle stops when the simulator receives
     no command for a while. The parameters scale_linear and scale_angular are read at every press.

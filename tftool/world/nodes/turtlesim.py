@@ -35,11 +35,11 @@ BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
 class Turtlesim(Node):
     """Turtle simulator with a tick every 16 ms.
 
-    Commands, requests and goals that arrive wait for the next tick; then every turtle is updated
-    once, in the order of the names. Topics of a turtle: `pose` is sent at every tick, `cmd_vel` is
-    received, `color_sensor` is sent at every tick while it has subscribers. Services: spawn, kill,
-    clear, reset, and for each turtle teleport_absolute, teleport_relative, set_pen. Action of each
-    turtle: rotate_absolute.
+    Commands, requests and goals wait for the next tick. At a tick, every turtle is updated once, in
+    the order of the names. A turtle publishes `pose` at every tick, publishes `color_sensor` while
+    this topic has subscribers, and subscribes to `cmd_vel`. Services: spawn, kill, clear, reset,
+    and for each turtle teleport_absolute, teleport_relative, set_pen. Action of each turtle:
+    rotate_absolute.
 
     Parameters: background_r, background_g, background_b (0 to 255), holonomic.
 
@@ -161,9 +161,9 @@ class Turtlesim(Node):
                 self._update(now)
 
     def close(self) -> None:
-        """Close the simulator's topics and services, and refuse requests that wait.
+        """Close the simulator's topics and services, and refuse unprocessed requests.
 
-        The turtles stay at their places, so that a screen can show the end.
+        The turtles stay where they are, so that a screen can show the end of the run.
         """
         for ports in self._ports.values():
             ports.close()
@@ -186,7 +186,7 @@ class Turtlesim(Node):
     # Turtles come and go
 
     def _spawn(self, place: Placement, name: str, now: Stamp) -> str:
-        """Create a turtle and return its name; "" if the name was refused."""
+        """Create a turtle; return its name, or "" if the name cannot be used."""
         if not name:
             name = self._next_name()
         elif name in self._turtles:
@@ -208,7 +208,7 @@ class Turtlesim(Node):
         return name
 
     def _refusal(self, name: str) -> str:
-        """Return the reason why a turtle with a name cannot be created; "" if it can."""
+        """Return the reason why no turtle can have this name; "" if the name is free and valid."""
         if len(self._turtles) >= MOST_TURTLES:
             return f"there are {MOST_TURTLES} already, kill one first"
         try:
