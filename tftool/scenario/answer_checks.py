@@ -1,8 +1,8 @@
-"""Checks of a scenario's answers: ranges, poses, exceptions, names.
+"""Checks of the answers to a scenario's questions: ranges, poses, exceptions, names.
 
-In `{distance: {…}, below: 0.5 m}`, `distance` is the question and `below` a key of the check. A
-`Form` reads such keys and makes the check. The check compares answers, and describes the expected
-and the found answer in words.
+In the expectation `{distance: {…}, below: 0.5 m}`, `distance` is the question and `below` a key of
+the check. A `Form` reads the keys of a check and creates the check. A check compares the answer
+with the expected answer, and describes both answers in words.
 """
 
 import math
@@ -42,14 +42,14 @@ def _meant(error: TransformException) -> str:
 
 
 class AnswerCheck(ABC):
-    """Base of checks of an answer; `str` of a check describes the expected answer."""
+    """Base of checks of an answer; the check as a string describes the expected answer."""
 
     @abstractmethod
     def judge(self, answer: Any) -> Judged:
         """Compare an answer with the expected answer."""
 
     def refused(self, error: TransformException) -> Judged:
-        """Return the result for a question whose answer failed with an exception."""
+        """Return the result of the check if a question has no answer because of `error`."""
         # Some of tf2's error texts end in ". ", others without it.
         hint = _meant(error)
         said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
@@ -65,7 +65,7 @@ Make: TypeAlias = Callable[[Mapping[str, Any], Reading, TextPlace], AnswerCheck]
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """Keys of one kind of check, such as `below` and `above`, and a function to make the check."""
+    """Keys of a kind of check, such as `below` and `above`, and a function to create the check."""
 
     fields: Mapping[str, Key]
     make: Make
@@ -118,9 +118,9 @@ class RangeCheck(AnswerCheck):
 
 
 def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float = NEAR) -> Form:
-    """Return the form that reads the keys below, above, between, is and tolerance.
+    """Return the form of a check of a number, with keys below, above, between, is, tolerance.
 
-    `default` is the check if none of these keys is given.
+    The check is `default` if a scenario gives none of these keys.
     """
     one = values.quantity(unit)
     fields = {
@@ -157,7 +157,15 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
 
 
 def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
-    """Return "; did you mean …" with the existing name nearest to each unknown name, or ""."""
+    """Return the question "; did you mean …" with the known names nearest to unknown names.
+
+    Args:
+        wanted: Names in the expectation.
+        known: Existing names.
+
+    Returns:
+        Text to append to a message; "" if every name is known, or no known name is near.
+    """
     found = [near_names(name, known) for name in wanted if name not in known]
     near = [f"'{names[0]}'" for names in found if names]
     return f"; did you mean {', '.join(near)}?" if near else ""
@@ -184,7 +192,7 @@ class FrameFacts:
 
 @dataclass(frozen=True, slots=True)
 class FrameCheck(AnswerCheck):
-    """Check of expected facts about a frame; facts that are None are not checked."""
+    """Check of a frame's expected facts; expected facts that are None are not checked."""
 
     name: str
     wanted: FrameFacts
@@ -293,7 +301,7 @@ class Tolerance:
     angle: float = NEAR
 
     def words(self, *, position: bool, angle: bool) -> str:
-        """Return the tolerance in brackets; "" if it only covers rounding."""
+        """Return the tolerance as text in brackets; "" for tolerances that only cover rounding."""
         parts = []
         if position and self.position != NEAR:
             parts.append(f"{self.position:g} m")
@@ -333,7 +341,7 @@ _REFUSALS = tuple(
 
 @dataclass(frozen=True, slots=True)
 class RefusalCheck(AnswerCheck):
-    """Check that a lookup fails with an exception of a class or its subclasses."""
+    """Check that a lookup fails with an exception of the class `raises` or of its subclasses."""
 
     raises: str
     says: str | None
@@ -358,7 +366,7 @@ _ANGLES = ("theta", "angular")
 
 @dataclass(frozen=True, slots=True)
 class PoseCheck(AnswerCheck):
-    """Check of parts of a pose, such as x or yaw, by name; the other parts are not checked."""
+    """Check of the given parts of a pose, such as x or yaw; parts not given are not checked."""
 
     wanted: Mapping[str, float]
     tolerance: Tolerance
@@ -411,7 +419,11 @@ _POSE_PARTS = {
 
 
 def _value(node: Node, reading: Reading) -> tuple[TextPlace, Mapping[str, Any]]:
-    """Read the parts of an expected pose; return their position in the file, and the parts."""
+    """Read the expected parts of a pose, such as x and yaw.
+
+    Returns:
+        Position of the parts in the file; values of the parts, by name.
+    """
     return node.place, reading.record(node, _POSE_PARTS, "a value")
 
 
@@ -446,7 +458,7 @@ POSE_FORM = Form(
 def _rotation(
     parts: Mapping[str, Any], reading: Reading, place: TextPlace
 ) -> tuple[Quaternion | None, str]:
-    """Return the rotation of an expected pose and its text; missing angles are 0."""
+    """Return the rotation of an expected pose, and its text; (None, "") without a rotation."""
     angles = {key: parts[key] for key in ("roll", "pitch", "yaw") if parts[key] is not None}
     given = parts["rotation"]
     if given is not None:
@@ -467,7 +479,7 @@ def _rotation(
 
 
 class TurtlePoseCheck(PoseCheck):
-    """Check of parts of a turtle's published pose; the other parts are not checked."""
+    """Check of the given parts of a turtle's published pose, such as x or theta."""
 
     __slots__ = ()
 

@@ -39,7 +39,7 @@ def names() -> list[str]:
 
 
 def abouts() -> list[tuple[str, str]]:
-    """Return name and description of every built-in scenario."""
+    """Return (name, description) of every built-in scenario."""
     from tftool.scenario.load import load
 
     return [(path.stem, load(path, {}).about) for path in sorted(folder().glob("*.yaml"))]
@@ -54,7 +54,7 @@ def path_of(name: str) -> Path | None:
 
 
 def is_shipped(path: Path) -> bool:
-    """Return whether a file is a built-in scenario, whose expectations are known to be right."""
+    """Return whether a file is a built-in scenario, whose expectations are tested by tftool."""
     return path.parent == folder()
 
 

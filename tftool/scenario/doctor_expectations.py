@@ -1,6 +1,6 @@
-"""Expectations about the doctor's findings, in a scenario or in a file beside a recording.
+"""Rules for the doctor (the checks of transforms), in a scenario or in a file beside a recording.
 
-The doctor, and with it numpy, is imported only if an expectation needs it, which is rare.
+The doctor and numpy are imported only if an expectation needs the doctor.
 """
 
 from collections.abc import Mapping
@@ -34,7 +34,7 @@ class DoctorRules:
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def settings(self, given: "Settings") -> "Settings":
-        """Return a command's settings for the doctor, with the thresholds of these rules added."""
+        """Return a command's settings for the doctor, completed by these rules' thresholds."""
         from tftool.doctor.model import Settings
 
         limits = {name: dict(of) for name, of in self.limits.items()}
@@ -93,7 +93,7 @@ def rules(node: Node, reading: Reading) -> DoctorRules:
 
 
 def rules_beside(path: str | Path) -> tuple[DoctorRules, Path | None]:
-    """Return the rules in a file such as `run.doctor.yaml` beside `run.mcap`, and its path.
+    """Return the rules beside a recording (`run.doctor.yaml` beside `run.mcap`), and their file.
 
     Raises:
         InputError: If the file cannot be read; a `ScenarioError` lists every mistake in it.

@@ -1,7 +1,8 @@
-"""YAML text as a small tree whose values have their positions in the text.
+"""Tree of a YAML text's values, each with its position in the text.
 
-Only YAML's syntax is used: its event stream. The reader of a value decides later what a plain word
-means, so that `no` can be a frame and `1e-3` a number, and no tag can construct an object.
+Only the syntax of YAML is used (the event stream of the parser), not YAML's types. The reader of a
+value decides later on the type, so that `no` can be the name of a frame and `1e-3` a number. Tags
+cannot construct objects.
 """
 
 from collections.abc import Iterator
@@ -38,7 +39,7 @@ class TextPlace:
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """Single value as written in the text; `plain` if it has no quotes."""
+    """Single value as written in the text; `plain` is whether the text has no quotes."""
 
     place: TextPlace
     text: str
@@ -46,7 +47,7 @@ class Scalar:
 
     @property
     def is_nothing(self) -> bool:
-        """Whether the value is empty, `~` or `null`."""
+        """Whether the value is empty, or one of the words for null, `~` and `null`."""
         return self.plain and self.text in {"", "~", "null"}
 
 
@@ -70,14 +71,14 @@ Node = Scalar | Mapping | Sequence
 
 
 class Document:
-    """YAML text with a name and its lines.
+    """YAML text to parse, with its name for messages.
 
     Args:
         text: The whole text.
         name: Name of the text in messages, usually its path.
 
     Attributes:
-        mistakes: Mistakes that did not stop the reading.
+        mistakes: Mistakes found so far, after which the reading continued.
     """
 
     def __init__(self, text: str, name: str) -> None:
@@ -89,7 +90,7 @@ class Document:
         self._lines = unified.replace("\u2028", "\n").replace("\u2029", "\n").split("\n")
 
     def mistake(self, place: TextPlace, text: str) -> Mistake:
-        """Return a mistake at a position, with its line and a caret below it."""
+        """Return a mistake that shows the line of a position, with a caret below the position."""
         return Mistake.at(self.name, self._lines, place.line, place.column, text, width=place.width)
 
     def read(self) -> Node:
@@ -125,7 +126,7 @@ class Document:
         return root
 
     def refuse(self, place: TextPlace, text: str, cause: Exception | None = None) -> NoReturn:
-        """Raise an error with all mistakes so far, and with a last mistake at a position."""
+        """Raise a ScenarioError with all mistakes so far, and with `text` as last mistake."""
         raise ScenarioError(self.name, [*self.mistakes, self.mistake(place, text)]) from cause
 
 

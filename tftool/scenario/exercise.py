@@ -1,7 +1,8 @@
-"""Users' programs that run in a scenario and are judged by its expectations.
+"""Users' programs that run in a scenario, and are judged by the scenario's expectations.
 
-A scenario itself never names code to run; only the caller does. A program replaces one node of the
-scenario, under that node's name, or is added to the nodes. A launch file replaces all nodes.
+A scenario file never names code to run; only the caller names programs. A program replaces one node
+of the scenario, under the name of that node, or runs in addition to the nodes. A launch file
+replaces all nodes.
 """
 
 import sys
@@ -28,8 +29,9 @@ class Entrant:
     """User's program to run in a scenario.
 
     Attributes:
-        words: Words after `tftool run`: a file, or a package and its executable, then arguments.
-        node: Name of the scenario's node that the program replaces; empty if the program is added.
+        words: Words as after `tftool run`: a file, or a package and its executable; then arguments.
+        node: Name of the scenario's node that the program replaces; "" if the program runs in
+            addition to the nodes.
     """
 
     words: tuple[str, ...]
@@ -53,9 +55,9 @@ class Exercise:
     tell: Callable[[LogRecord], object] = lambda record: None
 
     def judge(self, scenario: Scenario, *, watch: Watch = nullcontext) -> Verdict:
-        """Play a scenario with the programs on simulated time to its end, and judge it.
+        """Play a scenario with the programs on simulated time; return whether expectations held.
 
-        The failure of a program becomes part of the verdict; the other programs go on.
+        If a program fails, the verdict reports the failure, and the other programs continue.
 
         Args:
             scenario: Scenario to play.

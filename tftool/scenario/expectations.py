@@ -25,7 +25,7 @@ def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
 
 
 class Expectations(Node):
-    """Node that judges every expectation at its time, after everything else of that instant.
+    """Node that judges every expectation at its time, after all other nodes of that instant.
 
     Attributes:
         outcomes: Outcome of each expectation; None for an expectation not judged yet.
@@ -36,7 +36,7 @@ class Expectations(Node):
     def __init__(
         self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
     ) -> None:
-        """Add the node to a world; it ignores log messages and transforms of earlier times."""
+        """Add the node to a world; log messages and transforms before this call are ignored."""
         super().__init__(world, "expectations")
         self.expected = tuple(expected)
         self.outcomes: list[Outcome | None] = [None] * len(self.expected)
@@ -50,7 +50,7 @@ class Expectations(Node):
         self._stops.append(world.log.listen(self._scene.count, self.name))
 
     def judged(self) -> tuple[Outcome, ...]:
-        """Return the outcome of each expectation, "not reached" if it was not judged yet."""
+        """Return the outcome of each expectation; expectations not yet judged are "not reached"."""
         pairs = zip(self.expected, self.outcomes, strict=True)
         return tuple(
             outcome or expected.outcome("not reached", None, False) for expected, outcome in pairs

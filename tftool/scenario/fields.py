@@ -1,8 +1,8 @@
-"""Readers of a YAML document by its expected structure; all mistakes are reported together.
+"""Readers that convert a YAML document of a known structure; mistakes are reported together.
 
-A reader is a function from a node to a value. A reader that cannot read the value records the
-mistake and raises `Unreadable`. A reader of several values catches this exception and continues
-with the next value, so that one pass finds all mistakes. `units` has readers of single values.
+A reader is a function that converts a node of the YAML tree to a value. A reader that finds a
+mistake records the mistake and raises `Unreadable`. A reader of several values catches this
+exception and continues with the next value, so that one pass finds all mistakes.
 """
 
 import re
@@ -29,12 +29,12 @@ _ARGUMENT = re.compile(r"\$(?:\$|\{(\w+)\}|(\w+))")
 
 
 class Unreadable(Exception):
-    """Exception for a value that could not be read; the mistake is recorded already."""
+    """Exception for a value that could not be read, after its mistake was recorded."""
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Reader of the value of one key, and the default if the key is missing."""
+    """Reader of a key's value, and the default value if the key is missing."""
 
     read: Reader
     default: Any = REQUIRED
@@ -62,7 +62,7 @@ class Reading:
         return Unreadable()
 
     def try_read(self, read: Reader, node: Node) -> Any:
-        """Read a value; return `UNREAD` if that fails."""
+        """Read a value; return `UNREAD` if the value has a mistake."""
         try:
             return read(node, self)
         except Unreadable:
@@ -76,7 +76,7 @@ class Reading:
         return found
 
     def part(self, node: Node, text: str) -> Scalar:
-        """Return a part of a value as a node; mistakes in the part point at the whole value."""
+        """Return a part of a value's text as a node, with the position of the whole value."""
         return Scalar(node.place, text.replace("$", "$$"))
 
     def text(self, node: Node, wanted: str) -> str:
@@ -133,7 +133,7 @@ class Reading:
         return node.items
 
     def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
-        """Read a mapping with known keys; return a value for each, which may be its default.
+        """Read a mapping with known keys; return each key's value, or its default if it is missing.
 
         Args:
             node: The mapping.
@@ -150,7 +150,7 @@ class Reading:
         known: Mapping[str, Key],
         what: str,
     ) -> dict[str, Any]:
-        """Read entries of a mapping by the readers of the known keys, as `record` does."""
+        """Read a mapping's entries with the readers of the known keys, as `record` does."""
         whole = True
         meant = set()
         for name, (key, _) in entries.items():
@@ -192,16 +192,17 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
         read: Reader of the value.
         default: Default value; without a default, the key is required.
         key: Key in the scenario, if it is not a valid name in Python.
-        beside: Whether the key is next to the key that names the class, not inside its value.
+        beside: Whether the field is written next to the key of the class, not inside that key's
+            value.
     """
     return DeclaredField(read, default[0] if default else REQUIRED, key, beside)
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(reads,))
 class Declared:
-    """Base of frozen classes whose fields are read from a scenario; equal if all fields are equal.
+    """Base of classes with immutable fields read from a scenario, compared by these fields.
 
-    This base replaces dataclasses, whose generated code took a sixth of the start-up time.
+    The base replaces dataclasses, because generating their code took a sixth of the start-up time.
     """
 
     declared: ClassVar[Mapping[str, DeclaredField]] = {}
@@ -251,7 +252,7 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
 
 
 def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
-    """Return the keys that a class reads, and whether each is next to the class's own key."""
+    """Return the keys that a class reads, each with (reader, whether beside the class's key)."""
     return {
         one.key or name: (Key(one.read, one.default), one.beside)
         for name, one in kind.declared.items()
@@ -259,12 +260,21 @@ def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
 
 
 def attribute_names(kind: type[Declared]) -> dict[str, str]:
-    """Return the name of the attribute for each key that a class reads."""
+    """Return the name of a class's attribute for each key that the class reads."""
     return {one.key or name: name for name, one in kind.declared.items()}
 
 
 def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
-    """Return the end of a sentence about an unknown word: the nearest known word, or all."""
+    """Return the end of a message about an unknown word: a known word that is near, or all words.
+
+    Args:
+        word: Unknown word.
+        known: Words that would be right.
+        always: Whether to list all known words if no known word is near.
+
+    Returns:
+        Text that begins with "; "; "" if no known word is near and `always` is false.
+    """
     choices = list(known)
     meant = did_you_mean(word, choices)
     if meant or not always:
@@ -291,18 +301,18 @@ def tagged(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> tuple[str, Any, dict[str, Any]]:
-    """Read a mapping in which one key names a class, and further keys may follow.
+    """Read a mapping in which one key names a class, and other keys are beside this key.
 
     Args:
         node: The mapping.
         reading: Pass over the document.
-        what: Noun for messages, with its article.
+        what: Noun for messages, with its article, such as "an expectation".
         kinds: Class for each key that names a class.
         common: Keys allowed next to the key of any class.
-        beside: Further keys allowed next to the key of one class, by that key.
+        beside: Further keys allowed next to the key of one class, by the key of the class.
 
     Returns:
-        The key, the object of its class, and the values of the keys next to it.
+        The key of the class, an object of the class, and the values of the other keys.
     """
     entries = reading.entries(node, f"{listed(common)} and what it is about")
     tag = _tag(node, reading, what, kinds, common, beside)
@@ -340,7 +350,7 @@ def _tag(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> str:
-    """Return a mapping's one key that names a class; record a mistake if none or several do."""
+    """Return the key that names a class; record a mistake unless there is exactly one such key."""
     entries = reading.entries(node, "")
     tags = [key for key in entries if key in kinds]
     if len(tags) == 1:
@@ -367,7 +377,10 @@ def _tag(
 
 
 def _entries_of(kind: type, key: Scalar) -> Reader:
-    """Return a reader of the value of a class's key: a mapping, or the value for `short` alone."""
+    """Return a reader of the value of a class's key, which returns the fields in that value.
+
+    The value is a mapping, or a single value for the class's field `short`.
+    """
     short = getattr(kind, "short", None)
 
     def read(value: Node, reading: Reading) -> dict[str, tuple[Scalar, Node]]:

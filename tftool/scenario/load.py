@@ -1,7 +1,7 @@
-"""Reading of a scenario from YAML, with the position of every mistake in it.
+"""Reader of scenarios in YAML, which reports the position of every mistake.
 
 The tables `node_kinds.KINDS`, `script.ACTIONS` and `questions.SUBJECTS` define the kinds of nodes,
-actions and questions. This module names none of them.
+actions and questions. This module depends on no single kind of node, action or question.
 """
 
 import re
@@ -58,8 +58,8 @@ def load(
     Args:
         path: Path of the file.
         arguments: Values of arguments that the scenario declares.
-        expects: Whether expectations are judged. The expectations of a user's file are always read;
-            expectations of a built-in scenario are skipped if they are not judged.
+        expects: Whether to read expectations. If false, only a built-in scenario's expectations are
+            skipped; a user's file is always read completely, to find its mistakes.
 
     Raises:
         InputError: If the file cannot be read; a `ScenarioError` lists every mistake in it.
@@ -92,14 +92,14 @@ def parse(
 
 
 class _ScenarioReader:
-    """Reader of a scenario in one pass, which checks later parts against earlier parts.
+    """Reader of a scenario in one pass; actions, for example, are checked against earlier nodes.
 
     Attributes:
         given: Arguments from the command line.
         expects: Whether expectations are read.
         duration: Duration of the scenario; None until it is read.
         names: Names of the scenario's nodes; None until all nodes are read.
-        looks: Total number of times at which the expectations read so far are judged.
+        looks: Number of judgements in the run, for the expectations read so far.
         not_a_tree: Positions of nodes whose edges contradict each other (two parents, or a loop).
     """
 
@@ -112,7 +112,7 @@ class _ScenarioReader:
         self.not_a_tree: list[Mistake] = []
 
     def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
-        """Read the whole scenario, in the order that the checks need."""
+        """Read the whole scenario; parts that other parts are checked against are read first."""
         known = {
             "about": Key(values.text, ""),
             "arguments": Key(self.arguments, NO_ARGUMENTS),
@@ -174,7 +174,7 @@ class _ScenarioReader:
         return MappingProxyType(reading.arguments)
 
     def check_given(self, declared: Mapping[str, str], reading: Reading) -> None:
-        """Raise an error for given arguments that the scenario does not declare."""
+        """Raise UsageError if the user gives an argument that the scenario does not declare."""
         for name in self.given:
             if name not in declared:
                 have = f"; it has {listed(declared)}" if declared else "; it has none"
@@ -202,7 +202,7 @@ class _ScenarioReader:
     # Nodes.
 
     def nodes(self, node: Node, reading: Reading) -> tuple[NodeEntry, ...]:
-        """Read the nodes, and give each a unique name."""
+        """Read the scenario's nodes, and give each node a unique name."""
         items = [self.node(item, reading) for item in reading.items(node, "one node an item")]
         counts = Counter(kind for kind, _, _ in items)
         numbers: Counter[str] = Counter()
@@ -239,7 +239,7 @@ class _ScenarioReader:
     def against_a_tree(
         self, places: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
     ) -> None:
-        """Record nodes whose edges contradict each other: two parents of a frame, or a loop."""
+        """Record a mistake for each edge that gives a frame a second parent, or closes a loop."""
         parents: dict[str, tuple[str, int]] = {}
         for item, (kind, _, parameters) in zip(places, items, strict=True):
             link = None if parameters is UNREAD else link_of(kind, parameters)
@@ -266,7 +266,7 @@ class _ScenarioReader:
             self.not_a_tree.append(reading.source.mistake(item.place, text))
 
     def node(self, item: Node, reading: Reading) -> tuple[str, str, Any]:
-        """Split a node into its kind ("" if unknown), its name if given, and its parameters."""
+        """Return a node's kind, name and parameters; "" for an unknown kind or no name."""
         if isinstance(item, Scalar) and not item.is_nothing:
             # Just the kind: `- turtlesim`.
             entries: Mapping[str, tuple[Scalar, Node]] = {item.text: (item, Scalar(item.place, ""))}
@@ -307,7 +307,7 @@ class _ScenarioReader:
 
     @staticmethod
     def name_of(value: Node) -> str:
-        """Return the name given to a node, even if the node has mistakes."""
+        """Return the name in a node's mapping, even if other keys are wrong; "" without a name."""
         for key, entry in value.entries if isinstance(value, document.Mapping) else ():
             if key.text == "name" and isinstance(entry, Scalar):
                 return entry.text

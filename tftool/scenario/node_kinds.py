@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 def robot_file(node: document.Node, reading: Reading) -> "Robot":
-    """Read the path of a robot description, and load it; xacro is refused, since it runs code."""
+    """Load the robot description at a path; xacro files are rejected, because xacro runs code."""
     # Imported here: it imports numpy, which other scenarios do not need.
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import load_description
@@ -68,7 +68,7 @@ def joint_recording(node: document.Node, reading: Reading) -> tuple[Any, ...]:
 
 
 def joint_positions(node: document.Node, reading: Reading) -> dict[str, float]:
-    """Read positions by joint, radians or metres, or with units: `30 deg`, `5 cm`."""
+    """Read positions of joints by name: radians or metres, or text with a unit such as `30 deg`."""
     found = {
         name: reading.try_read(_position, value)
         for name, (_, value) in reading.entries(node, "joint: position").items()
@@ -115,8 +115,8 @@ class NodeKind:
 
         Args:
             make: Class of the node, or a function that creates it.
-            usual: Names of those parameters whose readers are in `USUAL`, separated by blanks.
-            required: Parameters that a scenario must set, although the class has a default.
+            usual: Names of parameters with a common reader in `USUAL`, separated by blanks.
+            required: Parameters that a scenario must set, even if the class has a default.
             readers: Readers of further parameters, by name.
         """
         self.make = make
@@ -158,7 +158,7 @@ def _triple(x: float, y: float, last: str, last_value: float) -> Reader:
 
 
 def _gains(node: document.Node, reading: Reading) -> Gains:
-    """Read a controller's gains: {kp, ki, kd, integral_limit, output_limit}, or kp alone."""
+    """Read a controller's gains: a mapping with kp, ki, kd and limits, or the number kp."""
     if isinstance(node, document.Scalar):
         return Gains(values.number(node, reading))
     limit = values.or_none(values.positive)
@@ -201,7 +201,7 @@ def _static(
     pitch: float = 0.0,
     yaw: float = 0.0,
 ) -> StaticBroadcaster:
-    """Return a static broadcaster of one transform."""
+    """Create a static broadcaster of one transform: metres, and radians about fixed axes."""
     pose = Transform((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
     stamped = TransformStamped(world.clock.now(), parent, child, pose)
     return StaticBroadcaster(world, name, transforms=[stamped])
@@ -292,7 +292,7 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
 def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
     """Return parent and child of the single edge that a node with these parameters publishes.
 
-    Return None if the node publishes no edge, or edges that its parameters do not name.
+    Return None if the node publishes no edge, or if its parameters do not name the edge.
     """
     if kind in {"broadcaster", "message_broadcaster"}:
         parent, child = parameters["frame_id"], parameters["turtle"]

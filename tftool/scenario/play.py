@@ -1,4 +1,4 @@
-"""Run of a scenario: create its world, run the world on a clock, and judge the expectations."""
+"""Run of a scenario: the world is created, run on a clock, and judged by the expectations."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -44,8 +44,8 @@ class Play:
     Attributes:
         scenario: Scenario that is played.
         world: World with the scenario's nodes.
-        start: Time at which the run began; times in the scenario count from it.
-        failure: Reason why the run ended early; "" if it did not.
+        start: Time at which the run began, nanoseconds; the scenario's times count from this time.
+        failure: Reason why the run ended early; "" for a complete run.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class Play:
         Args:
             scenario: Scenario to play.
             clock: Clock of the world.
-            stand_ins: Functions that start the replacement of a node, by the node's name.
+            stand_ins: Functions that create a program in place of a node, by the node's name.
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)
@@ -91,7 +91,7 @@ class Play:
 
         Args:
             until: Last time, nanoseconds; None for the end of the scenario's duration.
-            endless: Whether to go on until the world is stopped, whatever the duration.
+            endless: Whether to continue after the scenario's duration, until the world is stopped.
 
         Raises:
             NodeFailed: If a node raised an exception.
@@ -105,7 +105,7 @@ class Play:
             raise
 
     def verdict(self) -> Verdict:
-        """Return the verdict so far; expectations not yet judged are marked "not reached"."""
+        """Return the verdict so far; expectations that are not judged yet are "not reached"."""
         steps = () if self._script is None else tuple(self._script.outcomes)
         judged = () if self._expectations is None else self._expectations.judged()
         return Verdict(
@@ -118,9 +118,9 @@ class Play:
 
 
 def left_to_a_person(scenario: Scenario) -> Scenario:
-    """Return a scenario for a person at the keyboard: without its keys, drives and expectations.
+    """Return a scenario for a person to play: without expectations and drive commands.
 
-    All other actions stay in the script.
+    Key presses and `drive` actions are removed from the script; all other actions stay.
     """
     script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
     return replace(scenario, script=script, expect=())
@@ -150,9 +150,9 @@ def build(
 def run_scenario(
     scenario: Scenario, arguments: Mapping[str, str] = NO_ARGUMENTS, *, watch: Watch = nullcontext
 ) -> Verdict:
-    """Play a scenario on simulated time to its end, and judge it.
+    """Play a scenario on simulated time to its end; return the verdict on its expectations.
 
-    The failure of a node ends the run, and becomes part of the verdict.
+    If a node fails, the run ends, and the verdict reports the failure.
 
     Args:
         scenario: Scenario to play.
@@ -182,15 +182,16 @@ def played(
 
     Args:
         found: File of the scenario.
-        until: Last time: a duration, infinity for the whole scenario, or a time inside it;
-            `USUAL` if None.
-        margin: Nanoseconds to play on after the last time, for transforms that arrive late.
-        cache_time: Cache time of the buffers, in place of the scenario's own; unlimited if None.
+        until: Last time: a duration in nanoseconds, infinity for the whole scenario, or a time in
+            the scenario; None for `USUAL`.
+        margin: Nanoseconds to continue after the last time, because transforms may arrive late.
+        cache_time: Cache time of the buffers, nanoseconds, in place of the scenario's cache time;
+            None for no limit.
         watch: Function called with the world before the run.
 
     Raises:
         NodeFailed: If a node raised an exception.
-        UsageError: If the time is outside the scenario.
+        UsageError: If the time `until` is outside the scenario.
     """
     scenario = replace(load(found.paths[0], expects=False), expect=())
     if cache_time is not None:

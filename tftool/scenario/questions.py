@@ -1,8 +1,8 @@
 """Questions of a scenario's expectations, such as a distance, and the code that answers them.
 
-Each field of a question's class names the reader of the field's value; `answer` computes the
-answer. `declare` registers the class in `SUBJECTS`, with its key in a scenario and the form of the
-expected answer.
+Each class is one kind of question. Its fields name the readers of their values; the method `answer`
+computes the answer. The decorator `declare` registers the class in `SUBJECTS`, with its key in a
+scenario and the form of the expected answer.
 """
 
 import math
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 
 class ScenarioWorld:
-    """World of a scenario, in the form that questions use.
+    """World of a scenario with the methods that questions need.
 
     Attributes:
         world: World of the scenario.
@@ -69,7 +69,7 @@ class ScenarioWorld:
         return self.world.clock.now()
 
     def lookup(self, target: str, source: str, time: RelativeMoment) -> Transform:
-        """Return the pose of source in target at a time of the scenario."""
+        """Return the pose of frame `source` in frame `target` at a time of the scenario."""
         stamp = time.stamp(self.start, self.now)
         return self.world.buffer.lookup_transform(target, source, stamp).transform
 
@@ -101,11 +101,11 @@ SUBJECTS: Final[dict[str, type["Subject"]]] = {}
 
 
 class Subject(Declared):
-    """Base of questions about a scenario at one time.
+    """Base of questions about a scenario, each answered at one time.
 
     Attributes:
-        key: Key in a scenario.
-        form: Form of the expected answer.
+        key: Key of the question in a scenario, such as "distance".
+        form: Form that reads the expected answer.
     """
 
     key: ClassVar[str]
@@ -121,13 +121,13 @@ class Subject(Declared):
 
     @property
     def problem(self) -> str:
-        """Text on a contradiction between the question's fields; "" if there is none."""
+        """Text about fields that contradict each other; "" without a contradiction."""
         return ""
 
 
 @declare(SUBJECTS, "lookup", form=POSE_FORM)
 class Lookup(Subject):
-    """Question for the pose of `source` in `target` at one or two times; two need a fixed frame."""
+    """Question for the pose of a frame in another frame, at one time or (through `fixed`) two."""
 
     target: str = reads(values.frame)
     source: str = reads(values.frame)
@@ -138,7 +138,7 @@ class Lookup(Subject):
 
     @property
     def problem(self) -> str:
-        """Text on a contradiction between the question's fields; "" if there is none."""
+        """Text about fields that contradict each other; "" without a contradiction."""
         if self.fixed is None and (self.target_time or self.source_time):
             return "two times need a fixed frame to go through: 'fixed'"
         if self.fixed is not None and self.time is not None:
@@ -165,7 +165,7 @@ class Lookup(Subject):
 
     @property
     def words(self) -> tuple[str, str, str]:
-        """Texts for a sentence: the target, the source, and the time or fixed frame."""
+        """Parts of a sentence about the lookup: the target, the source, and the times."""
         if self.fixed is None:
             return self.target, self.source, "" if self.time is None else f" ({self.time})"
         latest = RelativeMoment()
@@ -177,7 +177,7 @@ class Lookup(Subject):
 
 
 class Between(Subject):
-    """Base of questions about one frame relative to another; its times are those of `Lookup`."""
+    """Base of questions about frame `end` relative to frame `start`, with the times of `Lookup`."""
 
     start: str = reads(values.frame, key="from")
     end: str = reads(values.frame, key="to")
@@ -188,12 +188,12 @@ class Between(Subject):
 
     @property
     def problem(self) -> str:
-        """Text on a contradiction between the question's fields; "" if there is none."""
+        """Text about fields that contradict each other; "" without a contradiction."""
         return self.lookup.problem
 
     @property
     def lookup(self) -> Lookup:
-        """Lookup of the pose between the two frames."""
+        """Lookup of the pose of frame `end` in frame `start`."""
         return Lookup(
             target=self.start,
             source=self.end,
@@ -206,10 +206,10 @@ class Between(Subject):
 
 @declare(SUBJECTS, "distance", form=range_form(LENGTH))
 class Distance(Between):
-    """Question for the distance between two frames' origins."""
+    """Question for the distance between the origins of two frames."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the distance between the two frames' origins in metres."""
+        """Return the distance between the origins of `start` and `end`, in metres."""
         return math.hypot(*self.lookup.answer(scene).translation)
 
     def __str__(self) -> str:
@@ -219,10 +219,10 @@ class Distance(Between):
 
 @declare(SUBJECTS, "bearing", form=range_form(ANGLE))
 class Bearing(Between):
-    """Question for the direction of a frame seen from another frame."""
+    """Question for the direction in which frame `start` sees the origin of frame `end`."""
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the direction in radians, counter-clockwise from straight ahead."""
+        """Return the direction in radians from the x axis of `start`, counter-clockwise."""
         return rigid.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:
@@ -232,7 +232,7 @@ class Bearing(Between):
 
 @declare(SUBJECTS, "point", form=POSE_FORM)
 class PointOf(Subject):
-    """Question for the position, in one frame, of a point that is fixed in another frame."""
+    """Question for the position in frame `target` of a point that is fixed in frame `frame`."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -242,7 +242,7 @@ class PointOf(Subject):
     time: RelativeMoment = reads(values.moment, RelativeMoment())
 
     def answer(self, scene: ScenarioWorld) -> Transform:
-        """Return the position as a pose without rotation."""
+        """Return the position as a pose with identity rotation."""
         target_from_frame = scene.lookup(self.target, self.frame, self.time)
         return Transform(target_from_frame.apply((self.x, self.y, self.z)))
 
@@ -251,7 +251,7 @@ class PointOf(Subject):
 
 
 class Motion(Subject):
-    """Base of questions about one frame's motion in another frame, averaged over a duration."""
+    """Base of questions about a frame's motion in a frame `target`, averaged over a duration."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -266,7 +266,7 @@ class Motion(Subject):
 
 @declare(SUBJECTS, "speed", form=range_form(SPEED))
 class SpeedOf(Motion):
-    """Question for the speed of a frame's origin."""
+    """Question for the speed of the origin of one frame in another frame."""
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the speed in m/s."""
@@ -278,7 +278,7 @@ class SpeedOf(Motion):
 
 @declare(SUBJECTS, "turn_rate", form=range_form(TURN_RATE))
 class TurnRateOf(Motion):
-    """Question for a frame's turn rate about the z axis, counter-clockwise."""
+    """Question for the turn rate of a frame about the z axis, counter-clockwise."""
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the turn rate in rad/s."""
@@ -328,12 +328,12 @@ class AgeOf(OfFrame):
     measure=lambda info: as_seconds(info.buffer_length),
 )
 class MemoryOf(OfFrame):
-    """Question for the duration of a frame's history: newest minus oldest sample."""
+    """Question for the duration of a frame's history, from the oldest to the newest sample."""
 
 
 @declare(SUBJECTS, "frame", form=FRAME_FORM, short="name")
 class FrameOf(Subject):
-    """Question for facts about a frame: whether it exists, its parent, its publisher."""
+    """Question for the facts about a frame: its existence, parent and publisher."""
 
     name: str = reads(values.frame)
 
@@ -417,18 +417,18 @@ class PoseOf(Subject):
     short="text",
 )
 class Logged(Subject):
-    """Question for the number of log messages that contain a text."""
+    """Question for the number of log messages with a text, optionally of one node or level."""
 
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)
     level: str | None = reads(values.choice(LEVELS, "a level"), None)
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Return the number of log messages."""
+        """Return the number of matching log messages."""
         return scene.lines.get(self, 0)
 
     def counts(self, record: LogRecord) -> bool:
-        """Return whether a log message is counted."""
+        """Return whether a log message matches the text, node and level of this question."""
         return (
             self.text in record.text
             and self.node in (None, record.node)

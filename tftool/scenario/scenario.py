@@ -21,8 +21,8 @@ class NodeEntry:
 
     Attributes:
         kind: Kind, a key of `node_kinds.KINDS`.
-        name: Name in the file; if the file gives no name, the kind, with a number if several nodes
-            have that kind.
+        name: Name of the node: as in the file, else the kind, with a number if several nodes have
+            that kind.
         parameters: Values of all parameters of the node's kind.
     """
 
@@ -55,7 +55,8 @@ class When:
     """Times at which an expectation is judged, in nanoseconds since the start.
 
     Attributes:
-        kind: "at" one time; "by" a time, before which it must hold once; or "during" a period.
+        kind: "at": true at one time; "by": true at some time until `last`; "during": true at all
+            times from `first` to `last`.
         first: First time of judging.
         last: Last time of judging.
         every: Interval between the times of judging.
@@ -74,7 +75,7 @@ class When:
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """Condition that must hold at some times.
+    """Expected answer to a question at one or several times.
 
     Attributes:
         when: Times at which the expectation is judged.
@@ -92,7 +93,7 @@ class Expectation:
         return f"{self.when}: {self.question} {self.check}"
 
     def outcome(self, found: str, at: Duration | None, ok: bool) -> "Outcome":
-        """Return the outcome of judging the expectation."""
+        """Return the outcome of this expectation: text of the answer found, time, and success."""
         return Outcome(
             str(self.question), self.line, str(self.when), str(self.check), found, at, ok
         )
@@ -106,7 +107,7 @@ class Scenario:
         name: Name of the file, without its suffix.
         file: Path of the file, as given.
         about: Description in words.
-        arguments: Arguments that can be set from outside, with their values.
+        arguments: Arguments that the caller can set, with their values.
         duration: Duration on simulated time, nanoseconds.
         cache_time: Cache time of the buffer, nanoseconds.
         nodes: Nodes to start, in order.
@@ -146,7 +147,8 @@ class Outcome:
         when: Time condition of the expectation, such as "by 20 s".
         expected: Description of a right answer, such as "below 0.5 m".
         found: The answer, or the error, in words.
-        at: Time of the judgement, nanoseconds since the start; None if it was never judged.
+        at: Time of the judgement, nanoseconds since the start; None for an expectation never
+            judged.
         ok: Whether the expectation is met.
     """
 
@@ -164,7 +166,7 @@ class Outcome:
         return self.at is not None
 
     def judgement(self) -> Judgement:
-        """Return the outcome in the form for tables and test reports."""
+        """Return the outcome as a judgement for tables and test reports."""
         return Judgement(
             subject=f"{self.when}: {self.expectation} {self.expected}",
             ok=self.ok,
@@ -181,12 +183,12 @@ class Verdict:
 
     Attributes:
         scenario: Name of the scenario.
-        file: Path of its file, as given.
+        file: Path of the scenario's file, as given.
         outcomes: One outcome for each step that failed or was expected to fail, in order of time;
             then one for each expectation, in the order of the file.
-        lasted: Duration of the run, nanoseconds on its clock.
-        failure: Reason why the run ended early; empty if it did not.
-        warnings: Sentences about mistakes in programs that only show in real time.
+        lasted: Duration of the run on the run's clock, nanoseconds.
+        failure: Reason why the run ended early; "" for a complete run.
+        warnings: Sentences about mistakes in users' programs that have no effect on simulated time.
     """
 
     scenario: str
@@ -202,7 +204,7 @@ class Verdict:
         return not self.failure and all(one.ok for one in self.outcomes if one.reached)
 
     def report(self) -> Report:
-        """Return the verdict in the form for tables and test reports."""
+        """Return the verdict as a report for tables and test reports."""
         judgements = tuple(outcome.judgement() for outcome in self.outcomes)
         lasted = as_seconds(self.lasted)
         return Report(self.scenario, self.file, judgements, lasted, self.failure, self.warnings)

@@ -1,4 +1,4 @@
-"""Script of a scenario: a node that carries out actions, and the classes of actions."""
+"""Script of a scenario: the node that carries out the actions, and the classes of actions."""
 
 import asyncio
 from collections.abc import Sequence
@@ -36,17 +36,17 @@ SILENCE: Duration = seconds(1)
 
 
 class StepFailed(TftoolError):
-    """Error for an action that failed, with the reason."""
+    """Error for an action that failed; the text is the reason."""
 
 
 class Script(Node):
-    """Node that carries out every action of a script at its time, in file order if times are equal.
+    """Node that carries out a script's actions at their times; equal times are in file order.
 
-    An action that fails is logged and recorded; later actions are carried out all the same.
+    An action that fails is logged and recorded, and does not prevent later actions.
 
     Attributes:
         start: Time at which the script began.
-        outcomes: Outcomes of the actions that should fail, and of all actions that failed.
+        outcomes: Outcomes of the actions that are expected to fail, and of all actions that failed.
     """
 
     def __init__(self, world: World, steps: Sequence[Step]) -> None:
@@ -57,7 +57,7 @@ class Script(Node):
         self.outcomes: list[Outcome] = []
 
     async def run(self) -> None:
-        """Carry out all steps; a step that waits for a response delays no other step."""
+        """Carry out all steps at their times, also while an earlier step waits for a response."""
         self.start = self.clock.now()
         await asyncio.gather(*(self._do(step) for step in self.steps))
 
@@ -102,7 +102,7 @@ class Script(Node):
             ) from None
 
     async def wait_until(self, stamp: Stamp) -> None:
-        """Wait until a time, and for this node's turn within that instant."""
+        """Wait until the time `stamp`, and then for this node's turn in the order of the nodes."""
         await self.clock.sleep_until(stamp, self.phase, self.rank)
 
 
@@ -136,13 +136,13 @@ class Action(Declared):
 
 @declare(ACTIONS, "keys", short="keys")
 class Press(Action):
-    """Action that presses keys on the teleop node one after the other."""
+    """Action that presses keys on the teleop node, one key per period `every`."""
 
     keys: tuple[str, ...] = reads(values.words(KEYS, "a key"))
     every: Duration = reads(values.period, seconds(1), beside=True)
 
     async def do(self, script: Script) -> None:
-        """Publish the keys, one per period."""
+        """Publish the keys, one key per period."""
         start = script.clock.now()
         for count, key in enumerate(self.keys):
             await script.wait_until(start + count * self.every)
@@ -151,7 +151,7 @@ class Press(Action):
 
 @declare(ACTIONS, "drive")
 class Drive(Action):
-    """Action that commands a turtle's velocity for a duration, then a stop."""
+    """Action that commands a velocity of a turtle for a duration, and then a stop."""
 
     turtle: str = reads(values.turtle, "turtle1")
     linear: float = reads(values.speed, 0.0)
@@ -160,7 +160,7 @@ class Drive(Action):
     lasting: Duration = reads(values.duration, key="for", beside=True)
 
     async def do(self, script: Script) -> None:
-        """Publish the velocity repeatedly for the duration, then a stop."""
+        """Publish the velocity repeatedly for the duration; then publish a stop."""
         topic = script.publisher(f"{self.turtle}/cmd_vel", Twist)
         at = script.clock.now()
         end = at + self.lasting
@@ -224,7 +224,7 @@ class Teleport(Action):
 
 @declare(ACTIONS, "hop")
 class Hop(Action):
-    """Action that turns a turtle, and moves it along its new heading, at once."""
+    """Action that turns a turtle by an angle, then moves it forward, both without delay."""
 
     turtle: str = reads(values.turtle, "turtle1")
     linear: float = reads(values.length, 0.0)
@@ -244,7 +244,7 @@ class Rotate(Action):
     theta: float = reads(values.angle)
 
     async def do(self, script: Script) -> None:
-        """Send the goal, without waiting for its end."""
+        """Send the goal, and do not wait until the turn has ended."""
         goal = build(RotateAbsolute.Goal, self.theta)
         script.world.send_goal(f"{self.turtle}/rotate_absolute", goal, patience=PATIENCE)
 
@@ -254,7 +254,7 @@ _channel = values.whole(0, 255)
 
 @declare(ACTIONS, "set_pen")
 class Pen(Action):
-    """Action that sets the colour and width of a turtle's pen, or lifts it."""
+    """Action that sets the colour and width of a turtle's pen, or lifts the pen."""
 
     turtle: str = reads(values.turtle, "turtle1")
     r: int = reads(_channel, PEN_COLOR.r)
@@ -274,7 +274,7 @@ class ClearField(Action):
     """Action that erases all trails."""
 
     async def do(self, script: Script) -> None:
-        """Call the simulator's service `clear`, or in the subclass `reset`."""
+        """Call the simulator's service of the same name as the action: `clear` or `reset`."""
         await script.call(self.key, Empty.Request())
 
 
@@ -284,7 +284,7 @@ class ResetField(ClearField):
 
 
 class FrameAction(Action):
-    """Base of actions that broadcast the pose of a child in its parent."""
+    """Base of actions that broadcast the pose of frame `child` in frame `parent`."""
 
     parent: str = reads(values.frame)
     child: str = reads(values.frame)
@@ -297,7 +297,7 @@ class FrameAction(Action):
 
     @property
     def transform(self) -> Transform:
-        """Pose of the child in the parent."""
+        """Pose of frame `child` in frame `parent`."""
         rotation = quaternion_from_rpy(self.roll, self.pitch, self.yaw)
         return Transform((self.x, self.y, self.z), rotation)
 
@@ -347,7 +347,7 @@ class StopNode(Action):
     node: str = reads(values.name("a node"))
 
     async def do(self, script: Script) -> None:
-        """Remove the node, and end a user's program that it belongs to."""
+        """Remove the node; for a node of a user's program, end the whole program."""
         # The node may be missing: stopped before, or omitted by the command that hosts.
         gone = [node for node in script.world.nodes if node.name == self.node]
         for node in gone:
@@ -360,7 +360,7 @@ class StopNode(Action):
 
 @declare(ACTIONS, "say", short="text")
 class Say(Action):
-    """Action that logs a message for people who watch."""
+    """Action that logs a text for the people who watch the scenario."""
 
     text: str = reads(values.text)
 

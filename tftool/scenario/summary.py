@@ -1,4 +1,4 @@
-"""Summary of a finished scenario: final poses, and the expectations that held."""
+"""Summary of a finished scenario: the final poses, and the outcome of each expectation."""
 
 import json
 import math
@@ -21,13 +21,13 @@ MOST_FRAMES = 20
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """Scenario after its end.
+    """Scenario that was played to its end, with the final frames.
 
     Attributes:
         scenario: Scenario that was played.
-        snapshot: All frames at its end.
+        snapshot: All frames at the end of the scenario.
         verdict: Verdict on the run.
-        defaults: Values of the arguments for which the expectations were written.
+        defaults: Default values of the arguments; the expectations assume these values.
     """
 
     scenario: Scenario
@@ -36,7 +36,7 @@ class Played:
     defaults: Mapping[str, str]
 
     def changed(self) -> list[str]:
-        """Return the names of arguments with other values than the expectations assume."""
+        """Return the names of arguments with other values than the defaults."""
         given = self.scenario.arguments
         return [name for name, value in given.items() if value != self.defaults.get(name)]
 
@@ -48,11 +48,11 @@ def play_through(
     *,
     watch: Watch = nullcontext,
 ) -> Played:
-    """Play a scenario on simulated time, with the keys and drives of its script.
+    """Play a scenario on simulated time, with all actions of its script.
 
     Args:
         scenario: Scenario to play.
-        defaults: Default values of its arguments.
+        defaults: Default values of the scenario's arguments.
         duration: Nanoseconds to play; None for the scenario's own duration.
         watch: Function that returns a context manager for the run, such as a recording.
     """
@@ -160,7 +160,11 @@ def _settings(values: Mapping[str, str], names: Sequence[str]) -> str:
 
 
 def _distances(played: Played) -> list[tuple[str, str, float]]:
-    """Return the final distance of each moving frame from its tree's first frame."""
+    """Return distances between moving frames at the end, in metres.
+
+    Returns:
+        (frame, first moving frame of the same tree, distance) for each further moving frame.
+    """
     moving = [
         info
         for info in played.snapshot.frames

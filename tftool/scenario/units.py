@@ -1,6 +1,7 @@
 """Readers of single values: numbers with units, names, choices, times.
 
-Every number has a documented unit and may be given in another unit of the same kind.
+Every number has a default unit. A scenario may state another unit, such as `30 deg` in place of
+radians.
 """
 
 import math
@@ -21,14 +22,14 @@ _DEGREE = math.pi / 180.0
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """Kind of number, such as a length: name, and factor of each unit; the first factor is 1."""
+    """Kind of quantity, such as a length, with the factor of each unit; the first factor is 1."""
 
     kind: str
     factors: Mapping[str, float]
 
     @property
     def name(self) -> str:
-        """Unit that a number has if it is written without a unit; "" for a plain number."""
+        """Default unit, for numbers that are written without a unit; "" for plain numbers."""
         return next(iter(self.factors), "")
 
 
@@ -53,7 +54,7 @@ LONGEST = 24 * 3600.0
 
 
 def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
-    """Split a number from the unit after it, and check both."""
+    """Split a text into number and unit, and check both; without a unit, return the default."""
     text = reading.text(node, unit.kind)
     match = _NUMBER.fullmatch(text)
     if match is None or len(text) > 60:
@@ -83,7 +84,7 @@ def _about(written: str, unit: Unit) -> str:
 
 
 def quantity(unit: Unit, *, least: float = -math.inf) -> Reader:
-    """Return a reader of numbers, converted to the first unit, not below `least`."""
+    """Return a reader of numbers of at least `least`, converted to the default unit."""
 
     def read(node: Node, reading: Reading) -> float:
         digits, written = _measure(node, reading, unit)
@@ -168,7 +169,7 @@ _TOPIC = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
 def turtle(node: Node, reading: Reading) -> str:
-    """Read a turtle's name: letters, digits and _ only, as it is part of topic names."""
+    """Read a turtle's name: only letters, digits and _, because topic names contain the name."""
     value: str = name("a turtle")(node, reading)
     if _TOPIC.fullmatch(value) is None:
         raise reading.refuse(
@@ -197,7 +198,7 @@ def flag(node: Node, reading: Reading) -> bool:
 
 
 def or_none(read_one: Reader) -> Reader:
-    """Return a reader that also accepts `none` or an empty value, as None."""
+    """Return a reader that reads None from `none` or an empty value, else uses `read_one`."""
 
     def read(node: Node, reading: Reading) -> object:
         if isinstance(node, Scalar) and (node.is_nothing or reading.text(node, "") == "none"):
@@ -208,7 +209,7 @@ def or_none(read_one: Reader) -> Reader:
 
 
 def choice(choices: Iterable[str], what: str) -> Reader:
-    """Return a reader of one of several words."""
+    """Return a reader that accepts one word of `choices`; `what` names the value in messages."""
     known = tuple(choices)
 
     def read(node: Node, reading: Reading) -> str:
@@ -239,7 +240,7 @@ def words(known: Iterable[str], what: str) -> Reader:
 
 
 def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
-    """Return a reader of a list whose items `read_one` reads."""
+    """Return a reader of a list (of `count` items, if given) with `read_one` for each item."""
 
     def read(node: Node, reading: Reading) -> tuple[object, ...]:
         items = reading.items(node, what)
@@ -253,10 +254,11 @@ def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
 
 @dataclass(frozen=True, slots=True)
 class RelativeMoment:
-    """Time in a question: relative to the start or to the question's time, or the latest.
+    """Time in a question: the latest time, or an offset from the start or the present.
 
     Attributes:
-        kind: Origin of `offset`; "latest" has no origin.
+        kind: Origin of `offset`: "start" of the scenario, or "now", when the question is asked.
+            "latest" means the latest time with data, without an offset.
         offset: Nanoseconds after the origin.
     """
 
@@ -264,7 +266,12 @@ class RelativeMoment:
     offset: Duration = 0
 
     def stamp(self, start: Stamp, now: Stamp) -> Stamp:
-        """Return the time as a stamp, for a scenario's `start` and a question at `now`."""
+        """Return the time as a stamp, nanoseconds; 0 for the latest time.
+
+        Args:
+            start: Start of the scenario.
+            now: Present time.
+        """
         if self.kind == "latest":
             return 0
         return (start if self.kind == "start" else now) + self.offset
