@@ -1,4 +1,4 @@
-"""Path between two nodes of a tree, through their common ancestor; for frames and for joints."""
+"""Path between two nodes of a tree through their common ancestor, for frames and for joints."""
 
 from collections.abc import Callable
 from typing import Protocol, TypeVar
@@ -16,10 +16,10 @@ EdgeT = TypeVar("EdgeT", bound=Above)
 
 
 def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
-    """Return the edges from a frame up to its root, lowest first; each edge of a loop only once.
+    """Return the edges from a frame up to its root, lowest first.
 
     Args:
-        frame: The frame to start from.
+        frame: The frame to start from. In a loop, each edge is returned once.
         parent: Function that returns the edge from a frame to its parent, or None for a root.
     """
     edges: list[EdgeT] = []
@@ -36,7 +36,7 @@ def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
 def up_to_join(
     frame: str, other: str, above: Callable[[str], list[EdgeT]]
 ) -> tuple[list[EdgeT], list[EdgeT]] | None:
-    """Return the edges from each of two frames up to their common ancestor; None without one.
+    """Return the edges from two frames up to their common ancestor.
 
     Args:
         frame: The first frame.

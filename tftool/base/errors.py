@@ -1,7 +1,8 @@
 """All exceptions of tftool, in one class tree.
 
-Lookups raise exceptions with tf2's names; other code raises a few more. Each exception has its
-facts as fields. Only `app` converts exceptions to exit statuses.
+Lookups raise exceptions with tf2's names; other code raises other subclasses of TftoolError. The
+details of an error, such as the frame, are attributes. Only the module `app` converts exceptions to
+exit statuses.
 """
 
 import os
@@ -18,8 +19,8 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 class TftoolError(Exception):
     """Base class of tftool's exceptions; the text names the fault and the remedy.
 
-    The text is fixed when the error is created. The error can be pickled and copied with all its
-    facts, whatever arguments its class takes.
+    The text is fixed when the error is created. An error can be pickled and copied with all its
+    attributes, whatever arguments its class takes.
     """
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -65,7 +66,7 @@ class Mistake:
         column: Number of the column, from 1.
         text: The fault, as a sentence without its full stop.
         shown: The offending line, safe to print on a terminal; empty if the file has no such line.
-        marks: Text to print under `shown`: blanks up to the column, then carets.
+        marks: Text to print under `shown`, which marks the column with carets.
     """
 
     file: str
@@ -122,7 +123,7 @@ class DocumentError(InputError):
     """Error with all mistakes of a text file at once (exit status 3).
 
     Attributes:
-        name: The file, as it was given.
+        name: Name of the file, as the user gave it.
         mistakes: Every mistake, in the order of the file.
     """
 
@@ -151,8 +152,8 @@ class DescriptionError(DocumentError):
 def failure_text(error: BaseException) -> str:
     """Format an exception in one line: its type, text, and the file and line that raised it.
 
-    The line is the innermost line of the user's code, or else the innermost line of the traceback.
-    For an exception of tftool's own classes, only a line of the user's code is added.
+    The line is the innermost line of the user's code, else the innermost line of the traceback. For
+    an exception of tftool's own classes, only a line of the user's code is named.
     """
     kind, text = type(error).__name__, str(error)
     line = line_of(error, users_only=isinstance(error, TftoolError))
@@ -162,7 +163,7 @@ def failure_text(error: BaseException) -> str:
 def line_of(error: BaseException, *, users_only: bool = False) -> str:
     """Return the innermost line of the user's code in an error's traceback, as "busy.py:10".
 
-    Without a line of the user's code, return the innermost line, or "" if `users_only` is true.
+    Without a line of the user's code, return the innermost line of any code, or "" if `users_only`.
     """
     users = innermost = ""
     trace = error.__traceback__
@@ -175,7 +176,7 @@ def line_of(error: BaseException, *, users_only: bool = False) -> str:
 
 
 def is_users_file(file: str) -> bool:
-    """Whether a source file belongs neither to tftool nor to Python's standard library."""
+    """Return whether a source file is neither part of tftool nor of Python's standard library."""
     if file.startswith((_PACKAGE, "<frozen")):
         return False
     return "site-packages" in file or not file.startswith(_LIBRARY)
@@ -189,15 +190,15 @@ class NodeFailed(TftoolError):
     """Error that ends a run because a node raised an exception, which is stored as `__cause__`."""
 
     def __init__(self, node: str, error: BaseException, what: str = "") -> None:
-        """Create the error for a node that raised `error`; `what` replaces "failed: …"."""
+        """Create the error for a node that raised `error`; `what`, if given, replaces the text."""
         super().__init__(f"node '{node}' {what or f'failed: {failure_text(error)}'}")
         self.node = node
 
 
 class TransformException(TftoolError):
-    """Error for a transform that is not available (exit status 4); tf2's base class.
+    """Error for a transform that is not available (exit status 4); base class of lookup errors.
 
-    The text is exactly tf2's; `remedy` says what to do.
+    The text is exactly the text of tf2's exception; `remedy` says what to do.
 
     Attributes:
         frame: The frame that causes the error, because it is unknown, misspelt or without data;
@@ -221,7 +222,7 @@ class TransformException(TftoolError):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence that says what to do, often with the size of the fault; may be ""."""
+        """Return a sentence of advice, often with the size of the fault; "" without advice."""
         return ""
 
 
@@ -245,11 +246,11 @@ class LookupException(TransformException):
         """Create the error for an unknown frame or a loop.
 
         Args:
-            message: tf2's sentence.
+            message: Text of tf2's exception.
             frame: The unknown frame.
             target: The target frame of the lookup.
             source: The source frame of the lookup.
-            known: Frame names received so far; names that are appended later are ignored.
+            known: Frame names received so far. Names that the caller appends later are ignored.
             looped: Whether the frames form a loop.
         """
         super().__init__(message, frame=frame, target=target, source=source)
@@ -259,7 +260,7 @@ class LookupException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence with similar frame names, or the number of frames received so far."""
+        """Return a sentence with similar frame names, or with the number of known frames."""
         if self.looped:
             return "A frame is below one of its own children: check who publishes the links named."
         if self.frame is None:
@@ -324,7 +325,7 @@ class TimeoutException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """Return the remedy of the last failed lookup."""
+        """Return the advice of the last failed lookup."""
         return "" if self.refusal is None else self.refusal.remedy
 
 
@@ -366,7 +367,7 @@ class ExtrapolationException(TransformException):
 
     @property
     def missed(self) -> Duration:
-        """Return the distance from the requested time to the nearest sample, in nanoseconds."""
+        """Return the nanoseconds between the requested time and the nearest sample."""
         return abs(self.requested - self.available)
 
     def _by(self) -> str:
@@ -379,7 +380,7 @@ class BackwardExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence with the time from lookup to oldest sample, and a remedy."""
+        """Return a sentence with the time between lookup and oldest sample, and with advice."""
         return self._hint() or (
             f"That is {self._by()} before the oldest sample of '{self.frame}': look up a later "
             "time, or time 0 (the latest), or give the buffer a longer cache_time."
@@ -391,7 +392,7 @@ class ForwardExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence with the time from newest sample to lookup, and a remedy."""
+        """Return a sentence with the time between newest sample and lookup, and with advice."""
         return (
             f"That is {self._by()} after the newest sample of '{self.frame}': look up time 0 "
             "(the latest), or wait for the next sample."
@@ -403,7 +404,7 @@ class NoDataForExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return a sentence with the time from lookup to nearest sample, and a remedy."""
+        """Return a sentence with the time between lookup and nearest sample, and with advice."""
         if self.available == 0:
             return f"There are no samples of '{self.frame}': wait until one is sent."
         side = "after" if self.requested > self.available else "before"

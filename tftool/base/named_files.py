@@ -21,7 +21,7 @@ def open_regular(path: Path) -> io.BufferedReader:
     """Open a regular file for reading.
 
     Raises:
-        OSError: If the file cannot be opened, or is not a regular file but, for example, a pipe.
+        OSError: If the file cannot be opened, or is not a regular file (a pipe, for example).
     """
     file, mode = _opened(path)
     if not stat.S_ISREG(mode):
@@ -104,7 +104,7 @@ def reader_there(path: str, flags: int) -> int:
 
 
 def _opened(path: Path) -> tuple[io.FileIO, int]:
-    """Open a file, but no folder, without blocking; return the file and its mode bits."""
+    """Open a file or pipe without blocking; return the open file, and the bits of its mode."""
     number = os.open(path, _HOW)
     try:
         mode = os.fstat(number).st_mode

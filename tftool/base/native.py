@@ -1,7 +1,7 @@
-"""Native (C) modules, if they were built and are not switched off, and memory in large pages.
+"""Import of native (C) modules, and allocation of memory in large pages.
 
-Native modules are built with the package if there is a C compiler. Without them everything runs in
-plain Python with equal results. `TFTOOL_PURE=1` switches them off.
+Native modules are built with the package if there is a C compiler. Without native modules,
+everything runs in plain Python with equal results. `TFTOOL_PURE=1` switches them off.
 """
 
 import mmap
@@ -40,12 +40,13 @@ _HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
 
 
 def large_pages(size: int, end: int) -> "mmap.mmap | None":
-    """Allocate memory that begins with large pages of 2 MB; return None if there are none.
+    """Allocate memory that begins with large pages of 2 MB; return None if not supported.
 
     Args:
         size: Minimum number of bytes, rounded up to a whole page. Bytes that are never written
             occupy no memory.
-        end: Offset up to which large pages are requested; the rest has pages of usual size.
+        end: Offset in bytes up to which large pages are requested; the memory above has usual
+            pages.
     """
     if _HUGE is None:
         return None

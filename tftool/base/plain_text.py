@@ -16,7 +16,7 @@ def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float =
 
     Args:
         word: The unknown name.
-        known: The existing names. Of names that differ only in case, one is returned.
+        known: The existing names. Of several names that differ only in case, one name is returned.
         most: Maximum number of names to return.
         alike: Minimum similarity of a name to the word, from 0 to 1.
     """
@@ -28,7 +28,7 @@ def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float =
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return the "did you mean" ending of a sentence; empty if no name is similar."""
+    """Return the ending "; did you mean …?" of a sentence; "" if no known name is similar."""
     near = near_names(word, known)
     return f"; did you mean '{near[0]}'?" if near else ""
 
@@ -57,8 +57,8 @@ def visible(name: str) -> str:
 def visible_lines(text: str) -> str:
     """Escape a text so that every character is visible; line breaks are kept.
 
-    A text of more than 400 lines keeps its beginning and end, with the number of omitted lines in
-    between: tf2's error message about a loop, for example, names every frame.
+    The middle of a text of more than 400 lines is replaced by the number of omitted lines: tf2's
+    error text about a loop, for example, names every frame.
     """
     lines = text.split("\n")
     if len(lines) > MOST_LINES:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """One statement about frames that a run tested, and whether it was true.
+    """Statement about frames that a run has tested, with the result.
 
     Attributes:
         subject: The statement, for example "by 20 s: distance from a to b below 0.5 m".
@@ -33,9 +33,10 @@ class Report:
         file: Name of the scenario's file, as the user gave it.
         judgements: The judgements, in the order of the file.
         lasted: Duration of the run in seconds, on the clock of the run.
-        failure: Reason why the run ended early; empty if it ran to its end.
+        failure: Reason why the run ended early; "" for a complete run.
         warnings: Warnings about the scenario, as sentences.
-        why: The doctor's findings about a failed run, as sentences, the cause first.
+        why: Findings of the doctor about a failed run, as sentences, with the cause of the others
+            first.
     """
 
     name: str

@@ -1,7 +1,7 @@
 """Safe reading of YAML: plain values only, with limits on size, depth and expansion.
 
-A few lines of YAML can expand to billions of values, by aliases of aliases and by merge keys. All
-YAML is read through this module. It counts the values of an alias again at each use.
+A few lines of YAML can expand to billions of values, by aliases of aliases and by merge keys. So
+all YAML is read through this module, which counts the values of an alias again at each use.
 """
 
 from collections.abc import Iterator
@@ -86,7 +86,7 @@ def events(
 
 
 def compose(text: str, loader: Any = yaml.SafeLoader) -> yaml.Node | None:
-    """Return the node tree of a YAML text; None if it is empty.
+    """Return the root node of a YAML text; None for an empty text.
 
     Raises:
         yaml.YAMLError: If the text is not YAML, or exceeds a limit.
