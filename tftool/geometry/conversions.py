@@ -1,10 +1,10 @@
 """Conversions between quaternions and roll pitch yaw, matrices, axis and angle, Euler angles.
 
-Roll, pitch, yaw are rotations about fixed axes: x, then y, then z. This module computes them, and
-converts between quaternions and an axis with an angle, with plain floats: commands need these
-numbers, and importing transforms3d takes 120 ms. transforms3d computes all other Euler angles, and
-quaternions from matrices. It is imported at the first call. Only this module converts to its
-quaternion order, w first.
+Roll, pitch, yaw are rotations about fixed axes: x, then y, then z. Conversions of roll, pitch, yaw,
+and of axis and angle, use plain floats, because commands need these conversions and importing
+transforms3d takes 120 ms. transforms3d computes all other Euler angles, and quaternions from
+matrices. The library is imported at the first call. Only this module uses the quaternion order of
+transforms3d, w first.
 """
 
 import math
@@ -72,7 +72,7 @@ def _wrapped(angle: float) -> float:
 
 
 def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """Return the other roll, pitch, yaw that mean the same rotation, with |pitch| above π/2."""
+    """Return the second solution of roll, pitch, yaw for a rotation, with |pitch| above π/2."""
     m = matrix_from_quaternion(quaternion)
     if not abs(m[2][0]) < quaternions.POLE:
         return rpy_from_quaternion(quaternion)
@@ -126,7 +126,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
 
 
 def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]:
-    """Return the proper rotation nearest to a 3×3 matrix, and the distance to it.
+    """Return the proper rotation nearest to a 3×3 matrix, and its difference from the matrix.
 
     Returns:
         The rotation, and the largest difference between an entry of the rotation and the same entry
@@ -184,7 +184,7 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
 
 
 def wxyz_from_xyzw(quaternion: Iterable[float]) -> tuple[float, float, float, float]:
-    """Reorder a quaternion from xyzw to wxyz, as in transforms3d and others."""
+    """Reorder a quaternion from xyzw to wxyz, the order of transforms3d and other libraries."""
     x, y, z, w = quaternion
     return w, x, y, z
 
@@ -231,7 +231,7 @@ def euler_from_matrix(
 ) -> tuple[float, float, float]:
     """Return Euler angles, radians, of a 3×3 matrix or of the upper left of a 4×4 matrix.
 
-    If the angles are not unique, the last angle is 0.
+    If several sets of angles are equivalent, the last angle is 0.
 
     Raises:
         ValueError: If `axes` is not one of `AXES`.

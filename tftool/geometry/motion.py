@@ -1,6 +1,6 @@
 """Bodies in motion: turtlesim's turtle, a PID controller, and pursuit of a goal.
 
-The constants of the turtle are exactly turtlesim's: with Python's π, or with a field edge in double
+The constants of the turtle are exactly turtlesim's. With Python's π, or with a field edge in double
 precision, the simulator would print other poses.
 """
 
@@ -167,7 +167,7 @@ def float32_finite(value: float, what: str) -> float:
 def published(
     x: float, y: float, theta: float, speed: float, turn: float
 ) -> tuple[float, float, float, float, float]:
-    """Round the five numbers of a pose message to 32-bit floats."""
+    """Round the five numbers of a turtlesim Pose message to 32-bit floats, in the same order."""
     x, y, theta, speed, turn = array("f", (x, y, theta, speed, turn))
     return x, y, theta, speed, turn
 
@@ -202,7 +202,7 @@ class Gains:
                 raise UsageError(f"{name} must be zero or more, not {limit}")
 
     def limited(self, output_limit: float | None) -> "Gains":
-        """Return these gains, with `output_limit` if it is below the present output limit."""
+        """Return these gains with an output limit of at most `output_limit`."""
         if output_limit is None or (
             self.output_limit is not None and self.output_limit <= output_limit
         ):
@@ -215,7 +215,7 @@ class PidState:
     """State of a PID controller between two updates.
 
     Attributes:
-        integral: Sum of error times time so far.
+        integral: Integral of the error over the time so far, in seconds times the error's unit.
         measured: The measurement of the last update; None before the first update.
     """
 
@@ -295,11 +295,13 @@ _STOP = Twist2D()
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """Law from a goal's distance and bearing to speeds; its defaults are the ROS tutorial's.
+    """Control law that computes speeds from the distance and bearing of a goal.
 
     Attributes:
-        distance: Gains from distance in metres to speed in m/s.
-        bearing: Gains from bearing in radians to turn rate in rad/s.
+        distance: Gains from distance in metres to speed in m/s; by default those of the ROS
+            tutorial.
+        bearing: Gains from bearing in radians to turn rate in rad/s; by default those of the ROS
+            tutorial.
         dead_band: Distance in metres within which the goal counts as reached.
         speed_limit: Largest speed in m/s; None for no limit.
     """

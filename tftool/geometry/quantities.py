@@ -1,6 +1,6 @@
 """Functions that transform points, vectors, poses, covariances and wrenches.
 
-Arguments are plain numbers in the child frame of the transform; results are in its parent frame. No
+Arguments are plain numbers in frame b of the transform `a_from_b`; results are in frame a. No
 argument is changed. A quaternion of zeros means the identity, as in tf2's own conversions.
 """
 
@@ -22,12 +22,12 @@ _NO_ROTATION = 2.2e-16
 
 
 def point(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
-    """Transform a point: rotate it and add the translation."""
+    """Transform a point from frame b to frame a: rotate the point, then add the translation."""
     return _usable(a_from_b).apply(xyz)
 
 
 def vector(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
-    """Transform a vector: rotate it, without the translation."""
+    """Rotate a vector from frame b to frame a; the translation has no effect on vectors."""
     return _usable(a_from_b).rotate(xyz)
 
 
@@ -65,7 +65,7 @@ def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
 
 
 def wrench(a_from_b: Transform, force: Vector3, torque: Vector3) -> tuple[Vector3, Vector3]:
-    """Transform a force and a torque: rotate both, and add the torque of the force's lever arm."""
+    """Transform (force, torque) to frame a; the torque includes the moment of the moved force."""
     force, torque = vector(a_from_b, force), vector(a_from_b, torque)
     return force, torque + a_from_b.translation.cross(force)
 

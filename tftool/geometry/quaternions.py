@@ -1,6 +1,7 @@
 """Arithmetic of quaternions as tuples of plain floats, in xyzw order.
 
-Single lookups are faster with tuples than with objects. A product applies the right factor first.
+Single lookups are faster with tuples than with objects. A product of rotations applies the second
+factor first.
 """
 
 import math
@@ -61,7 +62,7 @@ def rotate(quaternion: Quad, vector: Triple) -> Triple:
 
 
 def unit(quaternion: Quad) -> Quad:
-    """Scale a quaternion to unit length; return four NaN if that is impossible.
+    """Scale a quaternion to unit length; return four NaN if no scaling is possible.
 
     Scaling is impossible if the quaternion is zero, not finite, or so small that its square
     underflows.
@@ -108,7 +109,8 @@ def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
 
     Args:
         start: Unit quaternion.
-        end: Unit quaternion; its negative is used if that makes the arc shorter.
+        end: Unit quaternion. Its negative, which is the same rotation, is used if the arc is then
+            shorter.
         fraction: Position on the arc, from 0 (`start`) to 1 (`end`).
 
     Returns:

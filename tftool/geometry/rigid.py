@@ -107,7 +107,7 @@ class Quaternion(NamedTuple):
         return cls(*quaternions.from_rpy(roll, pitch, yaw))
 
     def rpy(self) -> quaternions.Triple:
-        """Return roll, pitch and yaw in radians, as `rpy_from_quaternion` does."""
+        """Return roll, pitch and yaw in radians; see `conversions.rpy_from_quaternion`."""
         return quaternions.rpy(self)
 
     def __matmul__(self, other: "Quaternion") -> "Quaternion":
@@ -160,7 +160,7 @@ class Transform(_Parts):
 
     @classmethod
     def from_matrix(cls, matrix: Iterable[Iterable[float]]) -> "Transform":
-        """Make a transform from a homogeneous 4×4 matrix, as `matrix` returns it.
+        """Create a transform from a homogeneous 4×4 matrix, the inverse of the method `matrix`.
 
         Args:
             matrix: Row by row, a numpy array or lists: the rotation at the upper left, the

@@ -38,8 +38,8 @@ class Arcs(NamedTuple):
         directions: The vectors C, which are perpendicular to A and have the length θ, shape (n, 4).
         half_angle_squared: θ², where θ is half the rotation angle from start to end, radians, shape
             (n,).
-        terms: Number of terms of the series of tan(x)/x that the largest θ needs; 0 if above the
-            limit.
+        terms: Number of terms of the series of tan(x)/x that the largest θ needs; 0 if θ is too
+            large for the series.
     """
 
     directions: Floats
@@ -111,7 +111,7 @@ class VectorRows:
     __slots__ = ("first", "repeat", "xyz", "yzx", "zxy")
 
     def __init__(self, rows: Floats) -> None:
-        """Wrap an array with five rows; `close` copies the first two rows into the last two."""
+        """Store an array with five rows; call `close` to copy the rows x and y to the end."""
         self.xyz, self.yzx, self.zxy = rows[:3], rows[1:4], rows[2:5]
         self.first, self.repeat = rows[:2], rows[3:]
 
@@ -126,7 +126,7 @@ class QuaternionRows:
     __slots__ = ("first", "repeat", "rows", "w", "wxyz", "xyz", "yzx", "zxy")
 
     def __init__(self, rows: Floats) -> None:
-        """Wrap an array with six rows; `close` copies x and y into the last two."""
+        """Store an array with six rows; call `close` to copy the rows x and y to the end."""
         self.rows = rows
         self.w, self.wxyz = rows[0], rows[:4]
         self.xyz, self.yzx, self.zxy = rows[1:4], rows[2:5], rows[3:6]

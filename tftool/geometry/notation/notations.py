@@ -32,12 +32,12 @@ class Notation:
     Attributes:
         title: Title that is printed beside the numbers.
         count: Number of values in the notation.
-        plain: Number of values at the beginning that are not angles.
+        plain: Number of values before the first angle.
         read: Function that converts the values to a quaternion in xyzw order.
         write: Function that converts a unit quaternion to the values.
-        as_object: Function that returns the values by name for JSON; {} if another notation has
-            them.
-        read_as: Name of the notation when it is read; if empty, the title is used.
+        as_object: Function that returns the values by name for JSON; {} if the JSON of another
+            notation contains these values.
+        read_as: Name of the notation in messages about a text that was read; "" for the title.
         aliases: Other words that name the notation in a text.
         wraps: Whether an angle of more than a full turn is probably a mistake.
     """
@@ -167,7 +167,7 @@ NAMED_FORMS: Final = (*NOTATIONS, "matrix")
 
 
 def notation_of(form: str) -> Notation:
-    """Return the notation for one of the names in `FORMS` other than "matrix"."""
+    """Return the notation with a name in `FORMS`; the name "matrix" has no `Notation`."""
     return NOTATIONS.get(form) or EULER[form]
 
 

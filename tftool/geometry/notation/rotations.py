@@ -1,7 +1,8 @@
 """Parser of rotations and poses pasted as text, in the notations of other programs.
 
 Labels (`x: 0 …`, `rpy="…"`, the words of tf2_echo) or the shape of a matrix identify the notation.
-Three or four bare numbers are ambiguous: they raise an error unless the caller names the notation.
+Three or four numbers without labels are ambiguous, and raise an error unless the caller names the
+notation.
 """
 
 import math
@@ -85,9 +86,9 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
 
     Args:
         text: The pasted text.
-        form: Notation of bare numbers, one of `FORMS`; None to recognise it from the text.
-        degrees: Whether angles are in degrees; the text itself may name the unit. Angles of URDF
-            and of static_transform_publisher are always radians.
+        form: Notation of numbers without labels, one of `FORMS`; None to recognise the notation.
+        degrees: Whether angles are in degrees, if the text does not name a unit. Angles of URDF and
+            of static_transform_publisher are always radians.
 
     Raises:
         UsageError: If the text has no known notation, or fits several notations.
@@ -111,7 +112,7 @@ def _listed() -> str:
 
 
 def _publisher(text: str, _degrees: bool) -> Written | None:
-    """Parse a command line of static_transform_publisher, of ROS 2 or ROS 1."""
+    """Parse a static_transform_publisher command of ROS 2 or ROS 1; None for other text."""
     if "static_transform_publisher" not in text and not re.search(
         r"(?<!\S)--(q?[xyz]|qw|roll|pitch|yaw|(child-)?frame-id)(?=[\s=])", text
     ):
@@ -127,7 +128,7 @@ def _publisher(text: str, _degrees: bool) -> Written | None:
 
 
 def _echoed(text: str, _degrees: bool) -> Written | None:
-    """Parse a block printed by tf2_echo or ROS 1's tf_echo."""
+    """Parse a block printed by tf2_echo or ROS 1's tf_echo; None for other text."""
     turn = re.search(rf"Rotation:\s*in Quaternion{_BRACKETED}", text)
     if turn is None:
         return None
@@ -140,7 +141,7 @@ def _echoed(text: str, _degrees: bool) -> Written | None:
 
 
 def _described(text: str, _degrees: bool) -> Written | None:
-    """Parse the attributes xyz and rpy of an `<origin>`, in URDF or SDF."""
+    """Parse the attributes xyz and rpy of URDF's or SDF's `<origin>`; None for other text."""
     turn = re.search(_ATTRIBUTE.format("rpy"), text)
     place = re.search(_ATTRIBUTE.format("xyz"), text)
     if turn is None and (place is None or "<origin" not in text):
@@ -155,7 +156,7 @@ def _described(text: str, _degrees: bool) -> Written | None:
 
 
 def _labelled(text: str, degrees: bool) -> Written | None:
-    """Parse named numbers: ROS's YAML, JSON, or Python's output of a message."""
+    """Parse named numbers in YAML, JSON or a printed Python message; None for other text."""
     groups: list[dict[str, float]] = [{}]
     for match in _LABELLED.finditer(text):
         if match["heading"]:
