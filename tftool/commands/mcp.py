@@ -92,10 +92,15 @@ def run(options: McpOptions) -> ExitStatus:
 
 
 class Questions:
-    """Tools for the files below one folder; each public method's docstring is the tool's help."""
+    """Tools for the files below one folder: a method for each tool, whose docstring is the help."""
 
     def __init__(self, root: Path, sessions: str) -> None:
-        """Serve files below `root`; `sessions` is an empty folder, so that no session is found."""
+        """Serve files to an agent.
+
+        Args:
+            root: Folder of the files.
+            sessions: Empty folder used as the session folder, so that no running session is found.
+        """
         self._root = root
         self._environment = {**os.environ, "TFTOOL_SESSION_DIR": sessions, "NO_COLOR": "1"}
 
@@ -104,8 +109,8 @@ class Questions:
 
         Args:
             source: A recording or robot description below the root; empty to list the files there.
-            part: One key of the answer, such as "topics" or "edges"; all of it if empty.
-            skip: Number of items to leave out at the beginning of that part's list.
+            part: One key of the answer, such as "topics" or "edges"; the whole answer if empty.
+            skip: Number of items to leave out at the beginning of the list in `part`.
         """
         if source:
             return self._asked("info", source, part=part, skip=skip)
@@ -118,8 +123,8 @@ class Questions:
         Args:
             source: A recording, robot description or launch file below the root.
             at: The moment; the end if empty.
-            part: One key of the answer, such as "roots" or "frames"; all of it if empty.
-            skip: Number of items to leave out at the beginning of that part's list.
+            part: One key of the answer, such as "roots" or "frames"; the whole answer if empty.
+            skip: Number of items to leave out at the beginning of the list in `part`.
         """
         return self._asked("tree", source, *_option("at", at), part=part, skip=skip)
 
@@ -127,8 +132,8 @@ class Questions:
         """Return source_frame's pose in target_frame: translation, quaternion, roll, pitch, yaw.
 
         Args:
-            target_frame: The frame in which the answer is given.
-            source_frame: The frame that is looked for.
+            target_frame: The frame in which the pose is given.
+            source_frame: The frame whose pose is returned.
             source: A recording, robot description or launch file below the root.
             at: The moment; the newest transform if empty.
         """
@@ -139,8 +144,8 @@ class Questions:
         """Return why a lookup succeeds or fails, frame by frame, and what would make it succeed.
 
         Args:
-            target_frame: The frame in which the answer would be given.
-            source_frame: The frame that is looked for.
+            target_frame: The target frame of the lookup.
+            source_frame: The source frame of the lookup.
             source: A recording, robot description or launch file below the root.
             at: The moment; the end if empty.
         """
@@ -154,10 +159,10 @@ class Questions:
 
         Args:
             source: A recording below the root.
-            check: The only checks to run, with commas, such as "split-tree,gap"; all if empty.
+            check: Ids of the checks to run, separated by commas: "split-tree,gap"; all if empty.
             urdf: A robot description below the root to compare with.
-            part: One key of the answer, such as "findings" or "summary"; all of it if empty.
-            skip: Number of items to leave out at the beginning of that part's list.
+            part: One key of the answer, such as "findings" or "summary"; the whole answer if empty.
+            skip: Number of items to leave out at the beginning of the list in `part`.
         """
         options = _option("select", check)
         if urdf:
@@ -181,8 +186,8 @@ class Questions:
             target_frame: The frame in which the motion is given.
             source_frame: The frame that moves.
             source: A recording below the root.
-            begin: Leave out everything before that moment.
-            end: Leave out everything after.
+            begin: First moment of the plot; the start if empty.
+            end: Last moment of the plot; the end if empty.
             only: Quantities to draw, separated by commas: x,y,z,roll,pitch,yaw,distance,speed.
         """
         options = [*_option("from", begin), *_option("to", end), *_option("only", only)]
@@ -243,10 +248,12 @@ class Questions:
         return fitted(answer[skip:] if isinstance(answer, list) else answer)
 
     def _file(self, source: str) -> str:
-        """Return a file's name below the root, in a form that cannot be read as an option.
+        """Check that a file may be read; return its path below the root with a leading "./".
+
+        With the leading "./", a file name such as "--help" is not parsed as an option.
 
         Raises:
-            InputError: If the file, or a link in it, is outside the root, or the file's type is
+            InputError: If the file, or a link in it, is outside the root, or files of that type are
                 not read here.
         """
         try:
@@ -268,7 +275,7 @@ class Questions:
         return word
 
     def _stays_inside(self, path: Path) -> bool:
-        """Return whether a file, and all files that are read with it, are below the root."""
+        """Return whether a file, and all files that a command reads with it, are below the root."""
         places = (path, *_read_with(path.resolve()))
         return all(one.resolve().is_relative_to(self._root) for one in places)
 
@@ -289,7 +296,10 @@ def _below(folder: Path) -> Iterator[Path]:
 
 
 def _read_with(path: Path) -> list[Path]:
-    """Return the files that a command reads with `path`: a folder's content, or a baseline.
+    """Return further files that a command reads with `path`.
+
+    For a folder, these are the entries of the folder; for a file, the settings files beside the
+    file.
 
     Raises:
         InputError: If a folder has more than `MOST_ENTRIES` entries.
@@ -318,9 +328,10 @@ def _version() -> str:
 
 
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
-    """Convert output of a command to JSON of at most `most` characters; count omitted items.
+    """Convert a command's output to JSON of at most `most` characters; count the omitted items.
 
-    Deeply nested lists are cut first: all findings are more useful than all evidence of one.
+    Deeply nested lists are shortened first: the list of findings matters more than the evidence of
+    one finding.
     """
     sizes = [(outer, inner) for outer in (200, 20) for inner in (20, 8, 3, 1)]
     sizes += [(outer, inner) for outer in (12, 8, 5, 3, 2, 1) for inner in (3, 1, 0)]
@@ -335,7 +346,10 @@ def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
 
 
 def _cut(value: Any, outer: int, inner: int, depth: int) -> Any:
-    """Shorten the lists in a value: to `outer` items on the first two levels, to `inner` below."""
+    """Shorten the lists and texts in a value, and append the number of omitted items.
+
+    Lists on the first two levels get at most `outer` items, and deeper lists at most `inner` items.
+    """
     keep = outer if depth < 2 else inner
     if isinstance(value, dict):
         return {key: _cut(one, outer, inner, depth + 1) for key, one in value.items()}

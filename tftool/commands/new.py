@@ -98,7 +98,12 @@ LINES: Final = {
 
 
 def with_blanks(node: str, text: str) -> str:
-    """Return a node's source as an exercise: each important line is replaced by a TODO."""
+    """Turn a node's source into an exercise: replace each key assignment by a TODO.
+
+    Args:
+        node: Name of the node, which selects the assignments.
+        text: Source code of the node.
+    """
     wanted = LINES[node]
     lines = text.splitlines(keepends=True)
     found = [one for one in ast.walk(ast.parse(text)) if isinstance(one, ast.Assign)]
@@ -131,7 +136,7 @@ if __name__ == "__main__":
 
 
 def _check_name(name: str) -> None:
-    """Raise an error for a package name that ROS 2 or Python would not accept."""
+    """Raise UsageError for a package name that ROS 2 or Python would not accept."""
     if not re.fullmatch(r"[a-z](_?[a-z0-9])*", name):
         hint = " With --scenario it is a scenario." if name.endswith((".yaml", ".yml")) else ""
         raise UsageError(
@@ -146,7 +151,7 @@ def _check_name(name: str) -> None:
 
 
 def _check_node(name: str) -> None:
-    """Raise an error for a node name that Python could not import."""
+    """Raise UsageError for a node name that Python could not import."""
     if not name.isidentifier() or not name.isascii() or keyword.iskeyword(name):
         raise UsageError(
             f"'{name}' is not a valid node name: use letters, digits and underscores, a letter "
@@ -160,7 +165,7 @@ def _refuse_existing(path: Path) -> None:
 
 
 def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
-    """Return the text of every file in a tutorial step's package, by its path in the package."""
+    """Return the files of a tutorial step's package: text by path in the package."""
     nodes = EXAMPLES[example]
     sources = {f"{TEMPLATE}/{node}.py": node for node in nodes}
     step = (f"launch/{example}.launch.py", f"test/test_{example}.py", f"scenarios/{example}.yaml")
@@ -172,7 +177,7 @@ def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
 
 
 def _files_of_node(package: str, node: str) -> dict[str, str]:
-    """Return the files of a package with one empty node, as `ros2 pkg create` makes it."""
+    """Return the files of a package with one empty node, as from `ros2 pkg create`."""
     files = _texts(package, (), ())
     entry = f'            "{node} = {package}.{node}:main",\n'
     mark = '"console_scripts": [\n'
@@ -182,9 +187,12 @@ def _files_of_node(package: str, node: str) -> dict[str, str]:
 
 
 def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str, str]:
-    """Return the text of a package's files: the files that every package has, and `more`.
+    """Return the files of a package: text by path in the package.
 
-    setup.py installs the nodes `nodes`.
+    Args:
+        package: Name of the package.
+        nodes: Names of the nodes that setup.py installs.
+        more: Paths of files to add to the files that every package has.
     """
     source = shipped("examples", TEMPLATE) / TEMPLATE
     every = ("package.xml", "setup.cfg", "setup.py", f"resource/{TEMPLATE}")
@@ -202,7 +210,7 @@ def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str,
 
 
 def _write(path: Path, files: dict[str, str]) -> None:
-    """Write the files of a package, all or none."""
+    """Write all files of a package; if one cannot be written, write none."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".new-", dir=path.parent) as place:
@@ -251,7 +259,15 @@ def _say_what_next(
 def _tell(
     path: Path, todo: str, files: Collection[str], *lines: tuple[str, str], as_json: bool
 ) -> None:
-    """Print the new files, and the commands to continue with, each with its purpose."""
+    """Print the new files, and suggested commands.
+
+    Args:
+        path: New package or scenario.
+        todo: Sentence on what the user must write; empty if nothing is left to write.
+        files: Paths of the new files in the package.
+        lines: Suggested commands, each with its purpose.
+        as_json: Whether to print JSON.
+    """
     if as_json:
         following = [{"command": line, "purpose": purpose} for line, purpose in lines]
         told = {"schema": "tftool.new/1", "made": str(path), "files": sorted(files)}

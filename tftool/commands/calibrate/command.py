@@ -1,4 +1,4 @@
-"""Run of `tftool calibrate`: find a mounting pose; print, compare and write it; draw a page."""
+"""Implementation of `tftool calibrate`: find, compare, print, draw and write a mounting pose."""
 
 import json
 import math
@@ -80,9 +80,10 @@ def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
 
 
 def _aligned(found: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
-    """Return drawings of the motions A and B, and of A · X beside Y · B, which should be equal.
+    """Return HTML drawings of two motions, before and after their alignment.
 
-    X is the mounting pose; Y is the pose of the fixed frame of B in the fixed frame of A.
+    The drawings compare A · X with Y · B, which should be equal. A and B are the motions `a` and
+    `b`, X is the mounting pose, and Y is the pose of B's fixed frame in A's fixed frame.
     """
     assert found.mount is not None
     assert found.fixed_mount is not None
@@ -255,7 +256,7 @@ def _refuse_outputs(
 
 
 def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
-    """Print a calibration; return whether the published mounting pose is outside its interval."""
+    """Print a calibration; return whether the published mounting pose is outside the interval."""
     outside, compared = ((), None) if checked is None else _compared(found, checked)
     if for_programs:
         written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
@@ -278,10 +279,14 @@ Chain = tuple[Frames, str]
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
-    """Assign each value of --moving to the file that has its frames.
+    """Find the file for each motion: the file that has the frames named by a value of --moving.
+
+    Args:
+        opened: One or two opened files.
+        words: Values of --moving.
 
     Raises:
-        UsageError: If values are missing, or one motion includes the published mounting pose.
+        UsageError: If a value is missing, or one motion includes the published mounting pose.
     """
     if len(opened) == 1:
         if len(words) != 2:
@@ -297,7 +302,7 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
 
 
 def _has(frames: Frames, word: str) -> bool:
-    """Return whether a value of --moving names frames or a topic of a file."""
+    """Return whether `frames` has the frames or the topic that a value of --moving names."""
     if word.startswith("/"):
         return frames.recording is not None and word in _topics(frames)
     return all(frames.buffer.frame_exists(name) for name in _pair(word))
@@ -309,11 +314,7 @@ def _topics(frames: Frames) -> list[str]:
 
 
 def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
-    """Raise an error if a motion is computed through the transform that is to be found.
-
-    Raises:
-        UsageError: If the transforms of one motion include the published mounting pose.
-    """
+    """Raise UsageError if the transforms of one motion include the published mounting pose."""
     pairs = [_pair(word) for word in words if not word.startswith("/")]
     if len(pairs) < 2:
         return

@@ -1,4 +1,4 @@
-"""Run of `tftool check`: play scenarios on simulated time and judge their expectations."""
+"""Implementation of `tftool check`: play scenarios and judge their expectations."""
 
 import glob
 import os
@@ -41,7 +41,10 @@ SUFFIXES = (".yaml", ".yml")
 
 
 def _unfolded(word: str) -> list[str]:
-    """Return the scenario files of a glob or folder, because not every shell expands globs."""
+    """Return the scenario files that a glob or folder contains; return any other word unchanged.
+
+    tftool expands globs itself because not every shell does.
+    """
     files: list[str] = []
     if builtin.path_of(word) is None:
         if os.path.isdir(word):
@@ -56,7 +59,11 @@ def _unfolded(word: str) -> list[str]:
 def _judge(
     word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
-    """Judge a scenario, print the outcome; return the report, and whether the file was readable."""
+    """Judge one scenario, and collect its warnings and the doctor's findings in a report.
+
+    Returns:
+        The report, and False if the scenario file could not be read.
+    """
     try:
         scenario = scenario_named(word)
     except InputError as error:
@@ -80,7 +87,10 @@ def _judge(
 
 
 class _Heard:
-    """Transforms recorded during one run of a scenario, for the doctor if an expectation fails."""
+    """Recorder of the transforms of one scenario run.
+
+    If an expectation fails, the doctor examines the recorded transforms.
+    """
 
     def __init__(self, scenario: Scenario) -> None:
         self._scenario = scenario
@@ -102,7 +112,7 @@ class _Heard:
                 one()
 
     def _progress(self, simulated: Clock) -> Callable[[object], None]:
-        """Return a function, called with each message, that prints the progress of a long run."""
+        """Return a callback for messages that prints the progress of a long run."""
         real = WallClock()
         told, start = real.now(), simulated.now()
 
@@ -117,7 +127,7 @@ class _Heard:
         return tell
 
     def findings(self) -> tuple[str, ...]:
-        """Return the doctor's errors and warnings: one sentence each, with the first remedy."""
+        """Return a sentence for each error or warning of the doctor, with a suggested fix."""
         # Imported here: this takes as long as most scenarios take to play.
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity

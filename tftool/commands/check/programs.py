@@ -26,7 +26,7 @@ _IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
 def judge_with(
     programs: Sequence[str], launched: str | None, *, force: bool, verbose: bool
 ) -> Iterator[Callable[..., Verdict]]:
-    """Return a function that judges a scenario with the user's programs.
+    """Yield a function that judges a scenario while the user's programs run in it.
 
     Args:
         programs: Values of --run: "FILE", or "NODE=FILE" to run the file in place of a node.
@@ -63,7 +63,7 @@ def judge_with(
 
 
 def _entrant(text: str) -> Entrant:
-    """Parse a value of --run, [NODE=]WORDS."""
+    """Parse [NODE=]WORDS, a value of --run, into a program and the node that it replaces."""
     match = _IN_PLACE.fullmatch(text)
     node, rest = (match[1], match[2]) if match else ("", text)
     return Entrant(_words("--run", rest), node)
@@ -85,7 +85,7 @@ def _words(option: str, text: str) -> tuple[str, ...]:
 
 
 def judge_packages(names: Sequence[str]) -> list[Report]:
-    """Check the packages named by name or folder; return a report for each.
+    """Check ROS packages, each given by its name or folder; return one report for each.
 
     Raises:
         UsageError: If there is no such package.

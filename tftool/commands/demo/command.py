@@ -1,4 +1,4 @@
-"""Run of `tftool demo`: a scenario on the screen; without a terminal, its outcome as text."""
+"""Implementation of `tftool demo`: a scenario on the screen, or as text without a terminal."""
 
 import asyncio
 import sys
@@ -50,13 +50,16 @@ from tftool.world.world import World
 def _show(
     connection: Connection, options: DemoOptions, chosen: Scenario, wanted: str | None
 ) -> str | None:
-    """Show a scenario or the running session; return the scenario that the user chose next, if any.
+    """Show a scenario or the running session until the user quits or chooses another scenario.
 
     Args:
         connection: Connection of the command.
         options: Options of the command.
         chosen: Scenario to show.
         wanted: Name of the scenario; None to show the running session, if one is running.
+
+    Returns:
+        Name of the scenario that the user chose next; None if the user quit.
     """
     found = join_or_host(connection, wanted, needs_turtles=True)
     if found.session is None:
@@ -77,14 +80,18 @@ def _show(
 
 
 def _end(options: DemoOptions, world: World) -> Stamp | None:
-    """Return the end of the demo, counted from now; called when the screen has started."""
+    """Return the time at which the demo ends, `options.lasting` from now; None for no end."""
     return None if options.lasting is None else world.clock.now() + options.lasting
 
 
 def _show_hosted(
     connection: Connection, options: DemoOptions, chosen: Scenario, found: JoinDecision
 ) -> str | None:
-    """Show a scenario in a new world that other processes can join; return the next scenario."""
+    """Show a scenario in a new session that other processes can join.
+
+    Returns:
+        The scenario that the user chose next; None if the user quit.
+    """
     around: Watch = nullcontext
     if options.recording is not None:
         around = partial(recorded, path=options.recording)
@@ -201,7 +208,14 @@ def run(connection: Connection, options: DemoOptions) -> ExitStatus:
 def _play(
     connection: Connection, options: DemoOptions, chosen: Scenario, lacking: str
 ) -> ExitStatus:
-    """Play a scenario on simulated time, and print the outcome."""
+    """Play a scenario on simulated time, and print the outcome.
+
+    Args:
+        connection: Connection of the command.
+        options: Options of the command.
+        chosen: Scenario to play.
+        lacking: Reason why no screen can be shown, for the notice.
+    """
     if connection.needs_link:
         raise UsageError(
             "Without a terminal, the demo plays on simulated time, which cannot be shared with "

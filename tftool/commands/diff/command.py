@@ -1,4 +1,4 @@
-"""Run of `tftool diff`: compare two sets of frames, and print the differences."""
+"""Implementation of `tftool diff`: compare two sets of frames, and print the differences."""
 
 import sys
 from pathlib import Path
@@ -54,11 +54,7 @@ def run(connection: Connection, options: DiffOptions) -> ExitStatus:
 
 
 def _refuse_contradictions(options: DiffOptions) -> None:
-    """Raise an error for contradicting options, and for an output that cannot be written.
-
-    Raises:
-        UsageError: If options contradict each other, or the output cannot be written.
-    """
+    """Raise UsageError if options contradict each other, or the output cannot be written."""
     output, measures = options.output, options.ape or options.rpe
     is_chosen = (options.fit, options.match, options.per) != ("none", "nearest", "1")
     refuse(
@@ -163,7 +159,7 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
     """Open the frames of one source, A or B.
 
     Raises:
-        InputError: If `word` is no source of frames, or the file cannot be read.
+        InputError: If `word` names no source of frames, or the file cannot be read.
         LinkError: If `word` is "session", and no session runs.
     """
     if word != SESSION:
@@ -175,9 +171,9 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
 
 
 def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
-    """Return the pair of frames to compare in the first input and in the second, from --pair.
+    """Parse the values of --pair; return the pair of frames for A and the pair of frames for B.
 
-    Without --pair both are None: each input must then have only one chain of frames.
+    Without --pair, both items are None: each source must then have only one chain of frames.
 
     Raises:
         UsageError: If --pair is given more than twice, or a value is not TARGET:SOURCE.

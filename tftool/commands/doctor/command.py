@@ -1,4 +1,4 @@
-"""Run of `tftool doctor`: examine one source or several, and report the findings."""
+"""Implementation of `tftool doctor`: examine one source or several, and report the findings."""
 
 import json
 import sys
@@ -67,10 +67,10 @@ def _read_baseline(path: Path) -> Baseline:
 
 
 def _marked(baseline: Baseline, source: str, diagnosis: Diagnosis | str) -> Diagnosis | str:
-    """Mark those findings of a source that a baseline (an earlier report) contains.
+    """Mark the findings of a source that are in the baseline, an earlier report.
 
-    If the baseline does not contain the source, a finding of any source in the baseline marks an
-    equal finding here.
+    If the baseline has no report on this source, a finding is marked if it equals a finding of any
+    source in the baseline.
     """
     if isinstance(diagnosis, str):
         return diagnosis
@@ -82,7 +82,7 @@ def _marked(baseline: Baseline, source: str, diagnosis: Diagnosis | str) -> Diag
 
 
 def _identity(row: Mapping[str, Any]) -> str:
-    """Return a finding's fingerprint; for older reports it is computed from the finding's names."""
+    """Return the fingerprint of a finding; compute the fingerprint if the report lacks one."""
     given = row.get("fingerprint")
     if isinstance(given, str):
         return given
@@ -194,11 +194,7 @@ def _sources(options: DoctorOptions) -> list[str | None]:
 
 
 def _refuse_contradictions(options: DoctorOptions) -> None:
-    """Raise an error for contradicting options.
-
-    Raises:
-        UsageError: If two options contradict each other.
-    """
+    """Raise UsageError if two options contradict each other."""
     asked = {
         "--junit": options.junit,
         "--sarif": options.sarif,
@@ -239,14 +235,14 @@ def _refuse_contradictions(options: DoctorOptions) -> None:
 
 
 def _words(given: Sequence[str] | None) -> tuple[str, ...]:
-    """Return the comma-separated values of all uses of an option."""
+    """Split the comma-separated values of an option, which may be given several times."""
     return tuple(word.strip() for one in given or () for word in one.split(",") if word.strip())
 
 
 def _sweep(
     options: DoctorOptions, output: Path, task: Examination, fails: Severity | None
 ) -> ExitStatus:
-    """Write rows about many recordings to a file; return the worst exit status."""
+    """Examine many recordings, write the findings to a file, and return the worst exit status."""
     workers = workers_of(options.processes, options.scheduler)
     counts = fleet.swept_into(options.places or [], output, workers, task, resume=options.resume)
     if UNREADABLE in counts:
@@ -293,7 +289,7 @@ def _diagnosed(connection: Connection, options: DoctorOptions, task: Examination
 
 
 def _print(judged: Judged, options: DoctorOptions) -> None:
-    """Print every diagnosis; as text, also a comparison if there are several sources."""
+    """Print every diagnosis; for several sources, also print a comparison as text."""
     diagnoses = [found for _, found in judged if not isinstance(found, str)]
     if options.for_programs:
         objects = [view.as_object(one) for one in diagnoses]

@@ -1,4 +1,4 @@
-"""Run of `tftool echo`: a transform at times of a file, or repeatedly from a session."""
+"""Implementation of `tftool echo`: a transform at times of a file, or repeatedly from a session."""
 
 import json
 import sys
@@ -56,7 +56,7 @@ class Printer:
             self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
 
     def aged(self, now: Stamp) -> None:
-        """Do nothing: a printed line stays as it is while its transform grows older."""
+        """Do nothing: text on stdout is not redrawn when the age of a transform changes."""
 
     def _line(self, what: object) -> None:
         self._write(json.dumps(what, allow_nan=False) + "\n")
@@ -120,7 +120,7 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
 def _print_moment(
     connection: Connection, options: EchoOptions, pair: FramePair, printer: Printer
 ) -> None:
-    """Print one transform of a file, at --at or the newest."""
+    """Print a file's transform at the time of --at; without --at, the newest transform."""
     at = options.at
     frames = open_from(connection, options.place, until=at, cache_time=options.cache_time)
     heading = in_words(pair.target, pair.source)
@@ -143,7 +143,13 @@ def _print_moment(
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
-    """Interpret a third word that is a number as tf2_echo's rate, unless it names a source."""
+    """Return the source of the frames and the rate, from the third word and --rate.
+
+    As in tf2_echo, a third word that is a number is the rate, unless a file has that name.
+
+    Raises:
+        UsageError: If the rate is given twice.
+    """
     if place is None:
         return place, rate
     try:

@@ -75,12 +75,12 @@ class LivePrinter:
         self.redrawing.show(heading.append_text(answer))
 
     def aged(self, now: Stamp) -> None:
-        """Redraw the last transform with its present age."""
+        """Redraw the last transform with the current age."""
         if self._shown is not None:
             self.found(now, self._shown)
 
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
-        """Show the error of a failed lookup, cut to the terminal's height."""
+        """Show the error of a failed lookup, shortened to the terminal's height."""
         self._shown = None
         words = view.in_words(self.pair.target, self.pair.source)
         told = view.failure(now, refusal, buffer.all_frames_as_string()).rstrip()
@@ -89,7 +89,7 @@ class LivePrinter:
 
 
 class Echo:
-    """Repeated lookups of one transform in a world, until enough transforms are printed."""
+    """Loop that looks up one transform periodically until enough transforms are printed."""
 
     def __init__(
         self,
@@ -111,8 +111,8 @@ class Echo:
             period: Nanoseconds between two lookups.
             count: Number of transforms to print; None for no end.
             patience: Longest wait for the first transform, nanoseconds; None for no limit.
-            departures: Function that returns how many processes with transforms have left; after
-                each departure, `Echo` waits for new data.
+            departures: Function that returns how many publishers of transforms have disconnected so
+                far. After each disconnection, `Echo` waits for new data.
         """
         self.world = world
         self.pair = pair
@@ -123,10 +123,11 @@ class Echo:
         self.waiter = PairWait(world, pair, patience=patience)
 
     async def run(self) -> None:
-        """Print transforms until the requested number is printed.
+        """Look up and print transforms until `count` transforms are printed.
 
         Raises:
-            TransformException: If the first transform is not available in time, or never will be.
+            TransformException: If the first transform is not available within `patience`, or the
+                buffer shows that waiting cannot help.
         """
         clock, pace = self.world.clock, pace_of(self.world.clock)
         await self.waiter.wait()
@@ -157,10 +158,10 @@ class Echo:
             due = max(due, pace.now() - self.period)
 
     async def _renewed(self) -> None:
-        """Wait for new data after a publisher left; meanwhile show the old transform and its age.
+        """Wait for new data after a publisher disconnected; meanwhile show the old transform's age.
 
         Raises:
-            TransformException: If the transform does not become available in time, or never will.
+            TransformException: If no new data arrives in time, or waiting cannot help.
         """
         clock, pace = self.world.clock, pace_of(self.world.clock)
         newest = self.pair.newest(self.world.buffer)

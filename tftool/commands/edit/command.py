@@ -1,4 +1,4 @@
-"""Run of `tftool edit`: change the frames of recordings; repair, join and cut them."""
+"""Implementation of `tftool edit`: change the frames of recordings; repair, join and cut them."""
 
 import math
 import sys
@@ -94,7 +94,7 @@ def _prefix(text: str) -> str:
 
 
 def _frame(option: str, text: str) -> str:
-    """Return a frame name or prefix as tf2 stores it: without a leading slash."""
+    """Check a frame name or prefix, and return the name without a leading slash."""
     name = stripped(text)
     if not name.strip():
         raise UsageError(f"{option}: a frame's name in '{text}' is empty: write its name.")
@@ -142,7 +142,10 @@ def _reparented(text: str) -> "tuple[LinkName, str]":
 
 
 def _statics(name: str) -> "tuple[TransformStamped, ...]":
-    """Return the static transforms of a description, or of a recording (the last of each child)."""
+    """Return the static transforms of a robot description or a recording.
+
+    If a recording has several static transforms of one child frame, only the last is returned.
+    """
     found = find(name)
     samples: dict[str, TransformStamped] = {}
     if found.kind is Kind.DESCRIPTION:

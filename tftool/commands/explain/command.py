@@ -1,4 +1,4 @@
-"""Run of `tftool explain`: joint by joint in a description, else edge by edge over time."""
+"""Implementation of `tftool explain`: by joints for a description, else by edges over time."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -1,4 +1,4 @@
-"""Run of `tftool export`: write the frames of a source to files of other tools."""
+"""Implementation of `tftool export`: write the frames of a source to files of other tools."""
 
 from dataclasses import replace
 
@@ -63,11 +63,7 @@ def run(connection: Connection, options: ExportOptions) -> ExitStatus:
 
 
 def _refuse_misfits(form: Format, pairs: list[tuple[str, str]], options: ExportOptions) -> None:
-    """Raise an error for options that do not fit the output format.
-
-    Raises:
-        UsageError: If an option does not fit.
-    """
+    """Raise UsageError if an option does not fit the output format."""
     has_root = options.root is not None
     has_at = options.at is not None and not options.with_moving
     refuse(

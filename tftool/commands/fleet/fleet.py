@@ -1,7 +1,7 @@
 """Processing of many recordings in one process, several processes, or a cluster.
 
-All three use an executor of `concurrent.futures`. Results are rows of a table. A recording that
-cannot be read gets a row too, and a recording that crashes its process is tried again alone.
+Each variant is an executor of `concurrent.futures`. Results are rows of a table. A recording that
+cannot be read also gets a row. A recording that crashes its process is tried again alone.
 """
 
 import glob
@@ -97,7 +97,7 @@ UNREADABLE = "unreadable"
 
 
 class FleetTask:
-    """Work to do for one recording; it is pickled for other processes.
+    """Task to run on each of many recordings; a task can be pickled for other processes.
 
     Attributes:
         columns: Names and types of the columns of a row.
@@ -125,21 +125,21 @@ class FleetTask:
             return [self.unreadable(source, str(error) or type(error).__name__)]
 
     def read(self, source: str, path: str) -> list[Row]:
-        """Examine one recording in this process; return its rows of the table."""
+        """Examine one recording in this process; return the rows of the result table."""
         raise NotImplementedError
 
     def unreadable(self, source: str, why: str) -> Row:
-        """Return the row of an unreadable recording; `why` is the reason."""
+        """Return the row of an unreadable recording; `why` is the error message."""
         raise NotImplementedError
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Return a recording's outcome as a word, such as "error", which `told` counts."""
+        """Return the outcome of one recording, such as "error", computed from its rows."""
         raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
 class Examination(FleetTask):
-    """Work of `tftool doctor` for one recording: a row for each finding.
+    """Task of `tftool doctor`: examine one recording, with one row for each finding.
 
     Attributes:
         settings: Settings with which the doctor judges.
@@ -206,7 +206,10 @@ class Examination(FleetTask):
         }
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Return the worst severity among findings that are not consequences of other findings."""
+        """Return the worst severity of a recording's findings, such as "warning".
+
+        Findings that are consequences of other findings do not count.
+        """
         if rows[0]["id"] in (UNREADABLE, NONE_FOUND):
             return str(rows[0]["id"])
         severities = {row["severity"] for row in rows if row.get("because_of") is None}
@@ -215,7 +218,7 @@ class Examination(FleetTask):
 
 @dataclass(frozen=True, slots=True)
 class Inventory(FleetTask):
-    """Work of `tftool info` for one recording: one row with its contents."""
+    """Task of `tftool info`: describe the contents of one recording in one row."""
 
     columns = FACTS
     judged = ("damage", "unreadable")
@@ -260,16 +263,16 @@ class Inventory(FleetTask):
 def sweep(
     sources: Sequence[str], output: RowFile | None, workers: Workers, task: FleetTask
 ) -> tuple[dict[str, int], list[Row]]:
-    """Process many recordings, and write each result as soon as it is known.
+    """Run a task on many recordings, and write the rows of each recording when it is finished.
 
     Args:
-        sources: Recordings; a recording that the output already has is skipped.
-        output: File for the rows; None to return them.
+        sources: Paths or URLs; a recording that already has rows in `output` is skipped.
+        output: File for the rows; None to return the rows.
         workers: Executor to use.
-        task: Work to do for each recording.
+        task: Task to run on each recording.
 
     Returns:
-        Number of recordings by outcome, and the rows if there is no output.
+        Number of recordings by outcome, and a list of all rows, which is empty with an output file.
     """
     from rich.console import Console
     from rich.progress import (
@@ -329,10 +332,11 @@ def _results(
 def _worked(
     pool: Executor, sources: Sequence[str], workers: Workers, task: FleetTask
 ) -> Iterator[tuple[str, list[Row]]]:
-    """Yield each recording with its rows, as soon as the rows are known.
+    """Yield each recording and its rows when the recording is finished.
 
     Raises:
-        BrokenExecutor: If a process was killed; raised after the results of other processes.
+        BrokenExecutor: If a worker process was killed; raised after the results of the other
+            workers are yielded.
     """
     queue = iter(sources)
     pending: dict[Future[list[Row]], str] = {}
@@ -359,11 +363,11 @@ def _worked(
 
 
 def _failure(error: Exception) -> str:
-    """Return why a worker of a cluster failed on one recording.
+    """Return the reason why a cluster's worker failed on one recording.
 
     Raises:
-        UsageError: If the cluster's workers lack tftool.
-        InputError: If the cluster cannot be reached any more, which is no fault of a recording.
+        UsageError: If tftool is not installed on the cluster's workers.
+        InputError: If the connection to the cluster is lost, which no recording caused.
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):
         raise UsageError(
@@ -392,12 +396,13 @@ def _alone(source: str, task: FleetTask) -> list[Row]:
 
 
 def expanded(words: Sequence[str]) -> list[str]:
-    """Return the recordings that files, folders, globs and URLs name, each once.
+    """Expand files, folders, globs and URLs into a list of recordings without duplicates.
 
-    Files that match a glob and have the suffix of a recording count, even if they cannot be read.
+    A file that matches a glob is included if its suffix is that of a recording, even if the file
+    cannot be read.
 
     Raises:
-        InputError: If a glob or web folder names nothing, or cannot be listed.
+        InputError: If a glob or web folder has no matches, or cannot be listed.
     """
     found: list[str] = []
     for word in words:
@@ -451,7 +456,7 @@ def told(counts: dict[str, int]) -> str:
 
 
 def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
-    """Print the summary of processed recordings, and of those skipped as already done."""
+    """Print a summary: recordings processed now, and recordings whose rows existed before."""
     total = sum(counts.values())
     passed = sum(earlier.values())
     over = f" ({passed:,} were in it already: {told(earlier)})" if passed else ""

@@ -1,4 +1,4 @@
-"""Table of results that grows during the work: JSON lines, CSV or Parquet."""
+"""Result table to which rows are appended during the work: JSON lines, CSV or Parquet."""
 
 import csv
 import io
@@ -34,14 +34,15 @@ SUFFIXES = (".jsonl", ".csv", ".parquet")
 
 
 class RowFile:
-    """File of rows; the rows of one recording are written together.
+    """File of result rows; all rows of one recording are written at once.
 
-    Parquet files cannot grow, so their rows are collected as JSON lines in a second file,
-    `NAME.part`. That file is converted when the output is closed, and continued after a crash.
+    Rows cannot be appended to a Parquet file. New rows are therefore collected as JSON lines in a
+    second file, `NAME.part`, and converted to Parquet by `close`. After a crash, a resumed run
+    appends to `NAME.part`.
 
     Attributes:
         path: Path of the file.
-        source: Name of the column that names the recording.
+        source: Name of the column that identifies the recording.
     """
 
     source = "source"
@@ -98,14 +99,20 @@ class RowFile:
         return bool(self.earlier(source))
 
     def earlier(self, source: str) -> list[Row]:
-        """Return the rows that a recording had at opening; at least their `judged` columns."""
+        """Return the rows of a recording that the file had when it was opened; else an empty list.
+
+        Each row has at least the columns named in `judged`.
+        """
         written = _cell(source) if self._suffix == ".csv" else source
         return self._done.get(str(written)) or (
             self._done.get(_utf8(source), []) if self._is_parquet else []
         )
 
     def _held(self) -> Iterator[Row]:
-        """Yield at least the `judged` columns of existing rows; cut off an incomplete last line."""
+        """Yield the rows that the file has at opening, with at least the columns named in `judged`.
+
+        An incomplete last line is removed from the file.
+        """
         if self._is_parquet and self.path.exists() and self.path.stat().st_size:
             arrow = _arrow()
             try:
@@ -233,7 +240,7 @@ def _type(kind: ColumnKind) -> "pyarrow.DataType":
 
 
 def _clean(value: Any, kind: ColumnKind) -> Any:
-    """Return a Parquet cell with invalid UTF-8 escaped."""
+    """Return the value of a Parquet cell, with invalid UTF-8 replaced by escape sequences."""
     if value is None or kind in (ColumnKind.INTEGER, ColumnKind.NUMBER):
         return value
     if kind is ColumnKind.EDGES:

@@ -73,7 +73,7 @@ _ON_CLUSTER = 512
 
 @dataclass(frozen=True, slots=True)
 class Workers:
-    """Executors of one kind: this process, a process pool, or a cluster.
+    """Factory of executors of one kind: this process, a process pool, or a cluster.
 
     Attributes:
         count: Number of recordings processed at the same time.
@@ -88,12 +88,12 @@ class Workers:
     is_remote: bool = False
 
     def place(self, source: str) -> str:
-        """Return the path or URL at which workers open a recording."""
+        """Return the path or URL that a worker uses to open a recording."""
         return os.path.abspath(source) if self.is_remote and not is_url(source) else source
 
 
 class _Here(Executor):
-    """Executor that does all work in this process, during `submit`."""
+    """Executor that runs each task in this process, inside the call of `submit`."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         future: Future[Any] = Future()
@@ -105,7 +105,7 @@ class _Here(Executor):
 
 
 def processes(count: int) -> ProcessPoolExecutor:
-    """Return a pool of processes on this machine."""
+    """Return a pool of `count` processes on this machine."""
     # Spawned, not forked, because a fork copies locks of other threads. The terminal sends Ctrl-C
     # to every process: the default handler ends a worker without a traceback.
     end_with_ctrl_c = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)

@@ -1,4 +1,4 @@
-"""Run of `tftool follow`: a turtle that follows a frame."""
+"""Implementation of `tftool follow`: a turtle that follows a frame."""
 
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
@@ -23,13 +23,22 @@ SETTLE = seconds(0.5)
 
 
 def _tell(record: LogRecord) -> None:
-    """Print the follower's log and other nodes' errors; the session prints warnings of its own."""
+    """Print a log record of the follower node, or a warning or error of another node.
+
+    Records of the node "link" are omitted: the session prints such warnings itself.
+    """
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)
 
 
 async def _last(session: Session, follower: str, run_for: Duration | None) -> None:
-    """Run the world for a duration; in a joined session, first add a missing broadcaster."""
+    """Run the session for a duration; add a broadcaster for the follower if none exists.
+
+    Args:
+        session: Hosted or joined session.
+        follower: Name of the turtle that follows.
+        run_for: Nanoseconds to run; None for no end.
+    """
     if not session.is_hosted:
         # Another process may broadcast the follower already: there must be one broadcaster.
         await session.lasting(SETTLE)

@@ -1,4 +1,4 @@
-"""Run of `tftool info`: contents of recordings and robot descriptions."""
+"""Implementation of `tftool info`: contents of recordings and robot descriptions."""
 
 import sys
 from pathlib import Path
@@ -55,7 +55,7 @@ def _is_launch_file(place: str) -> bool:
 
 
 def _is_text(place: str) -> bool:
-    """Return whether a file is a robot description, launch file or script, not a recording."""
+    """Return whether a path names a robot description, launch file or script, not a recording."""
     try:
         return Path(place).is_file() and named(place).kind in (Kind.DESCRIPTION, Kind.STATICS)
     except InputError:

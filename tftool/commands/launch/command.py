@@ -1,4 +1,4 @@
-"""Run of `tftool launch`: run launch files without ROS."""
+"""Implementation of `tftool launch`: run launch files without ROS."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Run of `tftool monitor`: reports about a session, or about the messages of a recording."""
+"""Implementation of `tftool monitor`: reports about a session or a recording."""
 
 import json
 import os
@@ -58,7 +58,7 @@ class ReportStyle(Enum):
 
 
 class TrafficReport:
-    """Received transforms, the delay of one pair of frames, and their output as a report."""
+    """Report on the rates and delays of received transforms, as a table, as text or as JSON."""
 
     def __init__(
         self, frames: tuple[str, str] | None, style: ReportStyle, options: ScreenOptions
@@ -77,7 +77,7 @@ class TrafficReport:
         self.chain: view.Chain | None = None
 
     def begin(self, buffer: Buffer, now: Stamp) -> None:
-        """Find the frames between the pair, and count the static transforms as received."""
+        """Look up the chain between the pair of frames, and count static transforms as received."""
         if self.frames is not None:
             chain = tuple(buffer.chain(*self.frames)) or self.frames[:1]
             self.chain = view.Chain(*self.frames, chain, NetDelay())
@@ -87,7 +87,7 @@ class TrafficReport:
                 self.traffic.receive(now, [sample], info.authority or "", is_static=True)
 
     def measure(self, buffer: Buffer, now: Stamp) -> None:
-        """Record the age of the pair's newest transform; a static transform has no age."""
+        """Record how old the newest transform of the frame pair is; ignore a static transform."""
         if self.chain is None:
             return
         try:
@@ -99,7 +99,7 @@ class TrafficReport:
             self.chain.delay.add(as_seconds(now - found.stamp))
 
     def announce(self, period: Duration, duration: Duration | None) -> None:
-        """Print to stderr which frames are reported on, and how often."""
+        """Print to stderr which frames the report covers, and how often a report is printed."""
         about = "all frames" if self.frames is None else in_words(*self.frames)
         if period == duration:
             notice(f"Gathering data on {about} for {round(as_seconds(duration), 3):g} s ...")
@@ -153,18 +153,19 @@ class TrafficReport:
 async def watch_session(
     world: World, report: TrafficReport, *, period: Duration, lasting: Duration | None
 ) -> None:
-    """Listen to a world and write a report once a period.
+    """Receive transforms from a world, and write a report once a period and at the end.
 
-    Time is counted from when the frames are connected. The last report is written at the end.
+    The duration is counted from the time at which the frames are connected.
 
     Args:
-        world: World to listen to.
+        world: World that receives the transforms.
         report: Report to fill and to write.
         period: Nanoseconds between two reports.
         lasting: Nanoseconds to listen; None for no end.
 
     Raises:
-        TransformException: If the frames are not connected within `lasting`, or never will be.
+        TransformException: If the frames are not connected within `lasting`, or waiting cannot
+            help.
     """
     clock, pace = world.clock, pace_of(world.clock)
     if report.frames is not None:
@@ -300,7 +301,7 @@ class Arrivals:
         self._plain = timeline.is_plain()
 
     def receive_until(self, moment: Stamp, traffic: Traffic | None) -> None:
-        """Receive the messages up to a time, and count them in `traffic`."""
+        """Receive the messages up to the time `moment`, and count the messages in `traffic`."""
         start = self._timeline.start
         while self._known:
             self._receive(self._known.pop(0), start, traffic)
@@ -318,10 +319,17 @@ class Arrivals:
             self._place += 1
 
     def connect(self, pair: tuple[str, str], end: Stamp) -> Stamp:
-        """Receive messages until a pair can be looked up; return the time of the last message.
+        """Receive messages until the pair of frames can be looked up.
+
+        Args:
+            pair: Target and source frame.
+            end: Time of the last message to receive.
+
+        Returns:
+            Time of the last received message.
 
         Raises:
-            TransformException: If the frames are not connected at the end.
+            TransformException: If the frames are not connected at `end`.
         """
         answers: list[bool] = []
         waits = self.buffer.request(lambda _, there: answers.append(there), *pair) != NOW
@@ -340,11 +348,11 @@ class Arrivals:
         return moment
 
     def measure(self, report: TrafficReport, moments: Stamps) -> None:
-        """Record the age of the newest transform of the report's pair at each of these times.
+        """Record the age of the newest transform of the report's pair at each time in `moments`.
 
-        Lookups would need exactly the messages received up to each time. Receiving messages in
-        groups of a few hundred takes twice as long as receiving all at once. The arrival times
-        alone give the same ages if every edge has one publisher whose stamps increase.
+        If every edge has one publisher whose stamps increase, the ages are computed from the
+        arrival times of all messages. Otherwise, messages are received up to each time, which takes
+        twice as long.
 
         Args:
             report: Report to fill.
@@ -376,7 +384,7 @@ class Arrivals:
             report.chain.delay.add(delay)
 
     def _receive_many(self, first: int, last: int, traffic: Traffic) -> None:
-        """Receive messages of moving frames in bulk: grouped by frame, then by publisher."""
+        """Receive the messages `first` to `last` in bulk: grouped by frame, then by publisher."""
         timeline = self._timeline
         rows = timeline.rows(first, last)
         if not len(rows.edges):
@@ -461,7 +469,10 @@ def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
 
 
 def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
-    """Split the words: one word is FROM, two are target and source, three are all of them."""
+    """Split the words of the command line into a pair of frames and FROM.
+
+    One word is FROM; two words are the target and the source frame; a third word is FROM.
+    """
     if len(words) > 3:
         raise UsageError(
             f"{len(words)} words are too many: write two frames or none, then at most one FROM."

@@ -1,4 +1,4 @@
-"""Run of `tftool play`: play a recording as a live session."""
+"""Implementation of `tftool play`: play a recording as a live session."""
 
 from collections.abc import Coroutine, Sequence
 from pathlib import Path
@@ -45,11 +45,7 @@ MOST_MARKS = 200
 
 
 def _refuse_to_mix(link: Link) -> None:
-    """Raise an error if another node publishes transforms, which would mix with the recording's.
-
-    Raises:
-        UsageError: If another node publishes transforms.
-    """
+    """Raise UsageError if another node publishes transforms: both motions would be mixed."""
     nodes = sorted({one.node for one in link.graph.entities(PUBLISHER, name="tf")})
     if nodes:
         some = ", ".join(f"'{visible(node)}'" for node in nodes[:3])
@@ -62,10 +58,10 @@ def _refuse_to_mix(link: Link) -> None:
 def _span(
     recording: Recording, timeline: Timeline, begin: At | None, until: At | None
 ) -> tuple[Stamp, Stamp]:
-    """Return the start and the end of the playback.
+    """Return the first and the last time to play.
 
     Raises:
-        UsageError: If the recording has nothing between start and end.
+        UsageError: If a time is outside of the recording, or --from is after --to.
     """
     # The last message is received after its stamp, so it is later than the last stamp.
     low, high = min(timeline.start, recording.start), max(timeline.end, recording.end)
@@ -158,7 +154,7 @@ async def _on_screen(
 
 
 async def _end_after(world: World, pace: Clock, duration: Duration | None) -> None:
-    """End the world when a duration is over; return at once if there is none."""
+    """Stop the world after a duration; return at once if `duration` is None."""
     if duration is not None:
         await pace.sleep(duration)
         world.stop()
@@ -177,7 +173,10 @@ def _feed(recording: Recording, timeline: Timeline, link: Link | None) -> TopicF
 def _findings_and_topics(
     recording: Recording, timeline: Timeline, start: Stamp
 ) -> tuple[list[PlaybackMark], list[PlayedTopic]]:
-    """Return the doctor's findings, the worst first, and the topics."""
+    """Return the marks of the doctor's findings for the timeline, and the topics.
+
+    The worst findings come first. A very long recording is not judged and gets no marks.
+    """
     if len(recording.transforms) > MOST_JUDGED:
         return [], _topics(recording, timeline, None, start)
     evidence = evidence_of_recording(recording)
@@ -199,9 +198,9 @@ def _findings_and_topics(
 def _topics(
     recording: Recording, timeline: Timeline, evidence: Evidence | None, start: Stamp
 ) -> list[PlayedTopic]:
-    """Return the topics: those with transforms first, then those with the most messages.
+    """Return the topics to show: topics with transforms first, then by number of messages.
 
-    The times of messages are known for topics with transforms or with headers.
+    The message times are known only for topics with transforms or with headers.
     """
     transforms = recording.transforms
     by_sender = np.array([one.topic for one in transforms.publishers] or [""], dtype=np.object_)

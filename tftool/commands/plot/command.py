@@ -1,4 +1,4 @@
-"""Run of `tftool plot`: transforms over time, complete from a file, live from a session."""
+"""Implementation of `tftool plot`: transforms over time, from a file or live from a session."""
 
 import math
 import sys
@@ -39,7 +39,7 @@ def drawn(
     span: tuple[float, float] | None = None,
     hidden: frozenset[int] | None = None,
 ) -> Text:
-    """Draw transforms over time for a console.
+    """Draw transforms over time as text for a console.
 
     Args:
         options: Options of the command.
@@ -49,7 +49,7 @@ def drawn(
         margin: Number of columns that the plot leaves free.
         height: Number of lines; None for a suitable number.
         span: Seconds since `start` that the axis covers; None for all data.
-        hidden: Numbers of the curves that keys have hidden; None without keys.
+        hidden: Numbers of the curves that the user has hidden; None if no keys are read.
     """
     width = (console.width if console.is_terminal else 80) - margin
     ascii_only = options.ascii_only or console.options.ascii_only
@@ -69,10 +69,10 @@ def drawn(
 
 
 def _quantities(options: PlotOptions) -> Sequence[str]:
-    """Return the quantities that --only names.
+    """Return the quantities listed in --only.
 
     Raises:
-        UsageError: If --only has a word that is no quantity.
+        UsageError: If a word of --only names no quantity.
     """
     return chosen([one for text in options.only or () for one in text.split(",") if one.strip()])
 

@@ -63,7 +63,7 @@ class PlotSight:
         self._back: Duration = 0
 
     def press(self, key: str) -> None:
-        """Handle a key: zoom, move in time, hide curves, isolate one, or show all.
+        """Handle a key: zoom, move in time, hide curves, show one curve only, or reset the view.
 
         The key "i" shows only the first curve, then only the second, and so on.
         """
@@ -94,7 +94,7 @@ class PlotSight:
 
     @property
     def back(self) -> Duration:
-        """Nanoseconds between the newest and the shown time."""
+        """Nanoseconds from the last shown time to the present; 0 in the live view."""
         return self._back
 
 
@@ -157,7 +157,7 @@ def _newest(
     first, now = sight.span(world.clock.now())
 
     def arrived(target: str, source: str) -> Stamp:
-        """Return the last time with known poses; later samples may not have arrived yet."""
+        """Return the last time with a known pose; samples of the last moments may still arrive."""
         newest = world.buffer.newest_common(target, source)
         return newest if now - ON_ITS_WAY < newest < now else now
 

@@ -1,4 +1,4 @@
-"""Run of `tftool record`: record a session."""
+"""Implementation of `tftool record`: record a session."""
 
 import json
 import os
@@ -48,7 +48,7 @@ _ERASE: Final = "\r\x1b[K"
 
 
 class RecordingRun:
-    """Loop that writes a recorder's messages to a file until a time, a finding or a stop."""
+    """Loop that writes a recorder's messages to a file until the recording is to end."""
 
     def __init__(
         self,
@@ -63,7 +63,7 @@ class RecordingRun:
             recorder: Recorder, which receives the messages.
             rolling: Writer of the recording.
             clock: Clock that times the writing.
-            finding: Id of the doctor's finding that ends the recording; None if no finding does.
+            finding: Id of the doctor's finding that ends the recording; None to ignore findings.
         """
         self.recorder = recorder
         self.rolling = rolling
@@ -76,7 +76,10 @@ class RecordingRun:
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     async def run(self, duration: Duration | None) -> None:
-        """Record until `duration` nanoseconds are over, the finding occurs, or the user stops.
+        """Record until `duration` is over, the doctor reports the finding, or the user stops.
+
+        Args:
+            duration: Nanoseconds to record; None for no end.
 
         Raises:
             InputError: If the file cannot be written any more; the part written so far is readable.
@@ -96,7 +99,7 @@ class RecordingRun:
                 self.found = self._look(now)
 
     def _look(self, now: Stamp) -> "Finding | None":
-        """Return the finding if the doctor reports it for the ring buffer's content."""
+        """Let the doctor examine the ring buffer; return the expected finding, or None."""
         assert self._finding is not None
         held = self.rolling.held()
         material = evidence_of_log(
@@ -110,7 +113,7 @@ class RecordingRun:
         return next(iter(diagnosis.findings), None)
 
     def _draw(self, now: Stamp) -> None:
-        """Redraw the line with the progress, if stderr is a terminal."""
+        """Redraw the progress line, if stderr is a terminal."""
         if not self._is_terminal:
             return
         then, count = self._before
@@ -128,7 +131,7 @@ class RecordingRun:
         sys.stderr.flush()
 
     def clear(self) -> None:
-        """Erase the line with the progress."""
+        """Erase the progress line."""
         if self._is_terminal:
             sys.stderr.write(_ERASE)
             sys.stderr.flush()
@@ -149,7 +152,7 @@ def heard(messages: list[Kept]) -> TransformLog:
 
 
 def tell(rolling: RollingRecording, recorder: Recorder) -> None:
-    """Report the numbers of recorded and missed messages."""
+    """Report topics that were not recorded or never published, and a lack of transforms."""
     for name, reason in recorder.left_out.items():
         notice(f"'{visible(name)}' is not recorded: {visible(reason)}.")
     for name in recorder.missing:
@@ -173,7 +176,7 @@ RING = seconds(60)
 
 @contextmanager
 def _ended_by_hangup() -> Iterator[None]:
-    """Within this block, end the recording as Ctrl-C does when the terminal is closed."""
+    """Within this block, handle a closed terminal (SIGHUP) like Ctrl-C: end the recording."""
     if not hasattr(signal, "SIGHUP") or threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -206,7 +209,7 @@ def _summed_up(rolling: RollingRecording) -> str:
 
 
 def _size(text: str | None) -> int:
-    """Parse a size in bytes, such as 500MB."""
+    """Parse a number of bytes, such as 500M; return 0 for None."""
     if text is None:
         return 0
     match = _SIZE.fullmatch(text.strip())
@@ -219,11 +222,7 @@ def _size(text: str | None) -> int:
 
 
 def _refuse_places(topics: Sequence[str]) -> None:
-    """Raise an error for a scenario or file given in place of a topic's name.
-
-    Raises:
-        UsageError: If a word is a scenario or file.
-    """
+    """Raise UsageError if a word is a scenario or file instead of a topic's name."""
     for word in topics:
         if word.startswith("/"):
             continue

@@ -1,4 +1,4 @@
-"""Run of `tftool robot`: publish a robot description, whose joints the keys move."""
+"""Implementation of `tftool robot`: publish a robot description, whose joints the keys move."""
 
 import sys
 from collections.abc import Mapping, Sequence
@@ -70,7 +70,17 @@ def _show(
     run_for: Duration | None,
     solids: tuple[Solids, Sequence[str]],
 ) -> None:
-    """Show the sliders of the joints while the session runs."""
+    """Show sliders for the joints while the session runs.
+
+    Args:
+        session: Session in which the robot is published.
+        described: Robot of the description.
+        mover: Publisher of the joint positions; None to show the positions of other publishers.
+        shown: Link whose pose is shown, or None for the default, and the prefix of frame names.
+        setting: Settings of the screen.
+        run_for: Nanoseconds to run; None for no end.
+        solids: Shapes of the links, and sentences about meshes that could not be read.
+    """
     world = session.world
     sliders = Sliders(described, mover, seed=world.clock.now())
     if mover is None:
@@ -101,7 +111,7 @@ def _draw(
     light: bool,
     force: bool,
 ) -> ExitStatus:
-    """Draw the robot at given joint positions into a file."""
+    """Draw the robot at given joint positions, and write the picture to an .svg or .png file."""
     form = output.suffix.lower().removeprefix(".")
     if form not in ("svg", "png"):
         raise UsageError(f"'{output}' has no known suffix: end it in .svg or .png.")

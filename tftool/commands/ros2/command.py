@@ -1,4 +1,4 @@
-"""Run of `tftool ros2`: commands of ROS 2's command line, for tftool's sessions."""
+"""Implementation of `tftool ros2`: commands of ROS 2's command line, for tftool's sessions."""
 
 import json
 from collections.abc import Sequence
@@ -37,7 +37,7 @@ _ELSEWHERE = {
 
 
 class _JsonLines:
-    """Printer that converts each YAML document that a command prints to one line of JSON."""
+    """Printer that converts each YAML document of a command to one line of JSON."""
 
     def __init__(self, words: Sequence[str]) -> None:
         self._lines: list[str] = []
@@ -45,14 +45,14 @@ class _JsonLines:
         self._is_endless = words[1:2] in (["hz"], ["bw"], ["delay"])
 
     def __call__(self, line: str) -> None:
-        """Add a printed line to the document; `---` ends the document."""
+        """Add a printed line to the document; the line `---` ends the document."""
         if line != "---":
             self._lines.append(line)
         if line == "---" or self._is_endless:
             self.finish()
 
     def finish(self) -> None:
-        """Print the last document, which no `---` has ended."""
+        """Print the last document, after which the command printed no `---`."""
         if not self._lines:
             return
         try:

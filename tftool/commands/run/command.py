@@ -1,4 +1,4 @@
-"""Run of `tftool run`: run a user's node without ROS."""
+"""Implementation of `tftool run`: run a user's node without ROS."""
 
 import itertools
 import shlex
@@ -42,10 +42,10 @@ SIMULATED = "Simulated time is a world's own, and shares no session"
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
-    """Return hints about words for the node that look like options of `tftool run` or of ROS 2.
+    """Return hints about words after FILE that look like options of `tftool run` or of ROS 2.
 
     Args:
-        words: Words after FILE.
+        words: Words after FILE, which are passed to the node.
         own: Names of the options of `tftool run`.
     """
     told = []
@@ -67,11 +67,9 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
 
 
 def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
-    """Raise an error for --simulated or --for after FILE, unless the program's text has that word.
+    """Raise UsageError if --simulated or --for is after FILE, where tftool would ignore the option.
 
-    Raises:
-        UsageError: If such an option is after FILE: the program would get it, and tftool would
-            ignore it.
+    If the program's text contains the option, the option is meant for the program and is accepted.
     """
     file = Path(target)
     given = [word for word in ("--simulated", "--for") if word in _own_words(words)]
@@ -86,7 +84,14 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
 
 
 def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
-    """Open the session of a node; with `alone`, host an empty world for the node."""
+    """Open the session in which the node runs.
+
+    Args:
+        connection: Connection of the command.
+        place: Scenario to host; None for the running session.
+        alone: Whether to host an empty world for the node.
+        simulated: Whether a hosted world uses simulated time.
+    """
     if alone:
         return open_empty_session(connection, simulated=simulated)
     if place is not None:
@@ -107,7 +112,7 @@ def _run_other(
     """Run the tftool command that replaces a known ROS program; return None for other programs.
 
     Raises:
-        UsageError: If the program is known, but options for nodes were given (`refused`).
+        UsageError: If the program is known, and `refused` is set: options for nodes were given.
     """
     if (target, *words[:1]) == KEYBOARD:
         if refused:
@@ -131,7 +136,8 @@ def _run_command(connection: Connection, words: list[str]) -> int:
     """Print and run another tftool command, in the same session.
 
     Raises:
-        UsageError: If options connect to another machine; they must be given to the other command.
+        UsageError: If options for a connection to other machines were given; the error text says to
+            give these options to the other command.
     """
     if connection.reach.is_asked:
         raise UsageError(

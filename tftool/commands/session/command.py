@@ -1,4 +1,4 @@
-"""Run of `tftool session`: processes, nodes, topics and rates of the running session."""
+"""Implementation of `tftool session`: processes, nodes, topics and rates of the running session."""
 
 import asyncio
 import json
@@ -24,7 +24,7 @@ from tftool.world.link.session import Link, is_plain
 
 
 def _rates(connection: Connection, link: Link, lasting: Duration) -> dict[str, float]:
-    """Listen for a while; return the rate in hertz of each topic that had messages."""
+    """Count messages during `lasting`; return the rate in hertz of each topic that had messages."""
     counts: dict[str, int] = {}
     clock = connection.providers.wall_clock()
 
@@ -85,7 +85,7 @@ def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
 
 
 def _written(found: dict[str, Any], *, verbose: bool) -> str:
-    """Format the report as text, at the terminal's width or without a limit."""
+    """Format the report as text; on a terminal, the text fits the terminal's size."""
     if not sys.stdout.isatty():
         return "\n".join(line.plain for line in view.lines(found, verbose=verbose))
 

@@ -1,4 +1,4 @@
-"""Connection of a command: whether it joins or hosts a session, and on which machines.
+"""Connection of a command to a session: joined or hosted, on this machine or on others.
 
 Every command that may share a session has a `Connection` as its first parameter. `declaration.py`
 creates the connection, and at the end closes every file and session that the connection has opened.
@@ -48,7 +48,7 @@ HOME = "turtles"
 
 
 class Mode(Enum):
-    """Whether a command joins the running session, hosts a new session, or decides itself."""
+    """Choice between joining the running session and hosting a new one; AUTO prefers to join."""
 
     AUTO = auto()
     JOIN = auto()
@@ -146,21 +146,21 @@ class Connection:
 
     @property
     def needs_link(self) -> bool:
-        """Whether an option requires a connection to other processes."""
+        """Whether an option, such as --join, requires a connection to other processes."""
         return self.mode is Mode.JOIN or self.read_only or self.reach.is_asked
 
     @property
     def looks(self) -> bool:
-        """Whether the command only observes; then a world that it hosts is not shared."""
+        """Whether the command only observes; a world hosted by such a command is not shared."""
         return self.reach.awaits_others(hosts=self.kind.hosts_turtles)
 
     @property
     def place(self) -> str:
-        """Text on where the session's other processes are; empty for this machine."""
+        """Description of where the other processes of the session are; empty for this machine."""
         return self.reach.place(self.domain)
 
     def options(self) -> Options:
-        """Return the options with which this process joins a session."""
+        """Return the session options that this process uses to join a session."""
         # Among a robot's nodes, a command that only observes must not publish.
         read_only = self.read_only or (self.reach.is_robots and self.kind.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
@@ -202,16 +202,13 @@ class Connection:
         return not REACHES[0].has_members(self.domain)
 
     def keep(self, opened: "Link | Frames") -> None:
-        """Register a joined session or opened frames to be closed together with this connection."""
+        """Register a session or opened frames to be closed together with this connection."""
         self._opened.append(opened)
 
     def refuse_to_share(self, word: str | None) -> None:
-        """Raise an error for session options such as --join if FROM is not a running session.
+        """Raise UsageError for options such as --join if FROM is not a running session.
 
         Files, and scenarios on simulated time, cannot be shared with other processes.
-
-        Raises:
-            UsageError: If such an option was given.
         """
         if word is None and self.reach.only_reads:
             raise UsageError(
@@ -227,11 +224,7 @@ class Connection:
             )
 
     def refuse_to_join(self, word: str | None) -> None:
-        """Raise an error for --join or a robot's address if FROM names a world to host.
-
-        Raises:
-            UsageError: If --join or an address was given.
-        """
+        """Raise UsageError for --join or a robot's address if FROM names a scenario to host."""
         if word is not None and self.reach.only_reads:
             raise UsageError(f"'{visible(word)}' and {self.place} are two sources: leave one out.")
         if word is not None and self.mode is Mode.JOIN:
@@ -241,11 +234,7 @@ class Connection:
             )
 
     def refuse_read_only(self, purpose: str) -> None:
-        """Raise an error for --read-only with a command whose only purpose is to publish.
-
-        Raises:
-            UsageError: If --read-only was given.
-        """
+        """Raise UsageError for --read-only if the only purpose of the command is to publish."""
         if self.read_only:
             raise UsageError(
                 f"--read-only publishes nothing, but the only purpose of {self.command} is to "
@@ -253,7 +242,7 @@ class Connection:
             )
 
     def tell_read_only(self) -> None:
-        """Print the effect of --read-only on the nodes that the command runs."""
+        """Print a notice on how --read-only affects the nodes that the command runs."""
         if self.read_only:
             notice(
                 "--read-only: other processes receive no messages and no answers from the nodes "
@@ -455,7 +444,7 @@ def listen_from(
 
 @contextmanager
 def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[ListeningBar | None]":
-    """Return a progress bar on a terminal; otherwise print how long listening takes."""
+    """Yield a progress bar on a terminal; otherwise print how long the command listens."""
     if not sys.stderr.isatty():
         notice(f"Listening for {listen_for:g} s ...")
         yield None
@@ -468,7 +457,7 @@ def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[Listenin
 
 @contextmanager
 def _bar(place: str) -> "Iterator[Bar | None]":
-    """Return a progress bar for reading a file; None without a terminal."""
+    """Yield a progress bar for reading a file; yield None without a terminal."""
     if not sys.stderr.isatty():
         yield None
         return
@@ -484,7 +473,7 @@ def _bar(place: str) -> "Iterator[Bar | None]":
 
 
 def _tell(frames: Frames, *, notes: bool) -> None:
-    """Print which files were skipped, and notes about the frames."""
+    """Print which files were skipped; with `notes`, also print notes about the frames."""
     for text in () if frames.found is None else frames.found.told():
         notice(visible(text))
     if notes:

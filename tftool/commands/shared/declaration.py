@@ -1,6 +1,6 @@
-"""Declaration of a command: its options, and its kind, which adds options.
+"""Declaration of a command: its own options, and its kind, which adds options.
 
-A kind adds options of sessions, of recordings, or of robot descriptions.
+A command kind adds the options of sessions, of recordings, or of robot descriptions.
 `tftool/commands/NAME/__init__.py` declares a command. The function `run` in
 `tftool/commands/NAME/command.py` is imported only when the command is called, because help and
 completion need only the options. A small command is a single file.
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 def options_in(home: type) -> dict[str, tuple[Any, Any]]:
-    """Return the type and the declaration of each option, which are fields of a class."""
+    """Return each option field of a class by name, as a pair: type and declaration."""
     found = {}
     for name, kind in inspect.get_annotations(home).items():
         value = getattr(home, name, inspect.Parameter.empty)
@@ -49,7 +49,7 @@ def options_in(home: type) -> dict[str, tuple[Any, Any]]:
 
 
 def _declared(reach: type[Reach]) -> dict[str, Any]:
-    """Return the types and the declarations of a middleware's options."""
+    """Return each option of a middleware by name, as a pair: type and declaration."""
     return {
         name: (
             one.kind,
@@ -127,7 +127,7 @@ RECORDING_OPTIONS = options_in(_OfRecordings)
 
 
 class _OfUndescribed:
-    """Option --urdf of commands: the robot description for a recording that contains none."""
+    """Option --urdf, for commands whose FROM may be a recording without a robot description."""
 
     urdf: Path | None = option(
         "Robot description for a recording that does not contain one.",
@@ -193,7 +193,7 @@ class CommandKind:
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def options(self) -> dict[str, Any]:
-        """Return the type and the declaration of each option that this kind of command has."""
+        """Return the options of this kind of command by name, as pairs: type and declaration."""
         return {
             **(POSE_OPTIONS if self.poses or self.recordings or self.urdf else {}),
             **(ROBOT_OPTIONS if self.descriptions else {}),
@@ -216,13 +216,13 @@ class Invocation(NamedTuple):
 
 
 class Command:
-    """Base class of commands: a derived class has options as fields, and its docstring as help.
+    """Base class of commands: the fields of a derived class are options, its docstring is the help.
 
-    The value of a field is its declaration (`option`, `flag` or `argument`), or its type contains
-    the declaration.
+    A field's value or type contains the option's declaration (`option`, `flag` or `argument`).
 
-    Class keywords are attributes of `CommandKind`: `class EchoOptions(Command, looks_only=True)`.
-    An instance has the typed values, and is passed to `run` in the command's module.
+    Class keywords set attributes of `CommandKind`: `class EchoOptions(Command, looks_only=True)`.
+    An instance has the parsed values as attributes, and is passed to the function `run` of the
+    command.
     """
 
     kind: ClassVar[CommandKind]
@@ -238,7 +238,7 @@ class Command:
 
 
 def typer_function(command: type[Command]) -> Callable[..., Any]:
-    """Return a function for typer that takes all options and returns the exit status."""
+    """Return the function that typer calls to run a command; the result is the exit status."""
     home = command.__module__
     name = home.rpartition(".")[2]
     added = command.kind.options()
@@ -271,7 +271,12 @@ def typer_function(command: type[Command]) -> Callable[..., Any]:
 
 
 def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> str | None:
-    """Remove a session's address from a command's words, and return it; None if there is none.
+    """Remove a session's address from a command's words and return it; None if there is none.
+
+    Args:
+        name: Name of the command.
+        command: Class of the command.
+        words: Values of arguments and options by name; changed.
 
     Raises:
         UsageError: If the command does not read sessions, or the address is not given as FROM.
@@ -300,7 +305,7 @@ def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> s
 
 
 def _looking_commands() -> str:
-    """Return the names of the commands that read a session by its address, as text."""
+    """Return the names of the commands whose FROM may be an address, joined as text."""
     names = []
     for room in pkgutil.iter_modules(import_module("tftool.commands").__path__):
         module = import_module(f"tftool.commands.{room.name}")

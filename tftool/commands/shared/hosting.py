@@ -117,7 +117,7 @@ def join_or_host(
 
 
 def _why_alone(connection: Connection, link: "Link") -> str:
-    """Return a sentence on why a hosted world is not shared; empty if the world is shared."""
+    """Return a sentence on why a hosted world cannot be shared; "" if sharing is possible."""
     if _has_host(link):
         name = session_name(link, connection.place)
         return (
@@ -189,7 +189,13 @@ def open_session(
 def _scenario_to_host(
     word: str | None, without: Callable[["NodeEntry"], bool] | None, because: str
 ) -> "Scenario":
-    """Return a scenario to host, without expectations; print its name if it is the default."""
+    """Return the scenario to host, without its expectations.
+
+    Args:
+        word: Name or file of the scenario; None for the default, whose name is then printed.
+        without: Function that decides whether a node is omitted; None to keep all nodes.
+        because: Reason to print if the default scenario is hosted.
+    """
     scenario = scenario_named(word or HOME, expects=False)
     if without is not None:
         kept = tuple(node for node in scenario.nodes if not without(node))
@@ -200,11 +206,7 @@ def _scenario_to_host(
 
 
 def _refuse_files(word: str | None) -> None:
-    """Raise an error for files, which are read and not hosted.
-
-    Raises:
-        UsageError: If the word names a recording or a description.
-    """
+    """Raise UsageError if FROM is a recording or a description: only a scenario can be hosted."""
     found = None if word is None else named(word)
     if found is not None and found.kind is not Kind.SCENARIO:
         shown = visible(found.name)
@@ -217,7 +219,7 @@ def _refuse_files(word: str | None) -> None:
 def join_session(
     connection: Connection, *, needs_turtles: bool = False, cache_time: Duration | None = None
 ) -> Session | None:
-    """Return the world of the running session; None if no session runs and none was requested.
+    """Join the running session; return None if no session runs and none was requested.
 
     This is for commands whose own worlds run on simulated time, which other processes cannot join.
 
@@ -233,10 +235,9 @@ def join_session(
 
 
 def refuse_moment(connection: Connection) -> None:
-    """Raise an error if a time was requested and a session runs, which has no past.
+    """Raise UsageError if a session runs on this or the connected machine.
 
-    Raises:
-        UsageError: If a session runs on this or the connected machine.
+    Called when a past time is requested, because a session does not store the past.
     """
     link = None if connection.hosts_alone else _open_link(connection)[0]
     if link is None:
@@ -283,7 +284,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
 
 
 def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:
-    """Return an empty world that other processes can join, for a command that adds nodes."""
+    """Host an empty world, to which the command adds nodes and which other processes can join."""
     if simulated:
         world, link = World(SimClock()), None
     else:
@@ -294,7 +295,7 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
 
 
 def tell_where_to_look(connection: Connection, session: Session) -> None:
-    """Print how another terminal can show the new session, if stderr is a terminal."""
+    """Print, if stderr is a terminal, a command that shows the new session in another terminal."""
     if session.link is None or not sys.stderr.isatty():
         return
     domain = f" --domain {connection.domain}" if connection.domain else ""
@@ -304,7 +305,7 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
 def _hosted(
     scenario: "Scenario", clock: Clock, head_start: Duration, link: "Link | None"
 ) -> Session:
-    """Return a session that hosts a scenario for a command that observes it."""
+    """Return a session that hosts a scenario, even beyond the end of the scenario's duration."""
     from tftool.scenario.play import build
 
     play = build(scenario, clock)
@@ -319,10 +320,13 @@ def _hosted(
 
 
 def _open_link(connection: Connection) -> tuple["Link | None", str]:
-    """Join the other processes; if that is impossible, return None and the reason.
+    """Join the session of other processes.
+
+    Returns:
+        The connection and "", or None and the reason why no connection is possible.
 
     Raises:
-        LinkError: If an option needs the connection.
+        LinkError: If no connection is possible, but an option such as --join needs one.
     """
     try:
         return connection.open_link(), ""
@@ -335,6 +339,6 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
 
 
 def _has_host(link: "Link") -> bool:
-    """Return whether tftool hosts the session, or a turtle simulator of ROS is in it."""
+    """Return whether tftool hosts the session, or a turtle simulator of ROS runs in it."""
     # A host that has just started has no turtles yet, but will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))

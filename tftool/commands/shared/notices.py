@@ -19,12 +19,12 @@ _COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
 
 
 def notice(sentence: str) -> None:
-    """Print a notice to stderr; on a terminal it is wrapped between words."""
+    """Print a notice to stderr; on a terminal, wrap the text between words."""
     _write(fitting(sentence))
 
 
 def complain(who: str, sentence: str) -> None:
-    """Print an error to stderr, with the control characters in it escaped.
+    """Print an error of a command to stderr, with escaped control characters.
 
     Args:
         who: Name of the command.
@@ -67,7 +67,7 @@ def _write(text: str) -> None:
 
 
 def fitting(sentence: str) -> str:
-    """Return a text as it is printed to stderr: on a terminal wrapped between words.
+    """Wrap a text between words to the width of the terminal; without a terminal, change nothing.
 
     Lines that begin with a space stay unchanged: they are excerpts of files, or tracebacks.
     """
@@ -100,7 +100,7 @@ def tell_news(record: "LogRecord") -> None:
 
 
 def tell_record(record: "LogRecord", *, label: str = "") -> None:
-    """Print a log message of a world in the format of ROS 2's console.
+    """Print a log message of a node to stderr, in the format of ROS 2's console.
 
     Args:
         record: Log message.
@@ -122,13 +122,13 @@ class FoldedLog:
         """Start with all counts at zero.
 
         Args:
-            whole: Whether to print every message.
+            whole: Whether to print every message, also repeated ones.
         """
         self._whole = whole
         self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
 
     def tell(self, record: "LogRecord") -> None:
-        """Print a message; if an equal message was printed before, count it instead."""
+        """Print a log message; if an equal message was printed before, only count the new one."""
         kind = (record.node, record.level, record.text)
         first, more = self._more.get(kind, (record, -1))
         self._more[kind] = (first, more + 1)
@@ -136,7 +136,7 @@ class FoldedLog:
             tell_record(record)
 
     def end(self) -> None:
-        """Print how many messages were not printed, and count from zero again."""
+        """Print how often each message was repeated without being printed, and reset the counts."""
         for first, more in () if self._whole else self._more.values():
             if more:
                 text = visible(first.text.splitlines()[0] if first.text else "")
@@ -146,7 +146,10 @@ class FoldedLog:
 
 
 def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
-    """Return whether to colour log messages; ROS 2's own variable takes precedence."""
+    """Return whether to print log messages in colour.
+
+    RCUTILS_COLORIZED_OUTPUT=0 or 1, as in ROS 2, takes precedence over NO_COLOR and the terminal.
+    """
     asked = environment.get("RCUTILS_COLORIZED_OUTPUT", "")
     if asked in ("0", "1"):
         return asked == "1"

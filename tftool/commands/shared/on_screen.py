@@ -59,7 +59,7 @@ def screen_setting(options: ScreenOptions, title: str, **further: Any) -> "Setti
 
 
 def at_rest(connection: Connection, frames: Frames) -> StillFrames:
-    """Return a file's frames in the form that screens need, with a clock that shows the end."""
+    """Return a file's frames for a screen, with a clock that always shows the end of the file."""
     start, end = frames.span
     # In an empty recording both are 0, which is not a valid time of a clock.
     clock = connection.providers.still_clock(max(start, 1), max(end, 1))
@@ -67,15 +67,15 @@ def at_rest(connection: Connection, frames: Frames) -> StillFrames:
 
 
 def simulator_of(world: "World") -> "Turtlesim | None":
-    """Return a world's turtle simulator; None if there is none."""
+    """Return the turtle simulator among a world's nodes; None if no node is a simulator."""
     return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
 
 
 def driver_of(world: "World", turtle: str) -> "Teleop":
-    """Return the node that receives the keys for a turtle; add it if there is none.
+    """Return the node that converts keys to motions of a turtle; create the node if it is missing.
 
     Raises:
-        UsageError: If `turtle` is no valid name of a turtle.
+        UsageError: If `turtle` is not a valid name of a turtle.
     """
     for node in world.nodes:
         if isinstance(node, Teleop) and node.turtle == turtle:
@@ -86,7 +86,7 @@ def driver_of(world: "World", turtle: str) -> "Teleop":
 
 
 def scene_of(world: "World") -> "Scene":
-    """Return the scene of a world, with the turtles of its simulator or of another process."""
+    """Return the scene of a world, with the turtles of a simulator here or in another process."""
     from tftool.screens.terminal.scene import Scene
 
     scene = Scene(world, simulator_of(world) or FarTurtles(world))
@@ -165,7 +165,10 @@ def run_app(
 
 
 def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
-    """Return a function that passes keys to the driver, or notes that its turtle is missing."""
+    """Return a function that passes keys to the driver.
+
+    The function raises UsageError if the driver's turtle does not exist.
+    """
 
     def press(key: str) -> None:
         simulator, turtle = scene.simulator, driver.turtle

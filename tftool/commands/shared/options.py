@@ -110,7 +110,7 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
 
 
 def _nanoseconds(text: str) -> "tuple[int, Decimal]":
-    """Convert a text with seconds to nanoseconds; return these rounded and unrounded.
+    """Convert a text with seconds to nanoseconds: rounded to an integer, and exact.
 
     Raises:
         ValueError: If the text is not a number.
@@ -126,11 +126,7 @@ def _nanoseconds(text: str) -> "tuple[int, Decimal]":
 
 
 def refuse_long_simulation(lasting: Duration | None) -> None:
-    """Raise an error for more simulated time than a command may play.
-
-    Raises:
-        UsageError: If the duration is more than a day.
-    """
+    """Raise UsageError for a simulated duration of more than a day."""
     if lasting is not None and lasting > LONGEST_SIMULATED:
         raise UsageError(
             f"--for {as_seconds(lasting):g} is too long for simulated time, which is limited "
@@ -192,11 +188,7 @@ Rule = tuple[object, str]
 
 
 def refuse(*rules: Rule) -> None:
-    """Raise an error with the sentence of the first rule whose condition is true.
-
-    Raises:
-        UsageError: If a condition is true.
-    """
+    """Raise UsageError with the sentence of the first rule whose condition is true."""
     for holds, sentence in rules:
         if holds:
             raise UsageError(sentence)

@@ -29,7 +29,10 @@ NOTHING_NEW = "nothing new has come since its sender left"
 
 
 class PairWait:
-    """Wait for one transform in a world; an insertion into the buffer ends the wait."""
+    """Wait until one transform can be looked up.
+
+    The lookup is repeated whenever a transform is inserted into the buffer.
+    """
 
     def __init__(
         self,
@@ -57,10 +60,10 @@ class PairWait:
         """Wait until the transform can be looked up.
 
         Args:
-            newer_than: Newest stamp of a publisher that has left; only later stamps end the wait.
+            newer_than: Newest stamp of a disconnected publisher; only a later stamp ends the wait.
 
         Raises:
-            TransformException: If the transform is not available in time, or never will be.
+            TransformException: If the transform is not available in time, or waiting cannot help.
         """
         pace = pace_of(self.world.clock)
         answered = beside(self._answered(newer_than), self._tell_reasons(pace))
@@ -112,7 +115,7 @@ class PairWait:
                 return
 
     async def _available(self, then: Stamp) -> None:
-        """Wait until the transform can be looked up at one time."""
+        """Wait until the transform can be looked up at the time `then`."""
         pair = self.pair
         if pair.fixed_frame is None:
             await self.world.wait_for_transform(pair.target, pair.source, then)
@@ -122,7 +125,7 @@ class PairWait:
             )
 
     async def _tell_reasons(self, pace: Clock) -> None:
-        """Print the reason for the wait, and every new reason."""
+        """Print why the lookup fails, and again whenever the reason changes."""
         told = ""
         while True:
             await pace.sleep(SETTLED, Phase.WATCH)
@@ -147,7 +150,7 @@ class PairWait:
             )
 
     def _because(self) -> str:
-        """Return the cause of the wait and a remedy as text; "" if `explain` finds no cause."""
+        """Return the cause of the wait and a suggested fix as text; "" without a known cause."""
         # Imported here because it is slow, and needed only for an explanation.
         from tftool.doctor.explanation import explain
 
@@ -162,7 +165,7 @@ class PairWait:
         return f" Cause: {found.why[0]}.{cure}"
 
     def _hint(self) -> None:
-        """Print the known frames once if a requested frame is unknown."""
+        """Print the existing frames, at most once, if a requested frame does not exist."""
         if self._hinted:
             return
         asked = (self.pair.target, self.pair.source, self.pair.fixed_frame)
@@ -171,7 +174,10 @@ class PairWait:
 
 
 async def _existing(buffer: Buffer, frame: str) -> None:
-    """Wait until a frame exists: tf2 can look a frame up in itself even if it does not exist."""
+    """Wait until a frame exists.
+
+    A lookup of a frame in itself does not wait: tf2 returns the identity even for unknown frames.
+    """
     news = asyncio.Event()
     stop = buffer.listen(lambda *_: news.set())
     try:

@@ -30,7 +30,8 @@ class FramePair:
         at: Time to look up; 0 for the latest.
         offset: Nanoseconds from now to the time to look up (negative for the past); 0 if `at` is
             used.
-        fixed_frame: Frame through which `source` at that time is expressed in `target` now.
+        fixed_frame: Fixed frame through which `source` at the time to look up is expressed in
+            `target` at the latest time; None to look up both frames at the same time.
     """
 
     target: str
@@ -60,7 +61,7 @@ class FramePair:
         )
 
     def why_not(self, buffer: Buffer, now: Stamp) -> str:
-        """Return why the lookup fails, in tf2_echo's words."""
+        """Return why a lookup fails, in the words of tf2_echo; "" if the lookup succeeds."""
         if self.target == self.source and not buffer.frame_exists(self.target):
             return _unknown(self.target)
         then = self.moment(now)
@@ -78,12 +79,9 @@ def _unknown(frame: str) -> str:
 
 
 def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
-    """Raise an error if a file was typed in place of a frame's name.
+    """Raise UsageError if `target` or `source` is a file, not a frame.
 
-    This happens if one of the three words is missing.
-
-    Raises:
-        UsageError: If `target` or `source` is a file.
+    This mistake happens if one of the three words TARGET SOURCE FROM is missing.
     """
     if place is not None:
         return
@@ -97,7 +95,7 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
 
 
 def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
-    """Return the pairs of frames that a command line names, and FROM.
+    """Parse a command line into pairs of frames and FROM; FROM is None if not given.
 
     Args:
         words: TARGET SOURCE [FROM], or [FROM] alone.
@@ -152,12 +150,12 @@ def is_chosen(options: SpanOptions) -> bool:
 
 
 def moments_of(options: SpanOptions, frames: Frames) -> "Moments":
-    """Return the times at which a pair is looked up.
+    """Return the times at which a pair of frames is looked up.
 
     Raises:
-        InputError: If the recording has no such topic.
-        UsageError: If several options select times, or --at-stamps-of is given without a
-            recording, or the span has no data.
+        InputError: If the recording does not have the topic of --at-stamps-of.
+        UsageError: If several options select times, or --at-stamps-of is given without a recording,
+            or the span has no data.
     """
     from tftool.frames.pair_samples import Moments
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def workspace_here(target: str, *, verbose: bool) -> Workspace:
-    """Return the packages below this folder, or of the workspace whose src folder contains it.
+    """Return the ROS packages in the current folder or in the workspace around it.
 
     Args:
         target: File or package on the command line; packages near the file are preferred.

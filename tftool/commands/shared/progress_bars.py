@@ -38,7 +38,7 @@ _REDRAWN = seconds(0.1)
 
 
 class Bar:
-    """Progress bar on stderr, if that is a terminal, shown after half a second."""
+    """Progress bar on stderr; shown after half a second, and only on a terminal."""
 
     def __init__(self, what: str) -> None:
         """Prepare the bar without showing it.
@@ -54,7 +54,7 @@ class Bar:
         self._handlers: dict[int, Any] = {}
 
     def __call__(self, done: int, total: int) -> None:
-        """Show the progress in bytes, with rate and remaining time."""
+        """Show `done` of `total` bytes, the rate and the remaining time."""
         now = self._clock.now()
         if now - self._since < PATIENCE or now - self._drawn < _REDRAWN or not sys.stderr.isatty():
             return
@@ -88,7 +88,7 @@ class Bar:
         self._erase_when_killed()
 
     def _erase_when_killed(self) -> None:
-        """Erase the bar before a signal ends the process."""
+        """Install signal handlers that erase the bar before SIGINT or SIGTERM ends the process."""
         if threading.current_thread() is not threading.main_thread():
             return
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -127,7 +127,7 @@ _SHARE = 4
 class ListeningBar:
     """Progress bar for listening to a session, with lines of text below; erased at the end.
 
-    The thread that calls the bar is not the thread that waits for the end of listening.
+    `__call__` runs in another thread than the code that enters and leaves the `with` block.
     """
 
     def __init__(self, lasting: float, look: "Look | None") -> None:

@@ -47,7 +47,7 @@ def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object])
 
 
 def _asked(number: int, frame: FrameType | None) -> None:
-    """Stop the process on SIGTSTP, between two callbacks of the event loop."""
+    """Handle SIGTSTP (Ctrl-Z): stop the process, between two callbacks of the event loop."""
     try:
         loop = asyncio.get_running_loop()
     except RuntimeError:
@@ -166,9 +166,9 @@ def can_redraw() -> bool:
 
 
 class Redrawing:
-    """Drawer that replaces its last picture on the terminal; lines on stderr go above the picture.
+    """Drawer that replaces the last picture on the terminal by the next one.
 
-    Until the first picture is drawn, lines on stderr are written as usual.
+    Lines on stderr appear above the picture; before the first picture, they are not changed.
     """
 
     def __init__(self, clock: Clock) -> None:

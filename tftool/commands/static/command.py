@@ -1,4 +1,4 @@
-"""Run of `tftool static`: publish one static transform."""
+"""Implementation of `tftool static`: publish one static transform."""
 
 import inspect
 import os
@@ -18,7 +18,7 @@ from tftool.world.link.session_world import Session
 
 
 def publish(connection: Connection, said: StaticArguments, *, spin: bool) -> None:
-    """Publish a static transform and print it; with `spin`, keep it published until interrupted.
+    """Publish a static transform and print it; with `spin`, publish until interrupted.
 
     Raises:
         UsageError: If buffers would reject the transform, or --read-only was given.

@@ -1,4 +1,4 @@
-"""Run of `tftool teleop`: drive a turtle with arrow keys."""
+"""Implementation of `tftool teleop`: drive a turtle with arrow keys."""
 
 import math
 import sys
@@ -37,7 +37,7 @@ PATIENCE = seconds(10)
 
 
 def press_all(connection: Connection, turtle: str, keys: str) -> str:
-    """Press keys one by one; each key waits until the effect of the previous key has ended.
+    """Press keys one by one; before each key, wait until the motion of the previous key ends.
 
     Args:
         connection: Connection of the command.
@@ -48,7 +48,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
         A sentence with the turtle's new position.
 
     Raises:
-        UsageError: If there is no such key, or no such turtle.
+        UsageError: If a key or the turtle does not exist.
     """
     words = keys.replace(",", " ").split()
     for word in words:
@@ -88,10 +88,18 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
 
 
 async def press_there(world: World, turtle: str, words: list[str]) -> str:
-    """Press keys in a joined session, which shows a turtle's poses but not its state.
+    """Press keys in a joined session, and wait for the end of each motion in the turtle's poses.
+
+    Args:
+        world: World of the joined session.
+        turtle: Name of the turtle.
+        words: Names of the keys.
+
+    Returns:
+        A sentence with the turtle's new position.
 
     Raises:
-        UsageError: If there is no such turtle.
+        UsageError: If the turtle does not exist.
     """
     poses = world.topic(f"{turtle}/pose", Pose)
     # Poses are only received while there is a subscription.

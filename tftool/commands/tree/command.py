@@ -1,4 +1,4 @@
-"""Run of `tftool tree`: write the tree of frames once, as text, data or a picture."""
+"""Implementation of `tftool tree`: write the tree of frames once, as text, data or a picture."""
 
 import json
 import sys
@@ -32,7 +32,10 @@ Moving = frozenset[str] | None
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, options: TreeOptions) -> Iterator[str]:
-    """Yield the tree bit by bit; on a terminal, cut to the terminal's width unless --wide."""
+    """Yield the text of the tree in parts, so that a large tree appears at once.
+
+    On a terminal, lines are shortened to the width of the terminal unless --wide is given.
+    """
     console = Console()
     if not console.is_terminal:
         for text, _ in frame_tree.pieces(
@@ -57,7 +60,7 @@ def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, options: TreeOptions
 def fitting(
     snapshot: Snapshot, moving: Moving, marks: Marks, console: Console, options: TreeOptions
 ) -> Sequence[Text]:
-    """Return the lines of a tree at a terminal's width, with columns and names cut to fit."""
+    """Return the lines of a tree, with columns and names shortened to a terminal's width."""
     if not snapshot.frames:
         return [Text(NOTHING)]
     found = compact(
@@ -183,7 +186,7 @@ def _write(
 def _content(
     snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, options: TreeOptions
 ) -> bytes | Iterable[str]:
-    """Return the bytes of a picture, or text bit by bit, so that a large tree appears at once."""
+    """Return the tree in the format `form`: bytes of a picture, or parts of a text."""
     if form is TreeFormat.json:
         told = frame_tree.as_object(snapshot, moving, marks)
         return [json.dumps(told, indent=2, allow_nan=False), "\n"]

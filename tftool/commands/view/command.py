@@ -1,4 +1,4 @@
-"""Run of `tftool view`: the frames in 3-D, in a browser."""
+"""Implementation of `tftool view`: the frames in 3-D, in a browser."""
 
 import asyncio
 import html
@@ -89,7 +89,7 @@ def _write(connection: Connection, options: ViewOptions, output: Path) -> ExitSt
 
 
 def _page_data(connection: Connection, options: ViewOptions) -> StandaloneData:
-    """Return all data that a page without a server shows, from a file or a session."""
+    """Return all data of a standalone page, from a file or from a session that is listened to."""
     meshes = options.meshes or []
     published: list[ShownRobot] = []
     displays: list[LiveDisplays] = []
@@ -127,7 +127,11 @@ def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) ->
 def _alive(
     connection: Connection, found: Found, meshes: Sequence[Path]
 ) -> "tuple[Session, ShownRobot]":
-    """Return a session in which this process publishes a robot, and the robot for the page."""
+    """Publish a robot in a new session.
+
+    Returns:
+        The session, and the robot for the page, with sliders that move the joints.
+    """
     connection.refuse_to_share(found.name)
     robot = load_described(found, connection.robot)
     joints = connection.robot.joints
@@ -143,7 +147,10 @@ def _alive(
 
 
 def _let_drive(session: Session, page: PageServer) -> None:
-    """Pass the page's keys to a hosted turtle, which drives itself until a key is pressed."""
+    """Let the arrow keys on the page drive turtle1 of a hosted session.
+
+    Until a key is pressed, the turtle drives by itself.
+    """
     if not session.is_hosted or simulator_of(session.world) is None:
         return
     link = session.link
@@ -152,7 +159,7 @@ def _let_drive(session: Session, page: PageServer) -> None:
 
 
 def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
-    """Show the robot on the page when its description is published."""
+    """Show the robot on the page whenever a robot description is published in the session."""
 
     def show(shown: ShownRobot) -> None:
         page.show_robot(shown)
@@ -164,7 +171,7 @@ def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
 def _hear_description(
     world: World, show: Callable[[ShownRobot], object], meshes: Sequence[Path]
 ) -> None:
-    """Call `show` with each robot description that is published."""
+    """Call `show` with the robot of each robot description that is published in the world."""
 
     def described(message: Any) -> None:
         try:
@@ -196,7 +203,7 @@ async def _show(
     Args:
         page: Server of the page.
         name: Name of the source that the page shows.
-        waiting: Coroutine that ends when the time is over.
+        waiting: Coroutine that ends at the end of the requested duration.
         open_browser: Whether to open the page in a browser.
     """
     async with page:
@@ -290,7 +297,7 @@ def run(connection: Connection, options: ViewOptions) -> ExitStatus:
 def _show_frames(
     connection: Connection, options: ViewOptions, serve: Callable[..., PageServer]
 ) -> None:
-    """Show a file's frames from their beginning, paused."""
+    """Serve a page with the frames of a file; playback is paused at the beginning."""
     frames = open_from(connection, options.place, cache_time=options.cache_time)
     shown_frames = at_rest(connection, frames)
     clock, start = shown_frames.clock, max(frames.span[0], 1)
