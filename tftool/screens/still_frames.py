@@ -34,7 +34,7 @@ class StillFrames:
     """Frames of a recording or file, which do not change.
 
     Attributes:
-        clock: Clock that stands still at the frames' last time.
+        clock: Clock that always shows the last time of the frames.
         buffer: Transform buffer with the frames.
         log: Log for messages of the screen itself.
     """
@@ -45,7 +45,7 @@ class StillFrames:
 
 
 def first_look(frames: Frames) -> Stamp | None:
-    """Return the time to show first; None if all transforms are static."""
+    """Return the time that a screen shows first; None if all transforms are static."""
     start, end = frames.span
     if start == end:
         return None
@@ -54,14 +54,17 @@ def first_look(frames: Frames) -> Stamp | None:
 
 
 def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
-    """Return the time to show first; None if all transforms are static.
+    """Return the earliest time at which all frames that appear early have a sample.
 
-    At this time, every frame that appears within `SETTLING` nanoseconds has a sample.
+    Frames that appear more than `SETTLING` nanoseconds after `begin` are ignored.
 
     Args:
         buffer: Transform buffer with the frames.
         begin: First time of the recording.
         end: Last time of the recording.
+
+    Returns:
+        The time; None if all transforms are static.
     """
     frames = buffer.snapshot(end).frames
     first = [info.oldest for info in frames if info.samples and not info.is_static]

@@ -48,7 +48,7 @@ class Asset:
 
 
 def load() -> dict[str, Asset]:
-    """Read the page's files; return them by the paths under which they are served.
+    """Read the page's files, and return each file by the URL path under which it is served.
 
     Raises:
         TftoolError: If the page was not built, which can happen in a source tree only.

@@ -17,8 +17,8 @@ FORGIVEN = seconds(1)
 class Cadence:
     """Schedule of repeated work at a steady rate; work takes at most half of the time.
 
-    If one run of the work is late, later runs keep their times, as long as every run is short. So
-    the average rate stays the requested rate.
+    After a short delay, later runs keep their planned times, and the average rate stays the
+    requested rate.
     """
 
     def __init__(self, period: Duration, start: Stamp) -> None:
@@ -42,12 +42,12 @@ IN_FLIGHT = 2
 
 @dataclass(frozen=True, slots=True)
 class TreeMessage:
-    """Message with the names of the frames in one state of the tree.
+    """Message with the names of all shown frames, for one state of the tree.
 
     Attributes:
-        revision: Number of the state.
+        revision: Number of the tree's state.
         text: The message as JSON.
-        shown: Indices of the snapshot's frames that are shown.
+        shown: Indices of the shown frames in the snapshot.
     """
 
     revision: int
@@ -56,9 +56,9 @@ class TreeMessage:
 
 
 class Poses:
-    """Binary message with the poses of one snapshot, made once for all pages.
+    """Binary message with the poses of one snapshot, encoded once for all pages.
 
-    Only the message's sequence number differs from page to page.
+    Each page gets the same bytes with its own sequence number.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Poses:
         self._written = protocol.encode_poses(epoch, 0, revision, snapshot, frames)
 
     def __call__(self, sequence: int) -> bytes:
-        """Return the message's bytes with a page's sequence number."""
+        """Return the message as bytes, with the sequence number of one page."""
         start = len(page_messages.MAGIC)
         number = (sequence & 0xFFFFFFFF).to_bytes(4, "little")
         return self._written[:start] + number + self._written[start + 4 :]
@@ -75,7 +75,7 @@ class Poses:
 
 @dataclass(frozen=True, slots=True)
 class SharedMoment:
-    """Messages for all pages that show the same time."""
+    """Messages about one time, shared by all pages that show this time."""
 
     snapshot: Snapshot
     tree: TreeMessage
@@ -108,7 +108,7 @@ class PageClient:
         self._wake = asyncio.Event()
 
     def hear(self, request: page_messages.PageRequest, epoch: Stamp) -> None:
-        """Handle a page's request for a time or a pair, or the page's acknowledgement of poses."""
+        """Handle a request for a time or a pair of frames, or an acknowledgement of drawn poses."""
         if request.kind == "got":
             self._drawn = max(self._drawn, min(request["sequence"], self.sent))
             self._wake.set()
@@ -121,12 +121,12 @@ class PageClient:
         self._asked = True
 
     def wants(self) -> bool:
-        """Return whether to send poses: always for the present, once per request for the past."""
+        """Return whether to send poses: always for a live page, once per request for the past."""
         asked, self._asked = self._asked, False
         return asked or self.at is None
 
     def offer(self, tree: TreeMessage, pair: str | None, poses: Poses) -> None:
-        """Set the next picture to send; if the picture before it is not sent yet, drop that."""
+        """Set the next poses to send; poses that are still waiting to be sent are dropped."""
         if self._next:
             self.skipped += 1
         self._next = [] if self._revision == tree.revision else [tree.text]
@@ -137,22 +137,22 @@ class PageClient:
         self._wake.set()
 
     def tell(self, text: str) -> None:
-        """Set the next text message to send, in place of a text message that is not sent yet."""
+        """Set the next text message to send; a text message still waiting to be sent is dropped."""
         self._word = text
         self._wake.set()
 
     def show_robot(self, text: str) -> None:
-        """Set the robot message to send, in place of a robot message that is not sent yet."""
+        """Set the robot message to send; a robot message still waiting to be sent is dropped."""
         self._robot = text
         self._wake.set()
 
     def show_displays(self, blocks: Mapping[str, bytes]) -> None:
-        """Set messages to draw, by topic; of each topic, only the last message is sent."""
+        """Set the messages to draw, by topic; only the last message of a topic is sent."""
         self._displays.update(blocks)
         self._wake.set()
 
     async def feed(self) -> None:
-        """Send waiting messages whenever the page is ready, until the connection ends."""
+        """Send waiting messages whenever the page is ready, until the connection is closed."""
         while True:
             await self._wake.wait()
             self._wake.clear()

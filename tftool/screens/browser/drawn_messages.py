@@ -1,4 +1,4 @@
-"""Messages to draw besides frames, from a recording or a session, by topic and within limits."""
+"""Messages to draw in addition to frames, from a recording or a session, with limits."""
 
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -49,9 +49,9 @@ class Limits:
     """Limits on the messages that are drawn.
 
     Attributes:
-        points: Most points of one message.
-        all_points: Most points of all messages of a topic; if they have more points, only every
-            second or third message is drawn.
+        points: Largest number of points of one message.
+        all_points: Largest number of points of all messages of a topic; above this number, only
+            every second or third message is drawn.
     """
 
     points: int = MOST_POINTS
@@ -64,14 +64,14 @@ IN_A_FILE: Final = Limits(20_000, 600_000)
 
 @dataclass(slots=True)
 class DrawnTopic:
-    """Messages of one topic to draw.
+    """Messages of one topic, as shapes to draw.
 
     Attributes:
         topic: Name of the topic.
-        type: Type of its messages.
+        type: Type of the messages.
         messages: Messages in the order of their stamps.
-        count: Number of messages that were recorded.
-        faults: Faults of messages, each with its count.
+        count: Number of recorded or received messages.
+        faults: Reasons why messages are not drawn, each with the number of messages.
     """
 
     topic: str
@@ -81,13 +81,13 @@ class DrawnTopic:
     faults: dict[str, int] = field(default_factory=dict)
 
     def note(self, fault: str) -> None:
-        """Count a fault; if there are many different faults, only the first faults are stored."""
+        """Count a fault; of many different faults, only the first are stored."""
         if fault in self.faults or len(self.faults) < _MOST_FAULTS:
             self.faults[fault] = self.faults.get(fault, 0) + 1
 
 
 def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
-    """Return the topics of a recording that can be drawn, with their messages."""
+    """Return the drawable topics of a recording, with their messages as shapes."""
     found: list[DrawnTopic] = []
     for topic in recording.topics:
         name = topic.type.replace("/msg/", "/").replace("/", "/msg/", 1)
@@ -99,7 +99,7 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
 
 
 def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
-    """Open the recording `name` and do the same as `recorded_tracks`; callable from any thread."""
+    """Open the recording `name`, and return `recorded_tracks` of it; callable from any thread."""
     with open_recording(name) as recording:
         return recorded_tracks(recording, limits)
 
@@ -132,10 +132,9 @@ def _fill(track: DrawnTopic, recording: Recording, limits: Limits) -> None:
 def pack_tracks(
     block: PackedBlock, tracks: Sequence[DrawnTopic], buffer: Buffer, epoch: Stamp
 ) -> list[dict[str, Any]]:
-    """Add topics' messages to a block of packed data; return the header that describes them.
+    """Append messages of topics to a block of packed data; return the header for these topics.
 
-    A message is packed together with the pose of the message's frame, at the message's stamp, in
-    the root of the frame's tree.
+    For each shape, the pose of the shape's frame at the stamp is added, in the root of the tree.
     """
     return [
         {
@@ -178,7 +177,10 @@ def _packed_shape(block: PackedBlock, shape: Shape, buffer: Buffer, epoch: Stamp
 
 
 def place(shape: Shape, buffer: Buffer) -> Shape:
-    """Return a shape with the pose of its frame at its stamp, looked up once."""
+    """Return a shape with the attribute `placement`: the pose of the shape's frame at the stamp.
+
+    A shape that was placed before stays unchanged.
+    """
     if shape.placement is not None:
         return shape
     unknown = replace(shape, placement=(None, None))
@@ -209,16 +211,17 @@ MOST_HELD: Final = 1000
 
 @dataclass(slots=True)
 class _HeardTopic:
-    """Topic of a running session to which the page is subscribed.
+    """Topic of a running session that the page draws, with its subscription.
 
     Attributes:
         drawn: Last message, as shapes for the page.
         quality: Quality of service of the subscription.
         stop: Function that ends the subscription.
-        held: Messages not yet converted to shapes, with their times of arrival. Only the last
-            message is stored, unless a message changes what earlier messages showed.
-        waiting: Message as shapes whose frames' poses are not known yet; None if there is none.
-        rounds: Number of calls of `LiveDisplays.round` for which that message has waited.
+        held: Received messages not yet converted to shapes, with their times of arrival. Only the
+            last message is stored, except for types such as MarkerArray, whose messages change
+            earlier shapes.
+        waiting: Message as shapes, while the poses of the shapes' frames are not known; else None.
+        rounds: Number of calls of `LiveDisplays.round` for which `waiting` has waited.
         is_news: Whether there is a fault that was not reported to the page yet.
         block: Last packed data sent to pages.
     """
@@ -234,10 +237,10 @@ class _HeardTopic:
 
 
 class LiveDisplays:
-    """Subscriber to those topics of a world whose messages can be drawn, also to later topics."""
+    """Subscriptions to all drawable topics of a world, including topics that appear later."""
 
     def __init__(self, world: World, limits: Limits = Limits()) -> None:
-        """Subscribe to those topics of a world whose messages can be drawn."""
+        """Subscribe to the drawable topics of `world`."""
         self._world = world
         self._limits = limits
         self._heard: dict[str, _HeardTopic] = {}
@@ -268,9 +271,10 @@ class LiveDisplays:
         return found
 
     def round(self) -> dict[str, bytes]:
-        """Return the packed data of topics with new messages, up to a limit of bytes per call.
+        """Return the packed data of topics with new messages, by topic.
 
-        Topics that exceed the limit are first in the next call. Calls follow the pages' updates.
+        The packed data is limited to `MOST_BYTES`. Topics beyond the limit are first in the next
+        call.
         """
         told: dict[str, bytes] = {}
         room = MOST_BYTES
@@ -330,7 +334,7 @@ class LiveDisplays:
             del self._heard[topic]
 
     def _is_due(self, one: _HeardTopic) -> bool:
-        """Return whether a topic has a new message or fault to send; look up the frames' poses."""
+        """Return whether a topic has new data for the page; first place the waiting shapes."""
         self._draw(one)
         if one.waiting is not None:
             one.rounds += 1
@@ -389,4 +393,4 @@ def _is_known(shape: Shape, buffer: Buffer) -> bool:
 
 
 def _nothing() -> None:
-    """Do nothing, in place of a function that ends a subscription."""
+    """Do nothing; used before there is a subscription to end."""

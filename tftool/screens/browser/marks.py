@@ -22,11 +22,13 @@ MOST_FINDINGS: Final = 200
 
 
 def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
-    """Return gaps and findings as a message for the page; times in seconds since the epoch.
+    """Return the message with the marks of the timeline: times without data, and findings.
+
+    All times are seconds since the epoch.
 
     Args:
         buffer: Buffer that the doctor examines; checks that need times of reception do not run.
-        epoch: Time from which the page counts.
+        epoch: Time that is 0 on the page, nanoseconds.
     """
     frames = buffer.snapshot(0).frames
     if not any(frame.samples > 1 and not frame.is_static for frame in frames):
@@ -63,7 +65,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
 
 
 def _step(step: LocalisationStep, epoch: Stamp) -> dict[str, Any]:
-    """Return a sudden jump of a localiser's pose as a mark."""
+    """Return a mark for a sudden jump of a robot's pose as estimated by a localiser."""
     parent, child = step.edge
     at = since(epoch, step.stamp)
     message = f"{child} in {parent} steps {step.moved * 1e3:.0f} mm, {degrees(step.turned):.1f}°"

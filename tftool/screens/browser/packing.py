@@ -45,7 +45,10 @@ class TooLarge(Exception):
 
 
 class PackedBlock:
-    """Block of packed data being built: sections one by one, with equal columns stored once."""
+    """Block of packed data under construction.
+
+    Sections are appended one by one; equal columns of numbers are stored once.
+    """
 
     def __init__(self, *, is_rounded: bool = False) -> None:
         """Create an empty block.
@@ -59,7 +62,7 @@ class PackedBlock:
         self._known: dict[bytes, dict[str, Any]] = {}
 
     def section(self, content: bytes) -> list[int]:
-        """Append bytes; return their offset and length in the block."""
+        """Append `content` to the block; return the offset and the length."""
         where = [self._length, len(content)]
         padded = content + bytes(-len(content) % 8)
         self._sections.append(padded)
@@ -67,13 +70,25 @@ class PackedBlock:
         return where
 
     def wholes(self, numbers: npt.NDArray[np.int64], step: float = 1.0) -> dict[str, Any]:
-        """Append integers as a column of first or second differences, whichever is smaller."""
+        """Append integers as a column, and return the header entry that describes the column.
+
+        First or second differences are stored, whichever are smaller.
+
+        Args:
+            numbers: Integers, shape (n,).
+            step: Value of 1 for the reader, for example 0.001 for millimetres.
+        """
         if len(numbers) and (numbers == numbers[0]).all():
             return {"value": float(numbers[0]) * step}
         return self._once(numbers, lambda: self._differences(numbers, step))
 
     def doubles(self, numbers: npt.NDArray[np.float64], step: float) -> dict[str, Any]:
-        """Append doubles as a column, exact or rounded to `step`; return its description."""
+        """Append doubles as a column, and return the header entry that describes the column.
+
+        Args:
+            numbers: Doubles, shape (n,).
+            step: Rounding step, used only if the block is rounded.
+        """
         numbers = np.ascontiguousarray(numbers, dtype=np.float64)
         bits = numbers.view(np.uint64)
         if len(bits) and (bits == bits[0]).all():
@@ -108,7 +123,7 @@ class PackedBlock:
         return known
 
     def plain(self, header: object) -> bytes:
-        """Return the whole block uncompressed, with `header` at its beginning."""
+        """Return the whole block without compression, with `header` at the beginning."""
         return b"".join([_head(header), *self._sections])
 
     def deflated(
@@ -155,7 +170,7 @@ def _head(header: object) -> bytes:
 
 
 def _planes(words: npt.NDArray[Any]) -> bytes:
-    """Return the first byte of every word, then the second byte of every word, and so on."""
+    """Reorder the bytes of 8-byte words: all first bytes, then all second bytes, and so on."""
     little = np.ascontiguousarray(words).astype("<u8", copy=False)
     return np.ascontiguousarray(little.view(np.uint8).reshape(-1, 8).T).tobytes()
 

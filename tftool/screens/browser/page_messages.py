@@ -51,12 +51,12 @@ class PageRequest:
 
 @dataclass(frozen=True, slots=True)
 class FieldType:
-    """Type of a field of a request.
+    """Type of a request's field, for Python and for TypeScript.
 
     Attributes:
         javascript: The type in TypeScript.
-        words: End of a sentence that says which values are valid.
-        read: Function that returns the value for Python; raises ValueError for an invalid value.
+        words: Description of the valid values, for an error text after "must be".
+        read: Function that checks and converts a value; raises ValueError for an invalid value.
     """
 
     javascript: str
@@ -229,10 +229,10 @@ span, its rate in hertz, and its number of samples."""
 
 
 def parse(message: str | bytes) -> PageRequest:
-    """Parse a message from a page, and check its fields.
+    """Parse a message from a page, and check the fields.
 
     Raises:
-        InputError: If the message is not one of `REQUESTS`; the text names the mistake.
+        InputError: If the message is not one of `REQUESTS`; the error text names the wrong field.
     """
     if isinstance(message, bytes):
         raise InputError("the message is bytes, but a page must send text")
@@ -258,7 +258,7 @@ def parse(message: str | bytes) -> PageRequest:
 
 
 def answer(kind: str, fields: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a message to the page, with exactly the fields that `ANSWERS` requires."""
+    """Return a message for the page; its fields must be exactly those listed in `ANSWERS`."""
     known = ANSWERS[kind]
     needed = {name for name in known if not name.endswith("?")}
     assert needed <= fields.keys() <= {name.removesuffix("?") for name in known}, kind

@@ -30,7 +30,7 @@ def since(epoch: Stamp, stamp: Stamp) -> float:
 
 
 def stamp_at(epoch: Stamp, moment: float) -> Stamp:
-    """Convert seconds since the epoch to a stamp; never 0, which would mean the latest."""
+    """Convert seconds since the epoch to a stamp; at least 1, because stamp 0 means the latest."""
     return min(max(1, epoch + round(moment * NANOSECONDS)), LAST_STAMP)
 
 
@@ -45,7 +45,7 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
 
 
 def chosen(snapshot: Snapshot) -> list[int]:
-    """Return the indices of the frames to show: those nearest to the roots, up to a limit."""
+    """Return the indices of the frames to show: at most `MOST_FRAMES`, those nearest to a root."""
     if len(snapshot.frames) <= MOST_FRAMES:
         return list(range(len(snapshot.frames)))
     kept = grow(snapshot, most=MOST_FRAMES).children
@@ -53,7 +53,7 @@ def chosen(snapshot: Snapshot) -> list[int]:
 
 
 def moments(frames: Sequence[FrameInfo]) -> list[Stamp]:
-    """Return a number of times, evenly spread over the stamps of all samples, oldest first."""
+    """Return evenly spread times between the oldest and the newest sample, oldest first."""
     span = reach(frames)
     if span is None or span[0] == span[1]:
         return []
@@ -70,14 +70,14 @@ def encode_names(
     rate: float,
     begin: Stamp | None = None,
 ) -> str:
-    """Return the message with the parts of a snapshot that seldom change, as JSON.
+    """Return the message with the frames' names and parents, which seldom change, as JSON.
 
     Args:
         epoch: Epoch of the clock, nanoseconds.
         revision: Number of changes of the names so far.
         frames: Frames to show.
         total: Number of all frames.
-        rate: Rate of the clock, for playback.
+        rate: Seconds of the clock per real second, for playback.
         begin: Time that a page shows first, if the frames were recorded; None for the present.
     """
     place = {frame.frame: index for index, frame in enumerate(frames)}
@@ -104,7 +104,10 @@ def encode_names(
 def encode_poses(
     epoch: Stamp, sequence: int, revision: int, snapshot: Snapshot, frames: Sequence[FrameInfo]
 ) -> bytes:
-    """Return the message with every frame's pose in its parent, and facts that change often."""
+    """Return the binary message with the pose of every frame in the frame's parent.
+
+    The message also has each frame's time span, rate and number of samples.
+    """
     span = reach(snapshot.frames)
     oldest, newest = span or (snapshot.now, snapshot.now)
     head = HEADER.pack(
@@ -139,7 +142,7 @@ _NO_POSE = (math.nan,) * 7
 
 
 def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
-    """Return the message with the buffer's present time span."""
+    """Return the message with the time span of the buffer's samples."""
     oldest, newest = reach(snapshot.frames) or (snapshot.now, snapshot.now)
     return json.dumps(
         answer(
@@ -154,7 +157,7 @@ def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
 
 
 def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stamp) -> str:
-    """Return the message with a pair's transform; the numbers are those of `tftool echo`."""
+    """Return the message with the pose of `source` in `target`, as printed by `tftool echo`."""
     told: dict[str, Any] = {"target": target, "source": source}
     try:
         found = buffer.lookup_transform(target, source, at)
@@ -175,7 +178,7 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
 
 
 def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Return the message with a pair's transform at evenly spread times; null where unknown."""
+    """Return the message with a pair's poses at evenly spread times; null for a failed lookup."""
     stamps = _stamps(epoch, asked)
     told: dict[str, Any] = {
         "target": asked["target"],
@@ -199,7 +202,7 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
 
 
 def encode_trails(buffer: Buffer, epoch: Stamp, asked: PageRequest) -> str:
-    """Return the message with frames' positions at evenly spread times; null where unknown."""
+    """Return the message with frames' positions at evenly spread times; null for failed lookups."""
     stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
     places: dict[str, list[list[float] | None]] = {}
     for frame in asked["frames"]:
@@ -223,7 +226,7 @@ _TRAIL_DIGITS = 5
 
 
 def _stamps(epoch: Stamp, asked: PageRequest) -> list[Stamp]:
-    """Return evenly spread times over the span in a request."""
+    """Return evenly spread times between "from" and "to" of a request."""
     first, last = stamp_at(epoch, asked["from"]), stamp_at(epoch, asked["to"])
     steps = asked["count"] - 1
     return [first + (last - first) * step // steps for step in range(asked["count"])]
@@ -239,5 +242,5 @@ def _finite(values: Iterable[float]) -> list[float | None]:
 
 
 def names_key(frames: Sequence[FrameInfo]) -> tuple[tuple[str, str | None, bool, str | None], ...]:
-    """Return a key that changes whenever frame names must be sent to the page again."""
+    """Return a key that differs whenever the message of `encode_names` would differ."""
     return tuple((frame.frame, frame.parent, frame.is_static, frame.authority) for frame in frames)

@@ -1,4 +1,4 @@
-"""Robot for the page: shapes, joints, and sentences on meshes that cannot be shown."""
+"""Robot for the page: shapes, joints, and sentences about meshes that cannot be shown."""
 
 import json
 from collections.abc import Collection, Mapping
@@ -32,10 +32,10 @@ class ShownRobot:
     Attributes:
         robot: Description of the robot.
         folders: Folders of the robot's meshes.
-        mover: Node of this process that moves the joints; None if there is none.
-        prefix: Prefix of the robot's frame names before the names of its links.
-        rest: Joint positions with which the page itself moves the joints; None if a node publishes
-            joint positions.
+        mover: Node of this process that moves the joints; None without such a node.
+        prefix: Prefix of the frame names before the names of the robot's links.
+        rest: First joint positions if the page moves the joints without a node; None if a node
+            publishes joint positions.
     """
 
     robot: Robot
@@ -45,7 +45,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Find the prefix of the robot's frames among some frames; return whether it changed."""
+        """Find the prefix of the robot's names in `frames`; return whether the prefix changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix
@@ -58,7 +58,7 @@ class ShownRobot:
         return found
 
     def as_text(self) -> str:
-        """Return the message with everything that the page draws of the robot."""
+        """Return the JSON message with the shapes, joints and sliders of the robot."""
         missing: list[str] = []
         count = 0
         links = []
@@ -109,7 +109,7 @@ class ShownRobot:
         ]
 
     def _motion(self) -> list[dict[str, Any]]:
-        """Return the data with which the page itself moves joints; see `page/kinematics.js`."""
+        """Return the data with which `page/kinematics.js` computes the poses of moved joints."""
         if self.rest is None:
             return []
         told: list[dict[str, Any]] = []

@@ -79,7 +79,7 @@ _LOGGER.propagate = False
 
 
 class ShownWorld(Protocol):
-    """Protocol of a clock and a buffer to show; every `World` has both."""
+    """Protocol of a world to show: a clock and a buffer, which every `World` has."""
 
     @property
     def clock(self) -> Clock:
@@ -117,7 +117,7 @@ class PageServer:
         Args:
             source: Clock and buffer of the frames.
             port: Port to listen on; if it is in use, the next free port is taken. 0 for any port.
-            rate: Pictures per second.
+            rate: Updates of the page per second.
             tell: Function called with sentences for the user.
             name: Name of the source, for a saved page.
             secret: Token that requests for frames must contain; None for a new token.
@@ -148,17 +148,17 @@ class PageServer:
         """Event that stops the writing of a page's file; None while none is written."""
 
     def show_robot(self, robot: ShownRobot) -> None:
-        """Show a robot from now on, in place of any other robot."""
+        """Show `robot` on all pages, in place of any other robot."""
         self._robot = robot
         robot.place(frozenset(self.source.buffer.frames()))
         self._tell_robot()
 
     def show_tracks(self, read: Callable[[Limits], Sequence[DrawnTopic]]) -> None:
-        """Draw recorded messages besides frames; `read` is called when the first page opens."""
+        """Set the function that reads messages to draw; called when the first page opens."""
         self._read_tracks = read
 
     def show_live(self, displays: LiveDisplays) -> None:
-        """Draw messages of a running session besides the frames."""
+        """Set the displays that draw messages of a running session."""
         self._live = displays
 
     def take_keys(self, press: Callable[[str], object]) -> None:
@@ -172,7 +172,7 @@ class PageServer:
                 client.show_robot(self._robot_text)
 
     def _move(self, joint: str, position: float) -> None:
-        """Move a joint of the shown robot; unknown names are ignored."""
+        """Move a joint of the shown robot; an unknown joint is ignored."""
         robot = self._robot
         if robot is not None and robot.mover is not None and robot.robot.takes(joint):
             lower, upper = slide_range(robot.robot.joints[joint])
@@ -239,7 +239,7 @@ class PageServer:
             await self._server.wait_closed()
 
     def _note(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        """Log once that no more connections can be accepted; asyncio would log it every time."""
+        """Report once that no more connections are possible; asyncio would report each failure."""
         error = context.get("exception")
         if not isinstance(error, OSError) or error.errno not in (errno.EMFILE, errno.ENFILE):
             loop.default_exception_handler(context)
@@ -248,7 +248,7 @@ class PageServer:
             self._tell("no more pages can be served: too few file descriptors (ulimit -n)")
 
     async def run(self) -> None:
-        """Send pictures to the pages until cancelled."""
+        """Send poses to the pages until cancelled."""
         clock = pace_of(self.source.clock)
         due = displays_due = clock.now()
         cadence = Cadence(self._period, due)
@@ -275,7 +275,7 @@ class PageServer:
                 client.tell(protocol.encode_range(self.source.clock.epoch, following.snapshot))
 
     def _tell_displays(self, displays: LiveDisplays, clock: Clock) -> Stamp:
-        """Offer messages to draw to the pages; return the time of the next call."""
+        """Pass new messages to draw to all pages; return the time of the next call."""
         began = clock.now()
         blocks = displays.round()
         for client in self.clients:
@@ -294,7 +294,7 @@ class PageServer:
         )
 
     def _tree(self, snapshot: Snapshot) -> TreeMessage:
-        """Return the message with the frames' names, which is reused while the tree is the same."""
+        """Return the message with the frames' names, made once for each state of the tree."""
         key = protocol.names_key(snapshot.frames)
         tree = self._trees.get(key)
         if tree is None:
@@ -393,7 +393,7 @@ class PageServer:
         return answer
 
     async def _packed_tracks(self) -> bytes:
-        """Return the recorded messages to draw, packed once for all pages in another thread."""
+        """Return the recorded messages to draw as packed data, computed once in another thread."""
 
         def packed() -> bytes:
             assert self._read_tracks is not None
@@ -407,9 +407,9 @@ class PageServer:
         return await asyncio.shield(self._tracks)
 
     async def _standalone(self, connection: ServerConnection, query: str) -> Response:
-        """Return a page that contains everything in the buffer and needs no server.
+        """Return a page that contains the whole buffer and needs no server.
 
-        Only one such file is written at a time; writing ends if the client or the server goes away.
+        One such file is written at a time; if the client or the server closes, the writing ends.
         """
         if self._writing is not None:
             return _refuse(
@@ -500,7 +500,7 @@ class PageServer:
             await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _tell_past(self, socket: ServerConnection) -> None:
-        """Send poses from the whole buffer, slowly, for the trails."""
+        """Send poses at times spread over the whole buffer; the page draws trails of these."""
         clock, now = pace_of(self.source.clock), self.source.clock.now()
         for moment in protocol.moments(self.source.buffer.snapshot(now).frames):
             began = clock.now()
@@ -508,7 +508,7 @@ class PageServer:
             await clock.sleep(self._period // 8 + 2 * (clock.now() - began), Phase.WATCH)
 
     async def _tell_marks(self, socket: ServerConnection) -> None:
-        """Send the doctor's findings, computed in another thread."""
+        """Send the message with gaps and the doctor's findings, computed in another thread."""
         told = await asyncio.get_running_loop().run_in_executor(
             None, marks_of, self.source.buffer, self.source.clock.epoch
         )

@@ -40,7 +40,7 @@ class StandaloneData:
     Attributes:
         name: Name of the source for messages, such as "recording 'run.mcap'".
         buffer: Transform buffer with the frames.
-        epoch: Time from which the page counts; not 0.
+        epoch: Time that is 0 on the page, nanoseconds; not 0 itself.
         now: Last time of the data.
         begin: Time to show first; None for the latest transforms.
         robot: Robot among the frames, with the folders of its meshes.
@@ -78,8 +78,8 @@ def standalone_page(
 
     Args:
         data: Data for the page.
-        most: Number of bytes beyond which numbers are rounded, to a micrometre and 1e-7 in
-            quaternions. The file may still be larger then.
+        most: Desired size in bytes. For a larger page, positions are rounded to a micrometre and
+            quaternions to 1e-7; the rounded page may still be larger.
         progress: Function called with the progress.
 
     Raises:
@@ -99,7 +99,7 @@ def standalone_page(
 
 @dataclass(frozen=True, slots=True)
 class _Frame:
-    """HTML before and after the packed data."""
+    """HTML text before and after the packed data."""
 
     head: bytes
     tail: bytes
@@ -144,7 +144,7 @@ def _digest(script: str) -> str:
 
 
 def _inert(text: str) -> str:
-    """Return a script's or style's text, after a check that it cannot end its HTML element."""
+    """Check that a script or style cannot end its HTML element, and return it unchanged."""
     assert not re.search(r"</(script|style)|<!--", text, re.IGNORECASE)
     return text
 
@@ -216,7 +216,10 @@ def _frames(
 def _robot(
     robot: ShownRobot | None, shown: Iterable[FrameInfo], block: PackedBlock
 ) -> tuple[dict[str, Any] | None, list[dict[str, Any]]]:
-    """Return the robot's message, and the packed files of its meshes and textures."""
+    """Return the robot's message, and a list of the mesh and texture files.
+
+    The message is None without a robot. The contents of the files are appended to `block`.
+    """
     if robot is None:
         return None, []
     if robot.mover is not None:
@@ -251,7 +254,7 @@ def _robot(
 
 
 def _named_in(address: str, content: bytes) -> list[str]:
-    """Return the relative names of files that a mesh refers to."""
+    """Return the relative names of the files that a mesh in COLLADA or glTF refers to."""
     kind = address[address.rfind(".") :].lower()
     if len(content) > _LARGEST_REFERENCE:
         return []

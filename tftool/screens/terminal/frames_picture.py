@@ -24,8 +24,8 @@ Lookup = Callable[[str, str], Transform | None]
 def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
     """Return the default fixed frame of a picture; "" if there are no frames.
 
-    The default is the root of the tree that contains both frames of the pair. If no tree contains
-    both, it is the root of the largest tree.
+    The default is the root of the tree that contains both frames of `pair`, or the root of the
+    largest tree if the frames are in different trees.
     """
     if pair[0] in snapshot and pair[1] in snapshot:
         roots = {snapshot.frame(name).root for name in pair}
@@ -40,7 +40,7 @@ def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
 
 
 def in_snapshot(snapshot: Snapshot) -> Lookup:
-    """Return a function that looks poses up in a snapshot, not in the buffer."""
+    """Return a function that looks up poses in `snapshot`."""
 
     def lookup(target: str, source: str) -> Transform | None:
         if target not in snapshot or source not in snapshot:
@@ -90,7 +90,7 @@ def pictured(
     ages: Mapping[str, float],
     turtles: frozenset[str] = frozenset(),
 ) -> PlanePicture:
-    """Return the picture of the tree of `fixed`, and small pictures of the other trees.
+    """Return the picture of the tree that contains `fixed`, with insets of the other trees.
 
     Args:
         snapshot: Snapshot of the frames.
@@ -171,10 +171,9 @@ GAP = seconds(1.0)
 
 
 class FrameTrails:
-    """Trails of frames in one fixed frame, computed by repeated lookups.
+    """Trails of frames in one fixed frame.
 
-    Args:
-        buffer: Transform buffer with the frames.
+    Positions are looked up in `buffer` periodically.
 
     Attributes:
         fixed: Fixed frame of the trails.
@@ -188,11 +187,11 @@ class FrameTrails:
         self._shown = ColoredLines()
 
     def follow(self, fixed: str, frames: Iterable[str], now: Stamp) -> ColoredLines:
-        """Look frames up for the time since the last call, and return all trails up to now.
+        """Add the positions since the last call to the trails, and return all trails.
 
         Args:
-            fixed: Fixed frame; if it changes, all trails start again.
-            frames: Frames; only the first `MOST_FRAMES` have trails.
+            fixed: Fixed frame; if the fixed frame changes, all trails start again.
+            frames: Frames with trails; only the first `MOST_FRAMES` are used.
             now: Last time, nanoseconds.
         """
         if fixed != self.fixed or now < self._next - 4 * PERIOD:
@@ -209,7 +208,7 @@ class FrameTrails:
         return self._shown
 
     def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> ColoredLines:
-        """Return all trails up to an earlier time, as far back as the buffer reaches."""
+        """Return the trails up to the past time `at`, from the samples in the buffer and before."""
         ways = {}
         for frame in islice(frames, MOST_FRAMES):
             way = self._way(frame, fixed, at - REACH, at)
@@ -221,7 +220,7 @@ class FrameTrails:
         return _trails(ways, at)
 
     def _way(self, frame: str, fixed: str, start: Stamp, end: Stamp) -> "FrameWay":
-        """Look up the positions of a frame after `start`, every `PERIOD` until `end`."""
+        """Look up a frame's positions after `start`, every `PERIOD` until `end`."""
         stamps = np.arange(start // PERIOD + 1, end // PERIOD + 1, dtype=np.int64) * PERIOD
         stamps = stamps[stamps > 0]
         if not len(stamps):
@@ -260,7 +259,7 @@ NOWHERE = FrameWay(np.zeros(0, np.int64), np.zeros((0, 3)))
 
 
 def _trails(ways: Mapping[str, FrameWay], now: Stamp) -> ColoredLines:
-    """Return the paths as lines whose colours show their age, oldest first."""
+    """Return the paths as coloured line segments, oldest first; older segments are fainter."""
     stamps, ends, colors = [NOWHERE.stamps], [np.zeros((0, 2, 3))], [NOWHERE.stamps]
     for name, (times, places) in ways.items():
         moves = np.abs(np.diff(places, axis=0)).sum(axis=1) > STILL

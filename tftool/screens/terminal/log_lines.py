@@ -26,7 +26,10 @@ FAR = 3600.0
 
 @dataclass(slots=True)
 class _Entry:
-    """Log message with the newest times at which it was logged, and the number of older times."""
+    """Log message with the times at which it was logged.
+
+    The newest times are stored in `stamps`; `forgotten` is the number of older times.
+    """
 
     record: LogRecord
     kind: str
@@ -44,7 +47,7 @@ class _Entry:
 
 
 class Journal:
-    """Log that shows repeated messages once, with a count."""
+    """Log in which a repeated message appears once, with the number of repetitions."""
 
     KEPT = 300
     STAMPS = 400
@@ -81,11 +84,11 @@ class Journal:
 
         Args:
             until: Time that the screen shows.
-            start: Time that counts as 0.
+            start: Time from which seconds are counted.
             width: Width in cells.
             height: Number of lines.
             look: Colours and characters to use.
-            back: Number of newest messages to leave out.
+            back: Number of newest messages to omit, after scrolling back.
         """
         told = self._told(until)
         told = told[: max(len(told) - back, 1)]
@@ -102,16 +105,16 @@ class Journal:
     def strip(
         self, until: Stamp, start: Stamp, width: int, look: Look, *, most: int = MOST_LINES
     ) -> list[Text]:
-        """Return the newest message up to a time, wrapped, with a hint how to see more.
+        """Return the newest message up to a time as wrapped lines, with a hint at the log key.
 
-        If there is room, the message before it is above.
+        If there is room, the message before the newest message is above.
 
         Args:
             until: Time that the screen shows.
-            start: Time that counts as 0.
+            start: Time from which seconds are counted.
             width: Width in cells.
             look: Colours and characters to use.
-            most: Most lines; the rest is cut.
+            most: Largest number of lines; further text is omitted.
         """
         told = self._told(until)
         dim = look.ink(look.palette.dim)
@@ -134,7 +137,7 @@ class Journal:
         return shown
 
     def _told(self, until: Stamp) -> list[_Entry]:
-        """Return the messages logged up to a time, sorted by the last time of each."""
+        """Return the messages logged up to a time, sorted by the time of the last repetition."""
         told = [entry for entry in self._entries if entry.times(until)]
         return sorted(told, key=lambda entry: entry.last(until))
 
@@ -175,12 +178,18 @@ class Journal:
 
 
 def since_start(text: str, start: Stamp) -> str:
-    """Replace the stamps of a lookup's error that are near the start by seconds since the start."""
+    """Replace the stamps in a lookup's error by seconds since the start.
+
+    Only stamps near `start` are replaced.
+    """
     return _STAMP.sub(_seconds_since(start), text)
 
 
 def _seconds_since(start: Stamp) -> Callable[[re.Match[str]], str]:
-    """Return a function that replaces stamps near the start by seconds since the start."""
+    """Return a replacement function for `re.sub` that converts a matched stamp to seconds.
+
+    The seconds are counted from `start`; a stamp far from `start` stays unchanged.
+    """
 
     def told(found: re.Match[str]) -> str:
         since = int(found[1]) + int(found[2]) / 1e6 - as_seconds(start)

@@ -27,14 +27,14 @@ from tftool.screens.terminal.text_style import Look, wrapped
 
 
 class Row(NamedTuple):
-    """Row of a frame in the tree panel: the tree lines before its name, and facts."""
+    """Row of the tree panel: the characters of the tree before the frame's name, and the frame."""
 
     guide: str
     info: FrameInfo
 
 
 def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
-    """Return the rows of all trees, one tree after the other; frames in a loop are last."""
+    """Return a row for each frame, tree by tree; frames in a loop are last."""
     guides = (ASCII if ascii_only else UNICODE)[1]
     return [
         Row(guides.lead(one) if one.info.root is not None else "", one.info)
@@ -43,7 +43,7 @@ def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
 
 
 def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
-    """Return the rows that fit below the tree panel's heading, including the cursor's row."""
+    """Return the rows that fit into a tree panel of `height` lines, with the cursor's row."""
     at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
     space = max(1, height - 1)
     if len(listed) > space > 2:
@@ -56,7 +56,7 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
 def tree(
     moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
-    """Return the tree panel's lines: frames with rate and age, amber or red if stale.
+    """Return the lines of the tree panel: each frame's rate and age, amber or red if stale.
 
     Args:
         moment: State to show.
@@ -112,7 +112,7 @@ def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
 
 
 class _Columns(NamedTuple):
-    """Widths of the tree panel's columns; the publisher's is 0 if there is no room."""
+    """Widths of the tree panel's columns in cells; `sender` is 0 if the publisher does not fit."""
 
     name: int
     rate: int
@@ -130,7 +130,10 @@ class _Columns(NamedTuple):
 def _facts(
     info: FrameInfo, age: float, columns: _Columns, look: Look
 ) -> list[tuple[str, Style | None]]:
-    """Format a frame's rate and age at the columns' width; style None is the row's style."""
+    """Return a frame's rate and age as text with style, padded to the widths of the columns.
+
+    If the style is None, the text has the style of the row.
+    """
     width = columns.rate + columns.age
     if info.root is None:
         return [(f"{'in a loop':>{width}}", None)]
@@ -152,9 +155,9 @@ def _facts(
 
 
 def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
-    """Return the lines of the pair's panel: the transform in few lines, or in every notation.
+    """Return the lines of the panel with a pair's transform, in every notation if there is room.
 
-    Positive and negative numbers take equal width, so that columns never shift.
+    Positive and negative numbers have the same width, so that columns do not shift.
     """
     asked, dim = moment.pair, look.ink(look.palette.dim)
     half = max(1, (width - 4) // 2)
@@ -182,7 +185,10 @@ def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]
 
 
 def stopped_for(moment: SceneMoment) -> float:
-    """Return the seconds since the last news of the shown pair's edges; 0 if all still arrive."""
+    """Return the seconds since the last sample of an edge of the shown pair that has stopped.
+
+    Returns 0 if samples of all edges still arrive.
+    """
     frames = {info.frame: info for info in moment.snapshot.frames}
     chains: list[set[str]] = []
     for name in (moment.pair.target, moment.pair.source):
@@ -201,7 +207,7 @@ def stopped_for(moment: SceneMoment) -> float:
 
 
 def _time_of(moment: SceneMoment, found: TransformStamped, age: float) -> tuple[str, str]:
-    """Return the row of a transform's stamp, in seconds since the start of the screen."""
+    """Return the label and the text of a transform's stamp, as seconds since the start."""
     if not found.stamp:
         return "at", " all times"
     since = as_seconds(found.stamp - (moment.stamp - moment.elapsed))
@@ -230,7 +236,7 @@ def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tupl
 
 
 def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
-    """Return the further rows of a transform: angles in radians, and the matrix."""
+    """Return labels and texts of a transform's other notations: radians and the matrix."""
     radians = rpy_from_quaternion(found.transform.rotation)
     matrix = found.transform.matrix()
     rows = [("mat" if not place else "", _numbers(row, 3, 8)) for place, row in enumerate(matrix)]
@@ -238,7 +244,7 @@ def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
 
 
 def _away(x: float, y: float, z: float, look: Look) -> str:
-    """Describe the distance of a point and its direction relative to straight ahead."""
+    """Return a point's distance in metres and direction, such as "1.2 m, 30.0° left"."""
     away, bearing = math.hypot(x, y, z), math.degrees(math.atan2(y, x))
     if away < 0.001:
         return f"{away:.3f} m"
@@ -257,7 +263,7 @@ def _number(value: float, digits: int) -> str:
 
 
 def _numbers(values: Iterable[float], digits: int, width: int) -> str:
-    """Format numbers in columns of `width` cells; a longer number takes more cells."""
+    """Format numbers in columns of `width` cells; a longer number widens its column."""
     return "".join(f" {_number(value, digits):>{width - 1}}" for value in values)
 
 
@@ -270,7 +276,14 @@ def scenarios(
 ) -> list[Text]:
     """Return the lines of the list of scenarios, with descriptions and a cursor.
 
-    Below the list is the whole description of the scenario under the cursor, if some are cut.
+    If descriptions do not fit, the whole description of the selected scenario is below the list.
+
+    Args:
+        offered: Names and descriptions.
+        cursor: Index of the selected scenario.
+        width: Width in cells.
+        height: Number of lines.
+        look: Colours and characters to use.
     """
     below = description_lines(offered, width)
     below = below if height > below + 3 else 0
@@ -297,7 +310,9 @@ def scenarios(
 
 
 def description_lines(offered: Sequence[tuple[str, str]], width: int) -> int:
-    """Return the lines below a list of scenarios that a whole description needs; 0 if none is cut.
+    """Return how many lines below the list of scenarios are needed for a whole description.
+
+    Returns 0 if every description fits into its line.
 
     Args:
         offered: Names and descriptions.
@@ -313,7 +328,7 @@ def _widest(offered: Sequence[tuple[str, str]]) -> int:
 
 
 def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:
-    """Return the top line: the title, the time, and whether that is the present."""
+    """Return the top line: title, time, and whether the screen shows the present or the past."""
     elapsed, behind = as_seconds(moment.elapsed), as_seconds(moment.behind)
     return title_bar(title, elapsed, width, look, behind=behind, rate=rate)
 
@@ -321,15 +336,15 @@ def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look)
 def title_bar(
     title: str, elapsed: float, width: int, look: Look, *, behind: float = 0.0, rate: float = 1.0
 ) -> Text:
-    """Return a line above a picture: its title, seconds since the start, and "live".
+    """Return a line with a title, the seconds since the start, and "live" or the time back.
 
     Args:
         title: Title at the left.
         elapsed: Seconds since the start.
         width: Width in cells.
         look: Colours and characters to use.
-        behind: Seconds before the present; 0 if live.
-        rate: Seconds of the world per real second.
+        behind: Seconds from the shown time to the present; 0 if live.
+        rate: Simulated seconds per real second.
     """
     if behind:
         sign = "<<" if look.ascii_only else "◀◀"
@@ -342,7 +357,7 @@ def title_bar(
 
 
 def bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Look) -> Text:
-    """Return a line with a title at the left, and at the right a clock and a coloured state."""
+    """Return a line with the title at the left, and a time and a coloured text at the right."""
     words, ink = state
     right = Text.assemble(
         (clock + "  ", look.ink(look.palette.text)), (words, look.ink(ink, bold=True)), " "
@@ -352,14 +367,14 @@ def bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Look
 
 
 class Hint(NamedTuple):
-    """Key and its action; the footer shows as many hints as fit."""
+    """Key and its action, as one hint of the footer."""
 
     keys: str
     does: str
 
 
 def footer(hints: Sequence[Hint], width: int, look: Look) -> Text:
-    """Return the line of key help: as many hints as fit, always with the last hint."""
+    """Return the line of key help: as many hints as fit, and always the last hint."""
     strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
 
     def written(hint: Hint) -> Text:
@@ -417,7 +432,7 @@ LEAVING = """\
 
 
 def told(*, drives: bool, chooses: bool) -> str:
-    """Return the help for every key that works, a line each.
+    """Return the help text with one line for each key that works.
 
     Args:
         drives: Whether there is a turtle to drive.
@@ -436,7 +451,7 @@ def hints(
     in_space: bool | None = False,
     alone: bool = False,
 ) -> Sequence[Hint]:
-    """Return the keys that matter now, the most important first.
+    """Return the keys that can be used now, the most important first.
 
     Args:
         panel: Name of the panel that has the focus.
@@ -444,8 +459,8 @@ def hints(
         past: Whether an earlier time is shown.
         ascii_only: Whether to write keys in ASCII.
         chooses: Whether another scenario can be chosen.
-        in_space: Whether the picture is in 3-D; None if it cannot be.
-        alone: Whether there is no other panel.
+        in_space: Whether the picture is in 3-D; None if the picture cannot be in 3-D.
+        alone: Whether the picture is the only panel.
     """
     arrows, updown = ("arrows", "up/down") if ascii_only else ("↑↓←→", "↑↓")
     travel = [Hint("l", "live"), Hint("[ ]", "time")] if past else [Hint("[ ]", "past")]
@@ -482,7 +497,7 @@ SPAN = seconds(10.0)
 
 
 class PairPlot:
-    """Plot of a pair's distance and yaw, with a mark at the shown time."""
+    """Plot of a pair's distance and yaw over time, with a mark at the shown time."""
 
     def __init__(self) -> None:
         self._key: object = None
@@ -491,7 +506,7 @@ class PairPlot:
     def lines(
         self, moment: SceneMoment, scene: Scene, width: int, height: int, look: Look
     ) -> list[Text]:
-        """Return the lines of a plot: the pair over the last seconds, or around an earlier time.
+        """Return the lines of the plot: the last seconds, or the seconds around a past time.
 
         Args:
             moment: State to show.

@@ -1,4 +1,4 @@
-"""Picture of frames in a panel: the visible part of the plane, and insets of other trees."""
+"""Picture of frames in a panel: the visible part of the xy plane, and insets of other trees."""
 
 from rich.segment import Segment
 
@@ -19,10 +19,10 @@ ROOMY = 0.4
 
 
 class Camera:
-    """Camera over the plane, which keeps its view steady from picture to picture.
+    """Camera over the xy plane, which keeps the scale steady from picture to picture.
 
-    Until the user zooms or pans, the view grows at once with the picture, and shrinks only when
-    most of the view is empty, because a picture that changes its scale all the time cannot be read.
+    Until the user zooms or pans, the view is enlarged when the picture grows, but is reduced only
+    when most of the view is empty.
     """
 
     def __init__(self) -> None:
@@ -33,7 +33,7 @@ class Camera:
         self._shown = Viewport(0.0, 0.0, 1.0)
 
     def view(self, picture: PlanePicture, columns: int, rows: int) -> Viewport:
-        """Return the visible part of the plane for a picture of columns × rows of cells."""
+        """Return the visible part of the plane for a picture of `columns` by `rows` cells."""
         if picture.fixed != self._fixed:
             # A section that the user zoomed into has no meaning in another fixed frame.
             self._fixed, self._box, self._own = picture.fixed, None, None
@@ -47,11 +47,11 @@ class Camera:
         return self._shown
 
     def zoom(self, steps: int, at: tuple[float, float] | None = None) -> None:
-        """Zoom in by some steps, or out if negative.
+        """Zoom in by a number of steps; zoom out if the number is negative.
 
         Args:
             steps: Number of steps.
-            at: Column and row that do not move; None for the middle.
+            at: Column and row of the point that does not move; None for the middle.
         """
         columns, rows = self._size
         left, bottom, per_row = self._shown
@@ -64,14 +64,14 @@ class Camera:
         self._look_at(x + (middle_x - x) * share, y + (middle_y - y) * share, nearer)
 
     def pan(self, columns: float, rows: float) -> None:
-        """Move the view by some cells to the right and down."""
+        """Move the view by `columns` cells to the right and `rows` cells down."""
         left, bottom, per_row = self._shown
         x = left + 0.25 * self._size[0] * per_row - 0.5 * columns * per_row
         y = bottom + 0.5 * self._size[1] * per_row + rows * per_row
         self._look_at(x, y, per_row)
 
     def fit(self) -> None:
-        """Show the whole picture again, after zooming and panning."""
+        """Undo zooming and panning: show the whole picture."""
         self._own = self._box = None
 
     def _look_at(self, x: float, y: float, per_row: float) -> None:
@@ -108,10 +108,10 @@ INSET_WIDTH = 24
 
 
 class PlaneView:
-    """Drawer of pictures of frames into a panel of any size.
+    """Drawing of pictures of frames into a panel of any size.
 
     Attributes:
-        camera: Camera that determines the visible part.
+        camera: Camera that determines the visible part of the plane.
     """
 
     def __init__(self) -> None:
@@ -142,11 +142,11 @@ class PlaneView:
         return [*lines, *notes]
 
     def cell(self, x: int, y: int) -> tuple[float, float]:
-        """Return the picture's column and row under a cell of the panel."""
+        """Return the column and row in the picture for a cell of the panel."""
         return x - self._gutter + 0.5, y + 0.5
 
     def frame_at(self, picture: PlanePicture, x: int, y: int) -> str | None:
-        """Return the frame nearest to a cell of the panel; None if none is within three cells."""
+        """Return the frame nearest to a cell of the panel; None if no frame is within 3 cells."""
         main = self._canvases.get(("", 0))
         column, row = self.cell(x, y)
         best = None
@@ -175,7 +175,7 @@ class PlaneView:
     def _insets(
         self, picture: PlanePicture, width: int, height: int, look: Look, colors: bool
     ) -> list[Line]:
-        """Draw as many of the other trees as fit, side by side, each below its heading."""
+        """Draw as many other trees as fit, side by side, each below a heading."""
         count = min(len(picture.apart), max(1, width // INSET_WIDTH))
         wide = width // count
         warning = look.ink(look.palette.warning)
@@ -195,7 +195,7 @@ class PlaneView:
         return rows
 
     def _notes(self, picture: PlanePicture, width: int, height: int, look: Look) -> list[Line]:
-        """Return lines about frames and trees that are not visible."""
+        """Return lines that name the frames and trees that are not visible."""
         words = []
         shown = max(1, width // INSET_WIDTH) if height >= WITH_INSETS else 0
         hidden = picture.apart[shown:]

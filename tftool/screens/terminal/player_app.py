@@ -92,8 +92,8 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
     """Screen of `tftool play`.
 
     Args:
-        player: Player of the recording; its world has the frames.
-        moments: Times of the transforms, nanoseconds from the recording's start.
+        player: Player of the recording; the player's world has the frames.
+        moments: Times of the transforms, nanoseconds since the start of the recording.
         marks: Findings of the doctor.
         topics: Topics of the recording, in the order of the list.
         setting: Options of the screen.
@@ -146,7 +146,7 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         return TIMELINE + (listed + 2 if self._findings else 0)
 
     def _arrange(self) -> None:
-        """Show the panels that fit."""
+        """Show those panels that fit into the terminal."""
         width, height = self.size
         findings, topics = self.panel("findings"), self.panel("topics")
         findings.display = bool(self._findings) and height >= 18
@@ -160,7 +160,7 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         rows.styles.height = "1fr"
 
     def _present(self, now: Stamp, info: FrameInfo) -> FrameInfo:
-        """Return a frame's facts; its rate is not known before a second was played."""
+        """Return a frame's facts; the rate is left out until a second was played."""
         # Between n samples are n - 1 periods.
         is_short = info.buffer_length * info.samples < NEAR * (info.samples - 1)
         present = super()._present(now, info)
@@ -190,7 +190,7 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         self._draw_playback()
 
     def _draw_playback(self) -> None:
-        """Draw the position, the finding at the position, and the topics with a message."""
+        """Draw the timeline, the findings near the shown time, the topics and the header."""
         now, look = self._playback(), self.look
         style: Any = {"ascii_only": look.ascii_only, "palette": look.palette}
         timeline, findings, topics = map(self.panel, ("timeline", "findings", "topics"))
@@ -216,7 +216,7 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
     # Keys
 
     def on_key(self, event: events.Key) -> None:
-        """Handle a key: of the player, or of the tree."""
+        """Handle a key that controls the player; other keys are handled by the tree."""
         if self._types or not self._press(event.character or event.key, event.key):
             return  # textual calls the handler of the base class next
         event.prevent_default()
@@ -225,7 +225,7 @@ class PlayerScreen(TreeWatch, inherit_bindings=False):
         self.redraw()
 
     def _press(self, sign: str, key: str) -> bool:
-        """Steer the player; return whether the key has a meaning for it."""
+        """Control the player with a key; return False if the key does not control the player."""
         player = self._player
         if key == "space":
             (player.resume if player.is_paused else player.pause)()

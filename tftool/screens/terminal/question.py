@@ -1,4 +1,4 @@
-"""Pair of frames and time that the user selects and a screen shows."""
+"""Pair of frames and time that the user selects on a screen."""
 
 from dataclasses import replace
 
@@ -35,12 +35,12 @@ class SceneQuestion:
         self._first_link_at: Duration | None = None
 
     def ask(self) -> SceneMoment:
-        """Look up the state to show, at the selected time, and return it."""
+        """Look up, store and return the state of the scene at the selected time."""
         self.moment = self._answer()
         return self.moment
 
     def wait(self, moment: SceneMoment) -> SceneMoment:
-        """Return the same past state with a new distance to the present (`behind`)."""
+        """Return the past state `moment` again, with the current distance to the present."""
         now = self.scene.world.clock.now()
         self.moment = replace(moment, behind=now - moment.stamp)
         return self.moment
@@ -62,21 +62,24 @@ class SceneQuestion:
         self.target, self._picked = self.source, True
 
     def choose(self, frame: str) -> bool:
-        """Move the cursor to a frame; return whether it moved."""
+        """Move the cursor to a frame; return False if the cursor is already at the frame."""
         changed = frame != self.source
         self.source, self._picked = frame, True
         return changed
 
     def fix(self) -> None:
-        """Draw the picture in the frame under the cursor, or in the root if already drawn there."""
+        """Make the frame under the cursor the fixed frame of the picture.
+
+        If that frame is the fixed frame already, return to the root of the tree.
+        """
         self.fixed = "" if self.fixed == self.source else self.source
 
     def swap(self) -> None:
-        """Exchange target and source."""
+        """Exchange the target and the source of the pair."""
         self.target, self.source, self._picked = self.source, self.target, True
 
     def travel(self, step: Duration) -> None:
-        """Select a time `step` later (earlier if negative); from the present on, live frames."""
+        """Move the selected time by `step` nanoseconds; from the present on, show live frames."""
         now = self.scene.world.clock.now()
         there = (now if self.at is None else self.at) + step
         self.at = None if there >= now else max(there, self.scene.oldest())
@@ -93,7 +96,10 @@ class SceneQuestion:
         return found
 
     def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
-        """Return the pair, or a replacement if its frames do not exist and the user chose none."""
+        """Return the pair to show: the selected pair, or existing frames in its place.
+
+        The pair is replaced only if its frames do not exist, and the user has not selected frames.
+        """
         asked, snapshot = (self.target, self.source), moment.snapshot
         if not self._picked and all(name in snapshot for name in self._wished):
             # The chosen frames exist now.

@@ -151,7 +151,7 @@ class RobotApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self) -> None:
-        """Place the picture beside the joints, or below them."""
+        """Place the 3-D picture beside the list of joints, or below the list."""
         width, height = self.size
         space = self.query_one("#space", SpacePanel)
         space.in_space = self._wants_space and (width >= BESIDE or height >= BELOW)
@@ -211,12 +211,15 @@ class RobotApp(PanelApp):
             space.border_subtitle = f"simpler: {len(self._missing)} meshes not found"
 
     def _chosen_frame(self) -> str:
-        """Return the frame of the link that the chosen joint moves."""
+        """Return the frame that the chosen joint moves; without a joint, the shown link."""
         joint = self.sliders.chosen
         return self.prefix + (self.link if joint is None else joint.child)
 
     def _sliders(self, columns: int, rows: int) -> list[Text]:
-        """Return a line for each joint that fits, around the chosen one; then count the others."""
+        """Return a line for each joint near the chosen joint, as many as fit.
+
+        If some joints do not fit, the last line has their number.
+        """
         shown = self.sliders.sliders
         if len(shown) > rows > 2:
             # The last line says how many joints are not shown.
@@ -287,7 +290,7 @@ class RobotApp(PanelApp):
         return lines + self._others(width, height - len(lines))
 
     def _others(self, width: int, room: int) -> list[Text]:
-        """Return at most `room` lines: a heading, and positions of links."""
+        """Return the positions of the links as at most `room` lines, with a heading."""
         if room < WITH_TABLE:
             return []
         look, root = self.look, self.prefix + self.sliders.robot.root
@@ -314,7 +317,7 @@ class RobotApp(PanelApp):
         return head + lines
 
     def _joint(self, width: int) -> Text:
-        """Describe the joint under the cursor and its limits."""
+        """Describe the chosen joint: name, type and limits."""
         joint, look = self.sliders.chosen, self.look
         if joint is None:
             return Text()
@@ -352,7 +355,7 @@ class RobotApp(PanelApp):
     # Keys
 
     def on_key(self, event: events.Key) -> None:
-        """Handle a digit or another key of a typed position, in the order of typing."""
+        """Handle a key that types a position, or moves the chosen joint by a small step."""
         sliders, sign = self.sliders, event.character or ""
         if event.key == "enter":
             sliders.enter()
@@ -369,12 +372,12 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_choose(self, step: int) -> None:
-        """Move the cursor to another joint."""
+        """Choose the next or previous joint."""
         self.sliders.choose(step)
         self.redraw()
 
     def action_step(self, direction: int) -> None:
-        """Move the chosen joint by a step."""
+        """Move the chosen joint by a step, in the given direction."""
         self.sliders.step(direction)
         self.redraw()
 
@@ -408,18 +411,18 @@ class RobotApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def action_space(self, key: str) -> None:
-        """Orbit, zoom or pan the 3-D picture."""
+        """Handle a key of the 3-D picture: orbit, zoom or pan."""
         self.query_one("#space", SpacePanel).press(key, self._chosen_frame())
 
     def action_link(self, step: int) -> None:
-        """Show the pose of another link."""
+        """Show the pose of the next or previous link."""
         place = self._links.index(self.link) + step
         self.link = self._links[place % len(self._links)]
         self.redraw()
 
 
 def _bar(one: Slider, width: int, look: Look) -> str:
-    """Draw a joint's slider, `width` cells wide."""
+    """Draw a joint's slider as text of `width` cells."""
     left, right, track = "[]-" if look.ascii_only else "├┤─"
     room = max(3, width - 2)
     share = one.share

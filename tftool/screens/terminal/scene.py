@@ -1,4 +1,4 @@
-"""State of a world at one time, for screens: the present, or a time still in the buffer."""
+"""State of a world as screens show it, at the present or at a past time in the buffer."""
 
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -39,7 +39,10 @@ NEAR = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two frames, and the transform between them or the reason why there is none."""
+    """Two frames, and the result of the lookup between these frames.
+
+    If the lookup fails, `found` is None and `refusal` is the error.
+    """
 
     target: str
     source: str
@@ -53,7 +56,7 @@ class SceneMoment:
 
     Attributes:
         stamp: Time that is shown, nanoseconds.
-        behind: Nanoseconds before the present; 0 if live.
+        behind: Nanoseconds from `stamp` to the present; 0 if live.
         elapsed: Nanoseconds since the scene's start.
         snapshot: All frames at that time.
         ages: Seconds since each frame's stamp last changed; 0 for static frames.
@@ -71,7 +74,7 @@ class SceneMoment:
 
 
 class SimulatedTurtle(Protocol):
-    """Protocol of a turtle: the facts needed to draw it."""
+    """Protocol of a turtle that can be drawn."""
 
     @property
     def name(self) -> str:
@@ -87,7 +90,7 @@ class SimulatedTurtle(Protocol):
 
 
 class Simulator(Protocol):
-    """Protocol of a source of turtles: a simulator here or in another process."""
+    """Protocol of a turtle simulator, in this process or in another process."""
 
     trail: Trail
 
@@ -101,7 +104,7 @@ class Simulator(Protocol):
 
 
 class _SeenTurtle(NamedTuple):
-    """Pose of a turtle on the field: metres, radians."""
+    """Stored pose of a turtle on the field, in metres and radians."""
 
     name: str
     x: float
@@ -111,7 +114,10 @@ class _SeenTurtle(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """State of the simulator at `stamp`; `drawn` is the number of strokes of the trail."""
+    """Stored state of the simulator at the time `stamp`.
+
+    `drawn` is the number of strokes drawn so far, `wipes` how often the drawing was cleared.
+    """
 
     stamp: Stamp
     turtles: tuple[_SeenTurtle, ...]
@@ -122,16 +128,17 @@ class _Seen:
 
 
 class Scene:
-    """Observer of a world, which stores past states of the simulator.
+    """Observer of a world, which stores past states of the turtle simulator.
 
     Args:
         world: World to observe.
-        simulator: Simulator whose turtles are drawn; None if there is none.
+        simulator: Simulator whose turtles are drawn; None without turtles.
 
     Attributes:
         start: Time from which the screen counts seconds.
-        solids: Shapes of a robot among the frames, once its description is known.
-        missed: Name of a missing turtle for which a key was pressed; its arrival will be logged.
+        solids: Shapes of a robot, once a robot description is known; else None.
+        missed: Name of a missing turtle for which a key was pressed; a message is logged when the
+            turtle appears.
     """
 
     def __init__(self, world: ShownFrames, simulator: Simulator | None = None) -> None:
@@ -151,7 +158,7 @@ class Scene:
         self._field_frame = ""
 
     def look(self) -> None:
-        """Store the simulator's present state; called a few dozen times a second."""
+        """Store the present state of the simulator; called a few dozen times a second."""
         now = self.world.clock.now()
         simulator = self.simulator
         if simulator is None or not (simulator.turtles or self._seen):
@@ -200,7 +207,7 @@ class Scene:
         return min(max(min(held, default=now), now - self.world.buffer.cache_time), now)
 
     def moment(self, at: Stamp | None, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return the state at one time.
+        """Return the state of the scene at one time.
 
         Args:
             at: Time to show; None for the present.
@@ -226,14 +233,14 @@ class Scene:
         )
 
     def newest(self, target: str, source: str) -> Stamp | None:
-        """Return the newest time of a pair's transform; None if there is none, or it is static."""
+        """Return the newest time of a pair's transform; None if static or not connected."""
         try:
             return self.world.buffer.get_latest_common_time(target, source) or None
         except TransformException:
             return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return a past state with another pair; the frames are not looked up again."""
+        """Return a past state for another pair or fixed frame, from the stored snapshot."""
         snapshot, pair = moment.snapshot, (target, source)
         wanted = self._fixed(snapshot, pair, fixed)
         if moment.picture.fixed != wanted:
@@ -263,7 +270,7 @@ class Scene:
         return Pair(target, source, found)
 
     def _as_of(self, info: FrameInfo, at: Stamp) -> FrameInfo:
-        """Return a frame's facts as they were at an earlier time, without later samples."""
+        """Return a frame's facts as at the past time `at`, without the samples after `at`."""
         if info.parent is None or info.is_static or info.newest <= at:
             return info
         stamps = self.world.buffer.samples(info.frame).stamps
@@ -281,9 +288,10 @@ class Scene:
         )
 
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
-        """Return every frame's age as in rviz: seconds since its stamp last changed.
+        """Return the age of each frame in seconds, as in rviz: the time since a new stamp arrived.
 
-        For past times the stamp itself is used, because times of arrival are not recorded.
+        For a past time `at`, the age is the time since the newest stamp, because times of arrival
+        are not stored.
         """
         ages: dict[str, float] = {}
         for info in snapshot.frames:
@@ -332,7 +340,7 @@ class Scene:
         return picture if seen is None else self._with_field(picture, snapshot, lookup, seen, at)
 
     def _latest(self, snapshot: Snapshot, fixed: str) -> Lookup:
-        """Return a function that looks up the latest poses, from the snapshot if it has them."""
+        """Return a function that looks up the latest poses relative to `fixed`."""
         inside = in_snapshot(snapshot)
         if fixed in snapshot and snapshot.frame(fixed).parent is None:
             return inside
@@ -353,7 +361,7 @@ class Scene:
         seen: _Seen,
         at: Stamp | None,
     ) -> PlanePicture:
-        """Return the picture with the turtles' field, placed at the parent of their frames."""
+        """Return the picture with the turtles' field, in the parent of the turtles' frames."""
         parents = [
             parent
             for turtle in seen.turtles
@@ -391,10 +399,12 @@ class Scene:
 
 
 def _inked(strokes: Sequence[Stroke], turtles: Sequence[_SeenTurtle]) -> list[Stroke]:
-    """Return strokes in the colour of their turtle, if its pen has the colour of a new pen.
+    """Return strokes in the colour of the turtle that has drawn each stroke.
+
+    Only strokes in the colour of a new pen are changed.
 
     Args:
-        strokes: The newest strokes, oldest first; the last one of a turtle ends at the turtle.
+        strokes: The newest strokes, oldest first; the last stroke of a turtle ends at the turtle.
         turtles: Present turtles.
     """
     ends = {turtle.name: (turtle.x, turtle.y) for turtle in turtles}
@@ -416,7 +426,7 @@ def _sides(x: float, y: float) -> list[str]:
 
 
 def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
-    """Return a turtle that has no frame, at its position in the simulator."""
+    """Return a turtle without a frame for drawing, at the position in the simulator."""
     there = pose @ transform_from_pose(turtle.x, turtle.y, turtle.theta)
     ahead = there.rotate((1.0, 0.0, 0.0))[:2]
     return PlaneFrame(

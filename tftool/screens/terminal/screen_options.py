@@ -18,7 +18,7 @@ class Setting:
         colors: Whether colours may be used.
         light: Whether the terminal's background is light.
         drive_only: Whether to show only the field, for `tftool teleop`.
-        at: Past time to show first, at rest; None for the present.
+        at: Past time to show first; None for the present.
         scenarios: Function that returns name and description of the scenarios to choose from; None
             if no scenario can be chosen.
     """
@@ -34,7 +34,7 @@ class Setting:
 
 
 def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting) -> Setting:
-    """Return the wanted options, restricted to what the terminal can show.
+    """Return the options `wanted`, without those that the terminal cannot show.
 
     Args:
         environment: Environment variables; TERM, NO_COLOR, COLORFGBG and LC_ALL are used.
@@ -99,7 +99,7 @@ class ScreenLayout:
 
 
 def arranged(width: int, height: int, frames: int) -> ScreenLayout:
-    """Divide a screen among its panels.
+    """Return sizes of the panels for a terminal of `width` by `height` cells.
 
     Args:
         width: Columns of the terminal.

@@ -1,4 +1,4 @@
-"""Sliders for a robot's joints: positions, the chosen slider, and changes by keys."""
+"""Sliders for a robot's joints: positions, the chosen joint, and changes by keys."""
 
 import math
 import random
@@ -18,11 +18,11 @@ FINE = 10
 
 
 class Positions(Protocol):
-    """Protocol of a node with joint positions, such as `nodes.joints.JointStatePublisher`."""
+    """Protocol of a node that stores joint positions, such as `JointStatePublisher`."""
 
     @property
     def positions(self) -> Mapping[str, float]:
-        """Positions by joint, including mimic joints."""
+        """Position of each joint by name, including mimic joints."""
 
     def move(self, joint: str, position: float) -> None:
         """Set the position of a joint."""
@@ -48,7 +48,7 @@ class Slider:
 
     @property
     def share(self) -> float | None:
-        """Position between the limits, from 0 to 1; None if unknown."""
+        """Position as a fraction of the slider's range, from 0 to 1; None if unknown."""
         lower, upper = self.range
         if self.position is None or upper <= lower:
             return None
@@ -60,8 +60,8 @@ class Sliders:
 
     Attributes:
         robot: The robot.
-        entry: Digits of a position typed so far; "" if none are.
-        refusal: Reason why the last typed text is not a position; "" if it was a position.
+        entry: Text of a position typed so far; "" if nothing was typed.
+        refusal: Reason why the last key had no effect, for the user; "" if there is no reason.
     """
 
     def __init__(self, robot: Robot, mover: Positions | None, *, seed: int = 0) -> None:
@@ -69,7 +69,7 @@ class Sliders:
 
         Args:
             robot: The robot.
-            mover: Node that moves the joints; None if other programs do.
+            mover: Node that moves the joints; None if other programs move the joints.
             seed: Seed of random positions.
         """
         self.robot = robot
@@ -88,7 +88,7 @@ class Sliders:
 
     @property
     def chosen(self) -> RobotJoint | None:
-        """Joint that keys move; None for a robot without joints."""
+        """Joint that the keys move; None for a robot without joints."""
         return self._joints[self._chosen] if self._joints else None
 
     @property
@@ -107,7 +107,7 @@ class Sliders:
         ]
 
     def hear(self, positions: Mapping[str, float]) -> None:
-        """Store positions of joints that other programs publish."""
+        """Store joint positions that another program has published."""
         for name, position in positions.items():
             if self.robot.takes(name) and math.isfinite(position):
                 self._heard[name] = position
@@ -115,7 +115,7 @@ class Sliders:
     # What keys do
 
     def choose(self, step: int) -> None:
-        """Choose the next or previous joint, leaving out mimic joints."""
+        """Choose the next or previous joint that is not a mimic joint."""
         self.entry = self.refusal = ""
         count = len(self._joints)
         place = self._chosen
@@ -126,7 +126,7 @@ class Sliders:
                 return
 
     def step(self, direction: int, *, fine: bool = False) -> None:
-        """Move the chosen joint one step towards a limit."""
+        """Move the chosen joint by one step: up if `direction` is 1, down if -1."""
         joint = self.chosen
         if joint is None or self._mover is None:
             return
@@ -161,7 +161,7 @@ class Sliders:
         self._move(joint, position)
 
     def zero(self, *, all_of_them: bool = True) -> None:
-        """Set all joints, or the chosen joint, to zero or the nearest position within limits."""
+        """Set all joints, or the chosen joint, to zero or to the limit nearest to zero."""
         for joint in self._meant(all_of_them):
             lower, upper = joint.limits or (0.0, 0.0)
             self._move(joint, min(upper, max(lower, 0.0)))
@@ -198,14 +198,15 @@ class Sliders:
 
 
 def slide_range(joint: RobotJoint) -> tuple[float, float]:
-    """Return a slider's smallest and largest position: the joint's limits, else a full turn."""
+    """Return the smallest and largest position of a slider: the limits, or a full turn without."""
     return joint.limits or (-math.pi, math.pi)
 
 
 def tip_of(robot: Robot) -> str:
-    """Return the link farthest from the root, usually a hand; if several are, the first.
+    """Return the link farthest from the root by number of joints, usually a hand.
 
-    Links below a floating joint are left out, because no frame is published for them.
+    Of several such links, the first is returned. Links below a floating joint are ignored, because
+    their frames are not published.
     """
     depth = {robot.root: 0}
     waiting = [robot.root]

@@ -76,12 +76,12 @@ class SpacePanel(Panel):
         self._dragged: tuple[int, int] | None = None
 
     def draw(self, picture: SpacePicture, look: Look) -> None:
-        """Show a 3-D picture from now on."""
+        """Show a 3-D picture in the panel."""
         self._picture, self._look = picture, look
         self._paint()
 
     def on_resize(self) -> None:
-        """Draw the picture in the panel's new size."""
+        """Draw the picture again in the new size of the panel."""
         if self.in_space:
             self._paint()
 
@@ -116,13 +116,13 @@ class SpacePanel(Panel):
         return setting is None or bool(setting.colors)
 
     def frame_at(self, x: int, y: int) -> str | None:
-        """Return the frame nearest to a cell of the panel; None if none is within three cells."""
+        """Return the frame nearest to a cell of the panel; None if no frame is within 3 cells."""
         return None if self._canvas is None else self._canvas.frame_at(x, y)
 
     # Keys and the mouse
 
     def press(self, key: str, chosen: str = "") -> bool:
-        """Handle a key; return whether it has a meaning in this panel.
+        """Handle a key; return False if the key has no meaning in this panel.
 
         Args:
             key: Name of the key.
@@ -163,7 +163,7 @@ class SpacePanel(Panel):
         self._paint()
 
     def on_mouse_up(self) -> None:
-        """End dragging the picture."""
+        """Stop dragging the picture."""
         self._dragged = None
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:

@@ -1,4 +1,4 @@
-"""3-D pictures of a scene's states."""
+"""3-D pictures of a scene at one time."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ FEW = 0xE0E0E0
 
 
 def space_picture(moment: SceneMoment, solids: Solids | None = None) -> SpacePicture:
-    """Return a state's frames in 3-D, with a robot's shapes, trails and the turtles' field."""
+    """Return a 3-D picture of a scene: frames, trails, the robot's shapes, the turtles' field."""
     plane = moment.picture
     frames = frames_in_space(moment.snapshot, plane.fixed, moment.ages)
     ends, colors = [plane.trails.ends[-MOST_STROKES:]], [plane.trails.colors[-MOST_STROKES:]]
@@ -36,7 +36,10 @@ def space_picture(moment: SceneMoment, solids: Solids | None = None) -> SpacePic
 
 
 def opens_in_space(moment: SceneMoment) -> bool:
-    """Return whether a view from above would show static frames on top of each other."""
+    """Return whether a scene is better shown in 3-D than from above.
+
+    This is so for static frames that differ mostly in height.
+    """
     moves = any(not info.is_static and info.parent for info in moment.snapshot.frames)
     if moves or moment.picture.field is not None:
         return False

@@ -12,14 +12,14 @@ from tftool.drawing.table_columns import fitted, plain
 
 
 class Look(NamedTuple):
-    """Palette of a screen, and whether it may use more than ASCII."""
+    """Palette of a screen, and whether the screen is limited to ASCII."""
 
     palette: theme.Palette = theme.DARK
     ascii_only: bool = False
 
     @property
     def more(self) -> str:
-        """Sign for text that is cut out."""
+        """Character that marks the place where text was left out."""
         return "~" if self.ascii_only else "…"
 
     def ink(self, color: Color, *, bold: bool = False) -> Style:
@@ -27,7 +27,7 @@ class Look(NamedTuple):
         return theme.ink(color, bold=bold)
 
     def of_name(self, name: str) -> Color:
-        """Return the colour of a frame's name, dark enough for a light panel."""
+        """Return the colour that is computed from a frame's name, readable on the panel."""
         return theme.readable(theme.of_name(name), self.palette)
 
 

@@ -87,12 +87,12 @@ class TrafficWatch(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def look_again(self) -> None:
-        """Store the present rates and delays, and draw them."""
+        """Store the current rates and delays, and draw the curves."""
         self._history.look(self.world.clock.now(), self._traffic, over=RATED_OVER)
         self.redraw()
 
     def redraw(self) -> None:
-        """Draw the present rates and delays."""
+        """Draw the stored rates and delays."""
         if self.is_running and self.query("#footer"):
             self.guarded(self._draw)
 
@@ -125,7 +125,10 @@ class TrafficWatch(PanelApp):
         self.panel("footer").show([footer(hints, self.size.width, look)])
 
     def _names_senders(self, links: list[FrameTraffic]) -> bool:
-        """Return whether the frames' panel has all data of the publishers, a frame for each."""
+        """Return whether the panel of frames already names all publishers.
+
+        This is so if each publisher has one frame, and there is room for the names.
+        """
         has_room = WITH_SCALE * len(links) <= self.size.height - 5
         return has_room and sorted(one.sender for one in links) == sorted(self._traffic.senders)
 
@@ -159,7 +162,7 @@ class TrafficWatch(PanelApp):
         self.redraw()
 
     def action_sort(self) -> None:
-        """Sort the frames by the next criterion."""
+        """Sort the frames by the next criterion: name, rate, delay, or order in the chain."""
         orders = (*(["chain"] if self._chain is not None else []), *_ORDERS)
         self._order = orders[(orders.index(self._order) + 1) % len(orders)]
         self._first = 0

@@ -40,12 +40,12 @@ Marks = Mapping[str, Sequence[str]]
 
 @dataclass(slots=True)
 class TreeWindow:
-    """Visible part of the tree: first row, order and filter.
+    """Visible part of the tree: first row, sort order and filter.
 
     Attributes:
         first: Index of the row at the top.
         order: Order of the rows.
-        wanted: Part of the names of the frames to show.
+        wanted: Filter: text that the names of the shown frames contain; "" for all frames.
     """
 
     first: int = 0
@@ -62,7 +62,7 @@ class TreeWindow:
         ascii_only: bool,
         history: TrafficHistory = NO_HISTORY,
     ) -> list[Text]:
-        """Return lines: the heading, the rows that fit, and the numbers of rows above and below."""
+        """Return the heading, the rows that fit, and a line with the number of hidden rows."""
         if not snapshot.frames:
             return [Text(NOTHING)][:height]
         found = compact(
@@ -153,7 +153,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self._traffic.receive(now, message.transforms, message.authority, is_static=False)
 
     def tell(self, sentence: str) -> None:
-        """Show a sentence in place of the key help at the bottom, until the next key."""
+        """Show a sentence in place of the key help in the bottom line, until the next key."""
         self.news = sentence
         self.redraw()
 
@@ -185,7 +185,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self) -> None:
-        """Show the tree, the picture, or both: the picture below a tree that leaves enough room."""
+        """Show the tree, with the 3-D picture below if there is room, or only the picture."""
         rows, space = self.panel("rows"), self.space
         height = self.size.height - 2 - self._rows_above()
         needs = 0 if self._seen is None else self._tree_needs()
@@ -199,7 +199,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         return HEADINGS + 2 + (0 if self._seen is None else len(self._seen[0].frames))
 
     def _rows_above(self) -> int:
-        """Return the number of rows between the title bar and the tree."""
+        """Return the number of rows between the title bar and the tree, for subclasses."""
         return 0
 
     @property
@@ -214,7 +214,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self._shown(self._look)
 
     def redraw(self) -> None:
-        """Draw the last snapshot with the present order and filter."""
+        """Draw the last snapshot with the current order and filter."""
         self._shown(self._draw)
 
     def _shown(self, work: Callable[[], None]) -> None:
@@ -236,7 +236,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self._draw()
 
     def _present(self, now: Stamp, info: FrameInfo) -> FrameInfo:
-        """Return a frame's facts, with rate 0 if its publisher has stopped."""
+        """Return a frame's facts; the rate is 0 if no new transform arrives."""
         link = self._traffic.links.get(info.frame)
         heard = None if link is None else link.series.last
         # A sender of old stamps is not silent.
@@ -325,7 +325,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.redraw()
 
     def _next_followed(self) -> str:
-        """Return the frame to keep in the middle of the picture next; "" after the last frame."""
+        """Return the next frame that the camera is to follow; "" after the last frame."""
         names = [info.frame for info in self._seen[0].frames] if self._seen else []
         names.append("")
         follows = self.space.camera.follows

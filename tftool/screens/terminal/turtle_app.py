@@ -1,7 +1,8 @@
 """Terminal app of demo and teleop: field, tree, a pair of frames, log; keys drive a turtle.
 
-The screen observes a world, and changes it only by the keys passed to `press`. The screen shows the
-world's time. The number of pictures per real second is fixed, however fast world time runs.
+The screen observes a world, and changes the world only by keys passed to `press`. The screen shows
+the world's time. The number of pictures per real second is fixed, also if simulated time runs
+faster or slower.
 """
 
 import asyncio
@@ -53,10 +54,10 @@ class TurtleApp(PanelApp):
         press: Function called with a key that drives, such as "up"; None if no turtle can be
             driven.
         setting: Options of the screen.
-        idle: Node that draws while no key is pressed; None if there is none.
+        idle: Node that drives a turtle while no key is pressed; None without such a node.
 
     Attributes:
-        chosen: Scenario that the user has chosen to show next; None if none was chosen.
+        chosen: Scenario that the user has chosen to show next; None if no scenario was chosen.
         press_key: Function called with a key that drives; None if no turtle can be driven.
     """
 
@@ -139,7 +140,7 @@ class TurtleApp(PanelApp):
         scene.world.log.listen(self._journal.add, "screen")
 
     def begin(self, stamp: Stamp) -> None:
-        """Count seconds from `stamp`, when the world starts; a recording has a start of its own."""
+        """Count seconds from `stamp`, the start of the world; for a recording, do nothing."""
         if self.setting.at is None:
             self.scene.start = stamp
 
@@ -201,7 +202,7 @@ class TurtleApp(PanelApp):
     # Looking
 
     def look_again(self) -> None:
-        """Draw the present state, unless the last drawing was slow and has only just ended."""
+        """Draw the current state, unless the last drawing was slow and has just ended."""
         loop = asyncio.get_running_loop()
         if loop.time() < self._rest_until:
             return
@@ -224,7 +225,7 @@ class TurtleApp(PanelApp):
         )
 
     def redraw(self) -> None:
-        """Draw everything that has changed."""
+        """Draw the current state again."""
         self._stale = True
         self.guarded(self._draw)
 
@@ -281,7 +282,7 @@ class TurtleApp(PanelApp):
         )
 
     def _driven(self) -> str:
-        """Describe the pose and the speed of the turtle that the keys drive."""
+        """Return the pose and the speed of the driven turtle as text."""
         simulator = self.scene.simulator
         turtle = simulator.turtles.get(self.setting.pair[1]) if simulator else None
         if turtle is None:
@@ -292,7 +293,7 @@ class TurtleApp(PanelApp):
 
     @property
     def field(self) -> SpacePanel:
-        """Panel of the picture."""
+        """Panel with the picture of the frames."""
         return self.query_one("#field", SpacePanel)
 
     def _draw_panels(self, moment: SceneMoment) -> None:
@@ -327,7 +328,7 @@ class TurtleApp(PanelApp):
         plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
 
     def _draw_log(self, moment: SceneMoment) -> None:
-        """Draw the newest log message; if the log has the focus, as many messages as fit."""
+        """Draw the newest log message, or a whole panel of messages if the log has the focus."""
         log, look = self.panel("log"), self.look
         if log.has_focus:
             lines = self._journal.lines(
@@ -342,11 +343,11 @@ class TurtleApp(PanelApp):
     # The mouse
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Zoom in at the pointer."""
+        """Zoom in at the pointer, or scroll the panel under the pointer up."""
         self._wheel(event, 1)
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Zoom out at the pointer."""
+        """Zoom out at the pointer, or scroll the panel under the pointer down."""
         self._wheel(event, -1)
 
     def _wheel(self, event: events.MouseEvent, step: int) -> None:
@@ -379,7 +380,7 @@ class TurtleApp(PanelApp):
             self.redraw()
 
     def on_mouse_move(self, event: events.MouseMove) -> None:
-        """Move the picture with the pointer while it is dragged."""
+        """Move the picture with the pointer while the picture is dragged."""
         if self._dragged is None:
             return
         if not event.button:
@@ -391,11 +392,11 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def on_mouse_up(self) -> None:
-        """End dragging the picture."""
+        """Stop dragging the picture."""
         self._dragged = None
 
     def _under(self, event: events.MouseEvent) -> tuple[str, int, int]:
-        """Return the name of the panel under the pointer, and the cell in it."""
+        """Return the name of the panel under the pointer, and the cell (x, y) in that panel."""
         for name in ("field", "tree", "pair", "log"):
             panel = self.panel(name)
             inside = panel.content_region
@@ -406,7 +407,7 @@ class TurtleApp(PanelApp):
     # Keys
 
     async def on_event(self, event: events.Event) -> None:
-        """Record that a person uses the screen, and handle the event."""
+        """Handle an event; a key or mouse button also stops the turtle that drives by itself."""
         if isinstance(event, events.Key | events.MouseDown) and self._idle is not None:
             self._idle.touch()
         await super().on_event(event)
@@ -421,7 +422,7 @@ class TurtleApp(PanelApp):
         return (self.focused.id or "") if self.focused else ""
 
     def action_drive(self, key: str) -> None:
-        """Pass a key to the function that drives a turtle."""
+        """Pass a key to the function that drives the turtle; log an error of the function."""
         if self.press_key is not None:
             try:
                 self.press_key(key)
@@ -445,7 +446,7 @@ class TurtleApp(PanelApp):
             self.action_drive(key)
 
     def _scroll(self, lines: int) -> None:
-        """Scroll the log by some lines."""
+        """Scroll the log back by a number of messages."""
         self._back = max(0, min(self._back + lines, len(self.scene.world.log.records)))
 
     def action_panel(self, step: int) -> None:
@@ -462,7 +463,7 @@ class TurtleApp(PanelApp):
         (self.panel("field") if log.has_focus else log).focus()
 
     def on_descendant_focus(self) -> None:
-        """Arrange the panels again: the log is open while it has the focus."""
+        """Arrange the panels when another panel gets the focus; the log is open while focused."""
         self._fit_panels()
 
     def _fit_panels(self) -> None:
@@ -471,12 +472,12 @@ class TurtleApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def action_pick(self, step: int) -> None:
-        """Move the cursor through the tree; the frame under it is the pair's source."""
+        """Move the cursor in the tree, and make the frame under the cursor the source."""
         if self._question.pick(step):
             self.redraw()
 
     def action_measure(self) -> None:
-        """Make the frame under the cursor the target, or choose a listed scenario."""
+        """Make the frame under the cursor the target; in the list of scenarios, choose one."""
         if self.panel("scenarios").display:
             self.chosen = self._offered[self._offer][0]
             self.exit()
@@ -485,7 +486,10 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_fix(self) -> None:
-        """Draw the picture in the frame under the cursor; if already drawn there, in the root."""
+        """Make the frame under the cursor the fixed frame of the picture.
+
+        If that frame is the fixed frame already, return to the root of the tree.
+        """
         if self.setting.drive_only:
             # In teleop, f has the same meaning in both cases.
             self.action_drive("f")
@@ -494,12 +498,12 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_zoom(self, steps: int) -> None:
-        """Zoom in or out by some steps."""
+        """Zoom in by a number of steps; zoom out if the number is negative."""
         (self.field.camera if self.field.in_space else self._plane.camera).zoom(steps)
         self.redraw()
 
     def action_pan(self, columns: int, rows: int) -> None:
-        """Move the picture; in 3-D, orbit it."""
+        """Move the view from above, or orbit the 3-D picture."""
         if self.field.in_space:
             self.field.camera.turn(-columns / 6, rows / 3)
         else:
@@ -517,7 +521,7 @@ class TurtleApp(PanelApp):
         self.field.press(key, self._question.source)
 
     def action_fit(self) -> None:
-        """Show the whole picture again, after zooming and panning."""
+        """Undo zooming and panning: show the whole picture."""
         (self.field.camera if self.field.in_space else self._plane.camera).fit()
         self.redraw()
 
@@ -527,12 +531,12 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_travel(self, step: Duration) -> None:
-        """Show an earlier or later time; beyond the present, the live state."""
+        """Move the shown time by `step` nanoseconds; from the present on, show the live state."""
         self._question.travel(step)
         self.redraw()
 
     def action_live(self) -> None:
-        """Close the help or the list of scenarios if it is open, else show the present again."""
+        """Close the help or the list of scenarios; if neither is open, show the present."""
         if self._is_over():
             self.panel("keys").display = self.panel("scenarios").display = False
             self.redraw()

@@ -1,4 +1,4 @@
-"""Base of all screens over a world: a Textual app of panels with common keys and errors."""
+"""Base classes of all screens: a Textual app of panels, with common keys and error handling."""
 
 import asyncio
 import os
@@ -28,10 +28,10 @@ from tftool.world.stopper import leave_screen
 
 
 def input_events(sent: str) -> Iterable[Message]:
-    """Return the keys and mouse moves that Textual's parser finds in a terminal's input.
+    """Parse a terminal's input with Textual's parser; yield the keys and mouse moves.
 
-    Only this function uses Textual's parser, which is not part of its public interface: if a
-    version has moved it, no events are returned.
+    Textual's parser is not part of Textual's public interface. If a version of Textual has moved
+    the parser, no events are returned.
     """
     try:
         from textual._xterm_parser import XTermParser
@@ -43,11 +43,11 @@ def input_events(sent: str) -> Iterable[Message]:
 def tolerant(driver: type[Driver]) -> type[Driver]:
     """Return a driver class that ignores input bytes which are not UTF-8.
 
-    With Textual's own driver, such bytes end the app with a traceback. They come from a terminal of
-    another encoding, or from a cat on the keyboard.
+    With Textual's own driver, such bytes end the app with a traceback. A terminal with another
+    encoding sends such bytes.
 
     Args:
-        driver: Textual's driver class on this platform; that of Windows has no bytes to decode.
+        driver: Textual's driver class on this platform; the driver for Windows decodes no bytes.
     """
     if not hasattr(driver, "run_input_thread"):
         return driver
@@ -69,7 +69,7 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
 
 
 class Panel(Widget):
-    """Panel of text lines that draws only changed lines again."""
+    """Panel of text lines, in which only changed lines are drawn again."""
 
     def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
         super().__init__(id=name)
@@ -85,7 +85,7 @@ class Panel(Widget):
             self.border_title = self._title
 
     def show(self, lines: list[Text] | list[list[Segment]]) -> None:
-        """Show these lines in place of the panel's present lines."""
+        """Replace the lines of the panel."""
         width, height = self.size
         ground = self.rich_style
         kept: dict[int, Strip] = {}
@@ -112,11 +112,11 @@ class Panel(Widget):
         return Strip(parts).adjust_cell_length(width).apply_style(ground)
 
     def on_resize(self) -> None:
-        """Cut the lines to the panel's new size; lines may be set before a panel has a size."""
+        """Shorten the lines to the panel's new size."""
         self.show(self._lines)
 
     def render_line(self, y: int) -> Strip:
-        """Return one line of the panel to Textual."""
+        """Return one line of the panel, for Textual."""
         if y < len(self._strips):
             return self._strips[y]
         return Strip.blank(self.size.width, self.rich_style)
@@ -129,7 +129,7 @@ def _looks_alike(new: Text | list[Segment], old: Text | list[Segment]) -> bool:
 
 
 def themes() -> list[Theme]:
-    """Return `theme`'s two palettes as Textual themes, tftool-dark and tftool-light."""
+    """Return the two palettes of `theme` as Textual themes: tftool-dark and tftool-light."""
     return [
         Theme(
             name=name,
@@ -147,13 +147,13 @@ def themes() -> list[Theme]:
 
 
 class WorldApp(App[None]):
-    """Screen that shows a world until the user leaves the screen, Ctrl-C is pressed, or it fails.
+    """Screen that shows a world until the user quits, presses Ctrl-C, or the world fails.
 
     Attributes:
         world: World to show.
         setting: Options of the screen.
         ready: Event that is set when the first picture is shown.
-        failure: Error of the screen, for the caller to report once the terminal is restored.
+        failure: Error of the screen, which the caller reports after the terminal is restored.
         interrupted: Whether Ctrl-C ended the app.
     """
 
@@ -183,14 +183,14 @@ class WorldApp(App[None]):
         self.interrupted = False
 
     def begin(self, stamp: Stamp) -> None:
-        """Do nothing when the world starts; subclasses override this to start counting time."""
+        """Do nothing; called when the world starts, and overridden to count seconds."""
 
     def get_driver_class(self) -> type[Driver]:
         """Return the class of the driver that reads keys."""
         return tolerant(super().get_driver_class())
 
     def on_mount(self) -> None:
-        """Prepare the event loop for the world's nodes; report when the first picture is shown."""
+        """Prepare the event loop for the world's nodes, and set `ready` after the first picture."""
         # If Python can, textual starts new tasks eagerly; the world's nodes in this event loop
         # need the usual order.
         asyncio.get_running_loop().set_task_factory(None)
@@ -199,7 +199,7 @@ class WorldApp(App[None]):
         self.call_after_refresh(self.ready.set)
 
     def guarded(self, work: Callable[[], None]) -> None:
-        """Call a drawing function; if it raises, store the error and end the screen."""
+        """Call a drawing function; if the function raises, store the error and end the screen."""
         try:
             work()
         except Exception as error:
@@ -207,11 +207,11 @@ class WorldApp(App[None]):
             self.exit()
 
     def action_leave(self) -> None:
-        """End the screen, as the user asked."""
+        """End the screen because the user quits."""
         self.exit()
 
     def action_interrupt(self) -> None:
-        """End the screen as an interrupt: in raw mode, Ctrl-C arrives as a key."""
+        """Handle Ctrl-C, which arrives as a key in raw mode: end the screen as interrupted."""
         self.interrupted = True
         self.exit()
 
@@ -260,12 +260,12 @@ class PanelApp(WorldApp):
         self.screen.set_class(self.setting.ascii_only, "ascii")
 
     def panel(self, name: str) -> Panel:
-        """Return the panel with an id."""
+        """Return the panel with the id `name`."""
         return self.query_one(f"#{name}", Panel)
 
     @property
     def look(self) -> Look:
-        """Palette and characters of the panels."""
+        """Palette and characters that the panels use."""
         palette = theme.LIGHT if self._light else theme.DARK
         return Look(palette, self.setting.ascii_only)
 
@@ -290,7 +290,7 @@ class PanelApp(WorldApp):
         self._place_keys(event.size)
 
     def keys_told(self) -> str:
-        """Return the key help, a line per key."""
+        """Return the text of the key help, with one line for each key."""
         raise NotImplementedError
 
     def _place_keys(self, size: Size) -> None:

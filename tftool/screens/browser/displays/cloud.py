@@ -1,4 +1,4 @@
-"""Display of `sensor_msgs/PointCloud2`: its points, from the fields x, y and z."""
+"""Display of `sensor_msgs/PointCloud2`: the points with the fields x, y and z."""
 
 from typing import Any, Final
 
@@ -13,7 +13,7 @@ _FORMATS: Final = {7: "f4", 8: "f8"}
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
-    """Return the cloud's points for drawing.
+    """Return the cloud's points, as points to draw.
 
     Raises:
         InputError: If the cloud has no x, y and z in floats, or fewer bytes than stated.

@@ -1,6 +1,6 @@
-"""Display of `visualization_msgs/MarkerArray`: shapes that messages add, replace and delete.
+"""Display of `visualization_msgs/MarkerArray`: markers are added, replaced and deleted.
 
-Messages of `visualization_msgs/Marker` are drawn as arrays of one marker.
+A message of `visualization_msgs/Marker` is drawn as an array of one marker.
 """
 
 import math
@@ -41,9 +41,9 @@ _UNIT: Final = Vector3(1.0, 1.0, 1.0)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
-    """Return all markers of the topic after this message, for drawing.
+    """Return all markers of the topic after this message, as shapes to draw.
 
-    A marker with `frame_locked` moves with its frame.
+    A marker with `frame_locked` moves with the marker's frame.
     """
     shapes = list(arrival.before.shapes) if arrival.before is not None else []
     faults = []
@@ -129,7 +129,10 @@ def _arrow_strip(marker: Any) -> Iterator[Part]:
 
 
 def _arrow_between(start: Floats, end: Floats, size: Vector3) -> Iterator[Part]:
-    """Yield an arrow's shaft and head; x, y of `size` are their diameters, z the head's length."""
+    """Yield the shaft and the head of an arrow as parts to draw.
+
+    In `size`, x and y are the diameters of shaft and head, and z is the length of the head.
+    """
     along = end - start
     length = float(np.linalg.norm(along))
     if not 0.0 < length < math.inf:
@@ -170,7 +173,7 @@ because their files may be anywhere."""
 
 
 def _pose(marker: Any) -> tuple[Floats, Quaternion]:
-    """Return a marker's position and unit quaternion; a quaternion of zeros is the identity."""
+    """Return a marker's position and unit quaternion; the quaternion 0, 0, 0, 0 is the identity."""
     place, turn = marker.pose.position, marker.pose.orientation
     norm = math.hypot(turn.x, turn.y, turn.z, turn.w)
     unit = Quaternion(0.0, 0.0, 0.0, 1.0)
@@ -192,7 +195,10 @@ def _size(marker: Any) -> Vector3:
 
 
 def _colors(marker: Any, count: int) -> npt.NDArray[np.uint8]:
-    """Return a marker's colour at each of its positions, shape (count, 4)."""
+    """Return the colour of each of a marker's `count` positions: red, green, blue, opacity.
+
+    The values are 0 to 255, shape (count, 4).
+    """
     given = marker.colors if len(marker.colors) == count else [marker.color] * count
     parts = np.array([(one.r, one.g, one.b, one.a) for one in given], dtype=np.float64)
     shares = np.nan_to_num(parts.reshape(-1, 4))

@@ -1,4 +1,4 @@
-"""Display of `nav_msgs/Path`: a line through its poses, all in the frame of the path."""
+"""Display of `nav_msgs/Path`: a line through the poses, in the frame of the path."""
 
 from typing import Any, Final
 
@@ -10,7 +10,7 @@ TYPES: Final = ("nav_msgs/msg/Path",)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
-    """Return a line through the positions of the poses, for drawing."""
+    """Return a line through the positions of the path's poses."""
     places = [
         (one.pose.position.x, one.pose.position.y, one.pose.position.z) for one in message.poses
     ]

@@ -10,6 +10,6 @@ TYPES: Final = ("geometry_msgs/msg/PointStamped",)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
-    """Return a ball at the point's position, for drawing."""
+    """Return a ball at the point's position."""
     point = message.point
     return drawn("ball", message.header, np.array([(point.x, point.y, point.z)]), arrival.most)

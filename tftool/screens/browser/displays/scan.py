@@ -1,4 +1,4 @@
-"""Display of `sensor_msgs/LaserScan`: end points of its rays, in the plane of the sensor."""
+"""Display of `sensor_msgs/LaserScan`: the end points of the rays, in the plane of the sensor."""
 
 from typing import Any, Final
 
@@ -10,7 +10,7 @@ TYPES: Final = ("sensor_msgs/msg/LaserScan",)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
-    """Return the end points of the rays whose range is valid, for drawing."""
+    """Return the end points of all rays with a valid range, as points to draw."""
     ranges = np.asarray(message.ranges, dtype=np.float64)
     angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
     hit = (ranges >= message.range_min) & (ranges <= message.range_max)

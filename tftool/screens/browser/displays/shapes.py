@@ -1,4 +1,4 @@
-"""Shapes to draw: the result of every display; each shape is given in one frame."""
+"""Shapes to draw, which every display returns; each shape is given in one frame."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Final
@@ -28,13 +28,13 @@ class Shape:
         places: Positions, all finite.
         colors: Red, green, blue and opacity of each position, 0 to 255, shape (n, 4); None for
             the colour of the topic.
-        turn: Rotation of what is drawn at each position.
-        size: Size of what is drawn at each position, metres along its own axes.
+        turn: Rotation of the object that is drawn at each position.
+        size: Size of the object that is drawn at each position, metres along the object's axes.
         text: Text to draw.
-        key: Name within the topic; a later shape of the same name replaces this one.
+        key: Name within the topic; a later shape with the same name replaces this shape.
         until: Time at which the shape disappears, nanoseconds; None for never.
-        placement: Root of the tree that contains the frame at the stamp, and the frame's pose in
-            that root (translation and rotation), each None if unknown. None before the lookup.
+        placement: Root of the frame's tree at the stamp, and the frame's pose in the root
+            (translation, then rotation), each None if unknown. None before the lookup.
     """
 
     kind: str
@@ -50,10 +50,10 @@ class Shape:
     placement: tuple[str | None, list[float] | None] | None = None
 
     def thinned(self, most: int) -> "Shape":
-        """Return the shape with every second, third, … position, so that at most `most` remain.
+        """Return the shape with at most `most` positions: every second, third, … position.
 
-        For lines and triangles, which take several positions each, the first `most` positions are
-        returned instead.
+        Lines and triangles take several positions each: for these, the first `most` positions are
+        returned.
         """
         if len(self.places) <= most:
             return self
@@ -68,11 +68,11 @@ class Shape:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnMessage:
-    """Message as the shapes to draw.
+    """Shapes to draw for one message.
 
     Attributes:
         stamp: Time of the message, nanoseconds.
-        shapes: All shapes that its topic shows from then on.
+        shapes: All shapes of the topic after this message.
         faults: Reasons why parts of the message are not drawn.
     """
 
@@ -86,17 +86,17 @@ class DrawnMessage:
         return sum(len(shape.places) for shape in self.shapes)
 
     def thinned(self, most: int) -> "DrawnMessage":
-        """Return the message with at most `most` positions in each shape."""
+        """Return the shapes with at most `most` positions in each shape."""
         return replace(self, shapes=tuple(shape.thinned(most) for shape in self.shapes))
 
 
 @dataclass(frozen=True, slots=True)
 class Arrival:
-    """Facts besides the message that a display may use.
+    """Facts about a message's arrival and topic, for the display that draws the message.
 
     Attributes:
         stamp: Time at which the message arrived, nanoseconds.
-        most: Most positions of a cloud of points that are drawn.
+        most: Largest number of points to draw of a point cloud.
         before: Shapes that the topic has shown so far; None before the first message.
     """
 
@@ -106,7 +106,14 @@ class Arrival:
 
 
 def drawn(kind: str, header: Any, places: npt.NDArray[Any], most: int) -> DrawnMessage:
-    """Return a message of one shape, with its finite positions thinned to at most `most`."""
+    """Return a message with a single shape, without positions that are not finite.
+
+    Args:
+        kind: Kind of the shape.
+        header: Header of the message, with frame and stamp.
+        places: Positions, shape (n, 3).
+        most: Largest number of positions to keep.
+    """
     places = np.asarray(places, dtype=np.float32).reshape(-1, 3)
     places = places[np.isfinite(places).all(axis=1)]
     stamp = stamp_of(header)
