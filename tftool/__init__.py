@@ -2,86 +2,86 @@
 
 Frames:
 
-    open                            frames of a recording, description, scenario or running session
-    Frames                          what it returns: a buffer, its span and its origin
-    Buffer                          tf2's buffer: transforms by their stamps, and lookups
+    open                            open a recording, description, scenario or running session
+    Frames                          result of open: a buffer with its time span and source
+    Buffer                          tf2's buffer: transforms by stamp, and lookups
     TransformStamped                a transform with its stamp and the names of its frames
     Transform                       rotation and translation: apply, inverse, @, from_matrix
     Quaternion                      a rotation: from_rpy, rpy, inverse, @
     Vector3                         three numbers: norm, dot, cross
     TransformArray                  many transforms of one pair, as numpy arrays
-    Snapshot                        the tree of frames at a moment
-    FrameInfo                       one frame of it
+    Snapshot                        the tree of frames at one time
+    FrameInfo                       one frame of a snapshot
 
 Stamps and rotations:
 
-    seconds                         nanoseconds of so many seconds
-    as_seconds                      seconds of so many nanoseconds
-    LATEST                          the stamp that asks for the latest common time
+    seconds                         convert seconds to nanoseconds
+    as_seconds                      convert nanoseconds to seconds
+    LATEST                          the stamp 0, for a lookup at the latest common time
     quaternion_from_rpy             a rotation from roll, pitch and yaw
     rpy_from_quaternion             roll, pitch and yaw of a rotation
 
 Recordings and robots:
 
     open_recording                  read an MCAP, rosbag2, ROS 1 bag or pose file
-    Recording                       its frames, streams and span
-    write_recording                 write one
-    RecordingWriter                 the value that writes it
+    Recording                       transforms, topics and time span of a recording
+    write_recording                 write a recording
+    RecordingWriter                 writer of a recording, message by message
     load_urdf                       read a URDF or xacro
-    Robot                           its links and joints
-    JointStates                     the values of its joints over time
-    export                          write a pair of frames, or links, to files of other tools
-    Exported                        the files that it wrote
-    plot                            draw a pair of frames over time, or poses
+    Robot                           links and joints of a robot description
+    JointStates                     positions of joints over time
+    export                          write transforms to files of other tools
+    Exported                        the files that export has written
+    plot                            draw the transform of a pair of frames over time, or poses
     view                            show frames in 3-D in the browser
-    PageView                        the page, to show and to save
+    PageView                        the page of view, to show or to save
 
 Questions:
 
-    diagnose                        findings of the doctor
-    Finding                         one of them: causes, evidence, remedies
-    explain                         say why a lookup fails, link by link
-    Explanation                     the answer
-    diff                            differences between two sources of frames
-    Differences                     the links that differ, and by how much
-    calibrate                       the mount and the clock offset from two motions of one body
-    Calibration                     the mount with its intervals
-    clock_offset                    the offset between the clocks of two motions
-    ClockOffset                     the offset with its interval
-    CalibrationRefused              raised where the motion does not tell
+    diagnose                        find errors in the frames of a source
+    Finding                         one result of diagnose: cause, evidence, fixes
+    explain                         find out why a lookup fails, edge by edge
+    Explanation                     result of explain
+    diff                            compare two sources of frames
+    Differences                     result of diff: the edges that differ, and by how much
+    calibrate                       find a sensor's mounting pose and clock offset from motions
+    Calibration                     result of calibrate: mounting pose with intervals
+    clock_offset                    find the offset between the clocks of two motions
+    ClockOffset                     result of clock_offset: offset with interval
+    CalibrationRefused              the motions do not determine the result
 
 Nodes and clocks:
 
-    World                           nodes around one buffer and one clock
-    Node                            a coroutine that publishes, listens and asks
+    World                           nodes that share one buffer and one clock
+    Node                            base of nodes: publishers, subscriptions, lookups, a coroutine
     SimClock                        simulated time, as fast as the processor
-    WallClock                       the time of the machine
-    Clock                           the base of both
-    Phase                           the order of timers due in one instant
-    live                            let the nodes of a world run, inside an event loop
+    WallClock                       real time, by the clock of this machine
+    Clock                           base class of all clocks
+    Phase                           order of timers that end at the same time
+    live                            run the nodes of a world, inside an event loop
     run                             run a coroutine on a clock
 
 Errors:
 
-    TftoolError                     the base of all of ours
-    TransformException              tf2's, the base of the next seven
+    TftoolError                     base class of all errors of tftool
+    TransformException              base class of the errors of a lookup, as in tf2
     LookupException                 a frame is unknown
     ConnectivityException           two frames are in different trees
-    ExtrapolationException          a moment is outside the samples
-    BackwardExtrapolationException  it is before the first
-    ForwardExtrapolationException   it is after the last
-    NoDataForExtrapolationException there is one sample only
-    InvalidArgumentException        a question or a sample is malformed
-    TimeoutException                a transform did not come in time
+    ExtrapolationException          the requested time is outside the samples
+    BackwardExtrapolationException  the requested time is before the first sample
+    ForwardExtrapolationException   the requested time is after the last sample
+    NoDataForExtrapolationException an edge has no sample, or only one at another time
+    InvalidArgumentException        an argument of a lookup, or a sample, is invalid
+    TimeoutException                a transform did not arrive in time
     InputError                      a file or text cannot be read
     UsageError                      arguments contradict each other
-    NodeFailed                      a node raised; its error is the cause
+    NodeFailed                      a node raised an error, which is the __cause__
 """
 
 import sys
 
-# Not from `typing`: this module is imported by every command before it can do anything,
-# and says nothing about types while it runs. Type checkers know the name.
+# Not imported from `typing`, because every command imports this module first, and should start
+# fast. Type checkers recognise the name.
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
-"""Display of values in notebooks: trees as pictures, poses and recordings as tables, a 3-D view.
+"""Formatters for notebooks: trees as pictures, poses and recordings as tables, a 3-D view.
 
-`import tftool` registers these formatters if IPython runs. The displayed classes are registered by
-name and not imported, so an unused class takes no time.
+`import tftool` registers these formatters if IPython runs. The formatted classes are registered by
+name without an import, so that unused classes take no time.
 """
 
 import sys
@@ -29,7 +29,7 @@ _HEADS: Final = ("stamp", "x", "y", "z", "qx", "qy", "qz", "qw")
 
 
 def register() -> None:
-    """Register the displays with the running notebook; do nothing outside a notebook."""
+    """Register the formatters with the running notebook; do nothing outside a notebook."""
     module = sys.modules.get("IPython")
     shell = module.get_ipython() if module is not None else None
     if shell is None or shell.display_formatter is None:
@@ -40,26 +40,26 @@ def register() -> None:
 
 
 def buffer_picture(buffer: "Buffer") -> str:
-    """Return a buffer's frames as SVG, with ages relative to the buffer's newest stamp."""
+    """Return the tree of a buffer's frames as SVG, with ages relative to the newest stamp."""
     snapshot = buffer.snapshot(0)
     newest = max((frame.newest for frame in snapshot.frames if frame.newest), default=0)
     return snapshot_picture(buffer.snapshot(newest))
 
 
 def frames_picture(frames: "Frames") -> str:
-    """Return opened frames as SVG, at the end of their time span."""
+    """Return the tree of opened frames as SVG, at the end of the time span."""
     return snapshot_picture(frames.buffer.snapshot(frames.span[1]))
 
 
 def snapshot_picture(snapshot: "Snapshot") -> str:
-    """Return a snapshot's frames as SVG, as `tftool tree -o` draws them."""
+    """Return the tree of a snapshot's frames as SVG, like `tftool tree -o`."""
     from tftool.drawing import picture, svg
 
     return svg.render(picture.lay_out(snapshot))
 
 
 def array_table(poses: "TransformArray") -> str:
-    """Return the first and last poses as an HTML table; rows without a pose are empty."""
+    """Return the first and last poses as an HTML table; an invalid pose has empty cells."""
     count = len(poses)
     title = (
         f"{poses.child_frame_id} in {poses.frame_id}: {count} poses, {int(poses.valid.sum())} valid"
@@ -83,7 +83,7 @@ def _row(poses: "TransformArray", index: int | None) -> Sequence[str]:
 
 
 def recording_table(recording: "Recording") -> str:
-    """Return a recording's contents as HTML, with the text that `tftool info` prints."""
+    """Return the contents of a recording as HTML, with the same text as `tftool info`."""
     from tftool.drawing import recording_view as info
 
     return f"<pre>{escape(info.as_text(recording))}</pre>"
@@ -99,7 +99,7 @@ def finding_table(finding: "Finding") -> str:
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """Page of `tftool view` with its data, for a notebook's output or a file.
+    """Page of `tftool view` with all data, for a notebook's output or a file.
 
     Attributes:
         html: Text of the page, which loads no other file.
@@ -143,19 +143,21 @@ def view(
     meshes: Sequence[str | Path] = (),
     height: int = 480,
 ) -> PageView:
-    """Show frames in 3-D: in a notebook below the cell, elsewhere by `.save("view.html")`.
+    """Return a page that shows frames in 3-D; a notebook displays the page below the cell.
+
+    Outside a notebook, `.save("view.html")` writes the page to a file.
 
     Args:
         shown: Source of the frames: a buffer, a recording, or opened frames.
-        robot: Robot to draw; None for the recording's.
+        robot: Robot to draw; None for the robot of the source.
         meshes: Folders with the robot's meshes.
         height: Height in a notebook, pixels.
 
     Returns:
-        Page as `tftool view -o` writes it.
+        Page with all data, as `tftool view -o` writes to a file.
 
     Raises:
-        InputError: If nothing of the recording can be read.
+        InputError: If no part of the recording can be read.
         TypeError: If the source has no frames.
     """
     from tftool.base.errors import without_frames
@@ -187,7 +189,13 @@ def view(
 
 
 def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return an HTML table of these cells, which are escaped."""
+    """Return an HTML table.
+
+    Args:
+        title: Caption of the table.
+        heads: Headings of the columns; empty for no headings.
+        rows: Texts of the cells by row; HTML characters are escaped.
+    """
 
     def cells(tag: str, texts: Sequence[str]) -> str:
         inner = "".join(f"<{tag}>{escape(visible(text))}</{tag}>" for text in texts)

@@ -1,4 +1,4 @@
-"""Opening of frames from any source: `open_frames`, for Python and the command line.
+"""Function `open_frames`, which opens the frames of any source, for Python and the command line.
 
 FROM (the argument `place`) names a scenario, a recording, a robot description, a file of static
 transforms, or the address of a robot (`ws://robot:8765`). Without FROM, the running session of this
@@ -71,17 +71,17 @@ def open_frames(
     Several recordings are merged in order of time. The call also works inside an event loop.
 
     Args:
-        place: Source of the frames, also an address ws://robot:8765; None for the running session.
+        place: Source of the frames: name, path or address; None for the running session.
         listen_for: Seconds to listen to a session.
-        until: Second up to which to play a scenario; None for 5 s, infinity for all of it.
-        margin: Seconds to play on after `until`, for transforms that arrive after their stamp.
+        until: Time up to which a scenario is played, seconds; None for 5 s, infinity to the end.
+        margin: Further seconds to play after `until`, because transforms arrive after their stamp.
         cache_time: Cache time of a scenario's or session's buffer, nanoseconds; None for no limit.
         joints: Positions of a description's joints, radians or metres.
         arguments: Values of xacro arguments.
         urdf: File with the robot's description, for a recording that contains none.
         with_odometry: Whether odometry and poses in a recording count as transforms.
-        no_cache: Whether to read the whole recording, and store no columns for the next time.
-        tf_topics: Topics whose transforms to read; all if empty. See `open_recording`.
+        no_cache: Whether to read the whole recording, and neither use nor write the column cache.
+        tf_topics: Topics whose transforms are read; all if empty. See `open_recording`.
         frames: Names of parent and child in a pose file: "odom:base_link".
         pose_rate: Poses per second, for a pose file without stamps.
         pose_format: Format of a pose file; None to detect it.
@@ -93,8 +93,8 @@ def open_frames(
         watch: Function called with the world of a scenario or session before it runs.
         glance: Function called in another thread, repeatedly while a session is listened to, with
             the frames received so far and the nanoseconds since the start.
-        progress: Function called with the number of bytes read, and their total number.
-        reach: Options for reaching a session, by the names of the command line's options.
+        progress: Function called with the number of bytes read and the size of the file in bytes.
+        reach: Further options for connecting to a session, named as on the command line.
 
     Raises:
         InputError: If `place` names no source, or the source cannot be read.
@@ -148,9 +148,10 @@ def open_frames(
 
 
 def named(word: str) -> Found:
-    """Return the files or scenario that a word names, with their kind.
+    """Return the files or the scenario that a word names, with the kind of source.
 
-    A built-in scenario's name takes precedence; `./turtles` and `turtles.yaml` are paths.
+    The name of a built-in scenario takes precedence over a file of the same name. `./turtles` and
+    `turtles.yaml` are always paths.
 
     Raises:
         InputError: If the word names no source, or a file that cannot be read.
@@ -171,13 +172,13 @@ def scenario_named(
     """Read the scenario that a word names.
 
     Args:
-        word: Name of a built-in scenario, or a file.
+        word: Name of a built-in scenario, or path of a file.
         arguments: Values for arguments that the scenario declares.
-        expects: Whether the expectations are needed.
+        expects: Whether the expectations of the scenario are needed.
 
     Raises:
         InputError: If there is no such scenario, or the scenario cannot be read.
-        UsageError: If the word names something else, or an argument is not declared.
+        UsageError: If the word names another kind of source, or an argument is not declared.
     """
     from tftool.scenario.load import load
 
@@ -198,11 +199,7 @@ def kind_in_words(found: Found) -> str:
 def refuse_options_of_files(
     robot: DescriptionOptions, recording: RecordingOptions, word: str | None
 ) -> None:
-    """Raise an error for options of recordings and descriptions; call this for other sources.
-
-    Raises:
-        UsageError: If such an option was given.
-    """
+    """Raise UsageError for an option of recordings or descriptions if FROM is another source."""
     what = "The session that runs" if word is None else f"'{visible(word)}'"
     robot.refuse(f"{what} is neither a robot description nor a recording")
     recording.refuse(f"{what} is not a recording")
@@ -210,11 +207,7 @@ def refuse_options_of_files(
 
 
 def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, Any]) -> None:
-    """Raise an error for options that select another domain or machine than FROM's address.
-
-    Raises:
-        UsageError: If such an option was given.
-    """
+    """Raise UsageError for options that select a session if FROM is the address of a session."""
     if domain is not None or any(given.values()):
         raise UsageError(
             f"'{visible(address)}' already names the robot: leave out --domain, "
@@ -223,17 +216,19 @@ def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, 
 
 
 def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
-    """Raise an error for --cache-time if FROM is a file, whose data is never pruned.
-
-    Raises:
-        UsageError: If --cache-time was given.
-    """
+    """Raise UsageError for --cache-time if FROM is a file, which is always read completely."""
     if cache_time is not None:
         raise UsageError(f"'{visible(found.name)}' is read completely: leave out --cache-time.")
 
 
 def nanoseconds(time: float) -> Duration:
-    """Convert seconds to nanoseconds; an int from 10⁶ on is in nanoseconds already."""
+    """Convert a number of seconds to nanoseconds.
+
+    An `int` of 10⁶ or more is returned unchanged, because such a number is in nanoseconds already.
+
+    Raises:
+        UsageError: If the time is not above zero.
+    """
     if not time > 0:
         raise UsageError(f"{time} s is too short to listen or to play: give more than 0.")
     # Nobody listens for eleven days.

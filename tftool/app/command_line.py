@@ -1,4 +1,4 @@
-"""Command line of one command: parsed by typer, with help grouped by subject and short errors."""
+"""Parsing of a command line by typer, with help grouped by subject and short errors."""
 
 import gc
 import math
@@ -49,7 +49,7 @@ UNLIKE = 0.5
 
 
 def run_command(words: Sequence[str], providers: "Providers | None" = None) -> int:
-    """Run the command that the first word names, and return its exit status.
+    """Run the command named by the first word, and return the exit status.
 
     Raises:
         UsageError: If there is no such command.
@@ -83,7 +83,7 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
 
 
 def refuse_option(word: str, known: Iterable[str]) -> UsageError:
-    """Return the error for an unknown option before the name of a command."""
+    """Return the error for an unknown option before the name of a command, with similar options."""
     return UsageError(_did_you_mean(f"No such option: {word}", word, known))
 
 
@@ -94,7 +94,7 @@ def _did_you_mean(refusal: str, word: str, known: Iterable[str], quote: str = ""
 
 
 def _sentence_of(error: Any) -> str:
-    """Return the text of an error of click as a plain sentence."""
+    """Return the text of a click error in plain words, with suggestions for a mistyped option."""
     sentence: str = error.format_message()
     near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
     if hasattr(error, "possibilities"):
@@ -109,7 +109,7 @@ def _sentence_of(error: Any) -> str:
 
 
 def _nearest(written: str, near: Iterable[str]) -> list[str]:
-    """Return the options most similar to a mistyped word, the most similar first."""
+    """Return the words in `near` that are similar to a mistyped word, the most similar first."""
 
     def likeness_of(one: str) -> float:
         # The first letter is rarely mistyped.
@@ -125,7 +125,7 @@ def _nearest(written: str, near: Iterable[str]) -> list[str]:
 
 
 def made(name: str) -> Any:
-    """Build the typer command of one name, with all its options."""
+    """Build the typer command called `name`, with all options."""
     command = load(name)
     # Help in plain text, because importing rich takes longer than the rest of the start.
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
@@ -138,7 +138,7 @@ def made(name: str) -> Any:
 
 
 def _laid_out(docstring: str) -> str:
-    """Format a command's docstring as its help; examples keep their line breaks."""
+    """Return the help text made from a docstring; examples keep their line breaks."""
     paragraphs = cleandoc(docstring).split("\n\n")
     # \b tells click not to wrap a paragraph.
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
@@ -153,7 +153,11 @@ class LaidOutCommand(TyperCommand):
             self.params.append(_help_session())
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
-        """Parse the command line; NAME:=VALUE becomes an argument of a robot description."""
+        """Parse the command line.
+
+        A word NAME:=VALUE becomes --argument NAME:=VALUE. Options for pose files are stored
+        together with the file that precedes each option.
+        """
         if any(param.name == "argument" for param in self.params):
             args = [
                 part
@@ -168,7 +172,10 @@ class LaidOutCommand(TyperCommand):
         return super().parse_args(ctx, args)
 
     def _pose_options(self, args: list[str]) -> "Iterator[tuple[str | None, str, Any]]":
-        """Yield (file before the option, option's name, value) for each option for pose files."""
+        """Yield a tuple for each option for pose files: preceding file, name of the option, value.
+
+        The file is None if no file precedes the option.
+        """
         options = {one: param for param in self.params for one in param.opts if one[0] == "-"}
         file: str | None = None
         words = iter(args)
@@ -185,7 +192,7 @@ class LaidOutCommand(TyperCommand):
                 file = word
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; options that follow a pose file apply to that file only."""
+        """Run the command; an option for pose files applies to the pose file before the option."""
         given = ctx.meta.get(_POSES)
         if not given:
             return super().invoke(ctx)
@@ -193,12 +200,12 @@ class LaidOutCommand(TyperCommand):
             return super().invoke(ctx)
 
     def get_help(self, ctx: Any) -> str:
-        """Print the help, and end the command."""
+        """Print the help, and raise `typer.Exit` to end the command."""
         show_help(super().get_help(ctx))
         raise typer.Exit
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Write the arguments, then the options below their headings."""
+        """Write the command's arguments and options, grouped below headings."""
         sections: dict[str, list[tuple[str, str]]] = {"Arguments": [], "Options": []}
         for param in self.get_params(ctx):
             title = _title(param)
@@ -216,7 +223,7 @@ class LaidOutCommand(TyperCommand):
 
 
 def _number(word: str) -> float:
-    """Parse a number; return NaN for other text, which the parser then rejects."""
+    """Parse a number; return NaN for other text, which `parse_args` then rejects."""
     try:
         return float(word)
     except ValueError:
@@ -230,7 +237,7 @@ SESSION = "Session and network"
 
 
 def _title(param: Any) -> str:
-    """Return the heading below which the help lists a parameter."""
+    """Return the heading in the help under which a parameter is listed."""
     if param.param_type_name == "argument":
         return "Arguments"
     if param.name in ("help", _SESSION):
@@ -241,7 +248,7 @@ def _title(param: Any) -> str:
 
 
 def _help_session() -> Any:
-    """Return the option that prints the help with the options of sessions."""
+    """Return the option --help-session, which also lists the options of sessions in the help."""
 
     def show(ctx: Any, param: Any, value: bool) -> None:
         if value:

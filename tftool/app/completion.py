@@ -71,11 +71,11 @@ Offer = tuple[str, str]
 
 
 def complete(words: Sequence[str], shell: str) -> None:
-    """Print the completions of a command line, in the form that the shell's script reads.
+    """Print the completions of a command line in the format of the shell's completion script.
 
     Args:
-        words: Words after `tftool`; the last word is being typed.
-        shell: Name of the shell, whose script runs `tftool`.
+        words: Words after `tftool`; the last word is still being typed.
+        shell: Name of the shell: bash, zsh or fish.
     """
     offered: Sequence[Offer] = ()
     with contextlib.suppress(TftoolError, OSError, ValueError):
@@ -97,7 +97,7 @@ def offers(words: Sequence[str]) -> list[Offer]:
     """Return the completions of a command line, in the order to show them.
 
     Args:
-        words: Words after `tftool`; the last word is being typed.
+        words: Words after `tftool`; the last word is still being typed.
     """
     *before, current = words
     if not before:
@@ -113,12 +113,18 @@ def offers(words: Sequence[str]) -> list[Offer]:
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Return whether to offer a word: options only after the user has typed a dash."""
+    """Return whether to offer `word`: an option only after a typed dash, others only without."""
     return word.startswith("-") == current.startswith("-")
 
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
-    """Yield the completions that one command offers for the word being typed."""
+    """Yield the completions for a word of one command.
+
+    Args:
+        name: Name of the command.
+        before: Words between the command and the word being typed.
+        current: Beginning of the word being typed.
+    """
     from tftool.app.command_line import made
 
     params = made(name).params
@@ -162,12 +168,18 @@ def _count(before: Sequence[str], options: dict[str, Any]) -> int:
 
 
 def _called(param: Any) -> str:
-    """Return the name of a parameter's value as the help shows it, such as FRAME."""
+    """Return the name of a parameter's value in the help, such as FRAME."""
     return str(param.metavar or "")
 
 
 def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the completions of a value that the help shows under a name, such as FRAME."""
+    """Yield the completions of a value.
+
+    Args:
+        kind: Type of the parameter in click.
+        called: Name of the value in the help, such as FRAME.
+        before: Words before the value.
+    """
     bare = called.strip("[]{}<>.…")
     choices = getattr(kind, "choices", None)
     if choices is not None:
@@ -189,7 +201,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _frames(before: Sequence[str]) -> list[str]:
-    """Return the frames of the file on the command line; without a file, of the running session."""
+    """Return the frames of a file on the command line; without a file, of the running session."""
     named = _frames_of_a_file([*_words_behind(), *before])
     if named is not None:
         return named
@@ -202,12 +214,12 @@ def _frames(before: Sequence[str]) -> list[str]:
 
 
 def _words_behind() -> list[str]:
-    """Return the words after the one being typed, because FROM is often among them."""
+    """Return the words after the word being typed, among which FROM often is."""
     return os.environ.get(BEHIND, "").split("\n")
 
 
 def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
-    """Return the frames of the first word that names a file with frames; else None."""
+    """Return the frames of the first readable file among the words; None without such a file."""
     for word in words:
         # Unlike `Path.expanduser`, this does not raise for an unknown user.
         path = Path(os.path.expanduser(word))
@@ -219,7 +231,13 @@ def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
 
 
 def _read_frames(word: str) -> list[str]:
-    """Read the frame names of a file: from a column cache, a short recording, or a description."""
+    """Return the frame names of a recording or a description.
+
+    A long recording is not read: without a column cache, the result is empty.
+
+    Raises:
+        UsageError: If the word names a scenario.
+    """
     from tftool.recordings.cache_heads import default_folder, frames_kept, key_of
     from tftool.recordings.find import Kind, find
 
@@ -244,14 +262,14 @@ def _read_frames(word: str) -> list[str]:
 
 
 def _workspace_here() -> "Workspace":
-    """Return the workspace around the current folder, which finds packages."""
+    """Return the workspace around the current folder, which knows the packages."""
     from tftool.ros.host.workspace import Workspace
 
     return Workspace(Path.cwd())
 
 
 def _packages(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the packages below this folder; once a package is typed, yield its executables."""
+    """Yield the ROS packages below the current folder, or the executables of a typed package."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -260,7 +278,7 @@ def _packages(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _launches(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the packages below this folder; once a package is typed, yield its launch files."""
+    """Yield the ROS packages below the current folder, or the launch files of a typed package."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -270,7 +288,7 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
-    """Yield the commands of `ros2`; once a command is typed, yield the command's verbs."""
+    """Yield the commands of `ros2`, or the verbs of a typed command."""
     from tftool.ros.ros2.ros2_words import verbs
 
     if len(before) < 2:
@@ -303,7 +321,7 @@ def shell_here() -> str:
 
 
 def install(shell: str) -> list[Path]:
-    """Install the completion script of a shell; other text in the shell's start-up file stays.
+    """Install the completion script of a shell; keep other text in the shell's start-up file.
 
     Returns:
         Files that were written or changed.

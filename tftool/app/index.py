@@ -68,10 +68,10 @@ COMMANDS = {name: summary for group in GROUPS.values() for name, summary in grou
 
 
 def load(name: str) -> "type[Command]":
-    """Import the class that declares a command.
+    """Import and return the class that declares the command `name`.
 
-    Help and completion list every command, but import only the commands that they describe in
-    detail.
+    The list of all commands needs no import: only a command to be run, described or completed is
+    imported.
     """
     # `help` is declared outside of `commands`, because it uses the other commands.
     home = "tftool.app.command_line" if name == "help" else f"tftool.commands.{name}"
@@ -97,7 +97,7 @@ ABOUT = (
 
 
 def overview() -> str:
-    """Return the help of `tftool`: its options, and the commands by group."""
+    """Return the help text of `tftool` with the general options and the commands by group."""
     # The width at which typer formats the help of a command.
     width = max(min(shutil.get_terminal_size().columns, 80) - 2, 50)
     paragraphs = [textwrap.fill(one, width, initial_indent="  ", subsequent_indent="  ")
@@ -126,7 +126,7 @@ def _rows(rows: list[tuple[str, str]], width: int) -> Iterator[str]:
 
 
 def show_help(text: str) -> None:
-    """Print a help text: coloured on a terminal, and in a pager if longer than the screen."""
+    """Print a help text; on a terminal in colour, and through a pager if the text is long."""
     if sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
         is_long = text.count("\n") + 2 > shutil.get_terminal_size().lines
         if not os.environ.get("NO_COLOR"):
@@ -137,7 +137,7 @@ def show_help(text: str) -> None:
 
 
 def _page(text: str) -> bool:
-    """Show a text in the user's pager, or in less; return False without a pager."""
+    """Show a text in the pager $PAGER or less; return False if the pager is not installed."""
     import shlex
     import subprocess
 
@@ -157,7 +157,7 @@ def _page(text: str) -> bool:
 
 
 def painted(text: str) -> str:
-    """Colour the headings, the names of options and commands, and the examples of a help text."""
+    """Add colours to a help text: headings, options, commands and examples."""
     head, colon, lists = text.partition("\n\nArguments:")
     for title in ("Options", *GROUPS):
         if not colon:

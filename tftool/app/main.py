@@ -1,6 +1,7 @@
-"""Command `tftool`: its own options, and the conversion of errors to exit statuses.
+"""Command `tftool`: general options, and conversion of errors to exit statuses.
 
-Each command is a typer app, made when the command is called, so that no other command is imported.
+Each command is a typer app, which is created when the command is called, so that no other command
+is imported.
 """
 
 import codecs
@@ -41,7 +42,7 @@ DESCRIPTORS = 32
 
 
 def _set_up_completion(*, show: bool) -> None:
-    """Install completion for the user's shell, or print the script that would be installed."""
+    """Install the completion script for the user's shell; with `show`, only print the script."""
     from tftool.app import completion
 
     shell = completion.shell_here()
@@ -53,7 +54,7 @@ def _set_up_completion(*, show: bool) -> None:
 
 
 def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:
-    """Run `tftool` and return its exit status; never raise for anything that the user typed.
+    """Run `tftool` and return the exit status; never raise for wrong input of the user.
 
     Args:
         argv: Words after `tftool`; None for this process's arguments.
@@ -108,7 +109,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
 
 def _complete(argv: list[str]) -> int:
-    """Print the completions of a command line."""
+    """Print the completions of a command line, when called by a shell's completion script."""
     from tftool.app import completion
 
     completion.complete(argv, os.environ[completion.VARIABLE])
@@ -120,12 +121,12 @@ def _leave_on_signals() -> None:
     """End the process at once on SIGINT and SIGTERM while no event loop runs.
 
     Before a command runs there is nothing to clean up, and an import may swallow a
-    KeyboardInterrupt or show it as a traceback. An event loop installs its own handlers
-    (`world.clock.run`), and restores the handlers of this function afterwards. On Windows, an event
-    loop receives no signals, and Python's own handlers stay in use.
+    KeyboardInterrupt or show a traceback. An event loop installs other handlers
+    (`world.clock.run`), and restores these handlers afterwards. On Windows, an event loop receives
+    no signals, and Python's own handlers stay in use.
 
-    During the interpreter's own shutdown, signals are ignored: Python has removed its handlers by
-    then, and a second Ctrl-C would change an exit status that is already known.
+    During the interpreter's shutdown, signals are ignored: Python has removed the handlers by then,
+    and a second Ctrl-C would change the exit status.
     """
     import atexit
     import signal
@@ -176,10 +177,13 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
 
 
 def _own_options(words: list[str]) -> list[str] | None:
-    """Process the options of `tftool` itself; return the command and its words, or None.
+    """Process the options before the name of a command, such as --version.
+
+    Returns:
+        The command and the words after the command; None if the options were all there is to do.
 
     Raises:
-        UsageError: If there is no such option.
+        UsageError: If an option does not exist.
     """
     from tftool.app.index import OPTIONS, overview, show_help
 
@@ -219,7 +223,7 @@ def _complain(who: str, sentence: str) -> None:
 
 
 def _prepare_streams() -> None:
-    """Ensure that stdout and stderr exist and accept any text."""
+    """Ensure that stdout and stderr are open, and can print every character."""
     codecs.register_error(_WRITTEN_PLAINLY, _written_plainly)
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
@@ -230,7 +234,13 @@ def _prepare_streams() -> None:
 
 
 def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
-    """Encode characters that an encoding lacks: tftool's symbols as ASCII, others as escapes."""
+    """Encode a character that the encoding of a stream lacks; for `codecs.register_error`.
+
+    Symbols that tftool prints become ASCII, other characters become backslash escapes.
+
+    Returns:
+        The replacement, and the position after the character.
+    """
     if not isinstance(error, UnicodeEncodeError):
         raise error
     char = error.object[error.start]
@@ -240,10 +250,12 @@ def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
 
 
 def _require_descriptors() -> None:
-    """Raise the limit of open files if few are left; some libraries crash at the limit.
+    """Raise an error if this process may open fewer than `DESCRIPTORS` further files.
+
+    Some libraries crash when the limit of open files is reached.
 
     Raises:
-        OSError: If the limit cannot be raised; the message names the remedy.
+        OSError: If too few files may be opened; the error text names the remedy.
     """
     probes: list[int] = []
     try:
