@@ -9,10 +9,10 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, seconds
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.missing_joins import own_trees
-from tftool.doctor.model import LAP, Limits, Model, Shift
+from tftool.doctor.model import Limits, Model, Shift
 from tftool.doctor.stamp_checks import COMPARE_CLOCKS
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track
-from tftool.doctor.wording import moment, several, span
+from tftool.doctor.wording import several, span
 
 check = checks_of(Area.CLOCKS)
 
@@ -532,72 +532,3 @@ def _offsets(model: Model) -> list[str]:
         f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
         for step, names in sorted(grouped.items())
     ]
-
-
-@check(
-    "time-jump-back",
-    Severity.ERROR,
-    rule="within 1 s, at least two streams and half of all step back by more than 1 s",
-    headline="time went back by {steps}, {count:times}{loop}",
-    detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
-    "streams; all that follows is about what came before",
-    consequence="{jumped_back}",
-    causes=("play --loop", "a simulation was reset", "NTP set the clock back while running"),
-    links=threads("ros2/geometry2#606", "ros/geometry2#43"),
-    needs=("log times",),
-    why="a looped recording would trigger forty other checks, so all of them use only the "
-    "first pass",
-)
-def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Time went back: a looped bag, a reset simulation."""
-    if not model.laps:
-        return
-    first = model.laps[0]
-    steps = sorted(lap.before - lap.after for lap in model.laps)
-    is_loop = steps[-1] - steps[0] < max(LAP, 0.1 * steps[-1])
-    loop, fix = "", Fix("look at what stepped at that time: a simulation, a player, or a clock")
-    if _is_played_again(model):
-        loop = ": a recording was played in a loop"
-        fix = Fix("play it once ({loop_option}), or restart the listeners at each lap")
-        if not is_loop:
-            loop = f": data was played again{_beside_live_data(model)}"
-            fix = Fix(
-                "cut the recording where time goes back; the first part is:",
-                f"tftool edit RECORDING -o PART --record-time --to {moment(first.log - 1_000_000)}",
-            )
-    yield Hit(
-        since=first.log,
-        until=model.laps[-1].log,
-        count=len(model.laps),
-        facts={
-            "moment": first.log,
-            "before": first.before,
-            "after": first.after,
-            "back": first.before - first.after,
-            "streams": first.streams,
-            "count": len(model.laps),
-            "steps": " to ".join(dict.fromkeys((span(steps[0]), span(steps[-1])))),
-            "loop": loop,
-        },
-        fixes=(fix,),
-        alone=True,
-    )
-
-
-def _beside_live_data(model: Model) -> str:
-    """Return " among live data" if a recording was played beside live publishers, else ""."""
-    late = np.concatenate([track.all_logs - track.all_stamps for track in model.dynamic])
-    shares = float(np.mean(np.abs(late) < LAP)), float(np.mean(late > 10 * LAP))
-    return " among live data" if min(shares) > 0.1 else ""
-
-
-def _is_played_again(model: Model) -> bool:
-    """Whether the transforms after the jump in time are bitwise copies of those before the jump."""
-    fewest = again = 0
-    for track in model.dynamic:
-        rows = np.ascontiguousarray(track.records).view("V64").ravel()
-        parts = np.unique(rows[: track.lap]), np.unique(rows[track.lap :])
-        # The recorder may have begun or ended in the middle of a lap.
-        fewest += min(len(part) for part in parts)
-        again += len(np.intersect1d(*parts, assume_unique=True))
-    return again > 0.9 * fewest > 0
