@@ -212,9 +212,41 @@ def test_a_slash_on_messages_that_are_older_than_their_frame_says_so():
     for begin, told in ((3.0, True), (0.0, False)):
         made = robot(odometry=False, scans=False)
         made.moving("odom", "base_link", begin=begin)
-        made.hears("/cloud", "/laser", kind="sensor_msgs/PointCloud2", end=1.0)
-        line = found(made, "slash-twins").evidence[0]
-        assert ("before the first sample of base_link in odom" in line) is told
+        made.hears("/cloud", "/laser", kind="sensor_msgs/PointCloud2", end=1.0, latency=4.0)
+        finding = found(made, "slash-twins")
+        aged = "/cloud is dated 2.10 s or more before the first sample of base_link in odom, and"
+        assert finding.message.startswith(aged) is told
+        assert finding.fixes[0].text.startswith("first the age: /cloud arrives 4.00 s") is told
+
+
+def test_clouds_that_are_all_older_than_the_transforms_are_a_warning():
+    for end, severity in ((1.0, Severity.WARNING), (6.0, Severity.NOTE)):
+        made = robot(odometry=False, scans=False)
+        made.moving("odom", "base_link", begin=3.0)
+        made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", end=end, latency=4.0)
+        finding = found(made, "late-start")
+        assert finding.severity is severity
+        assert "4.00 s late on arrival" in finding.evidence[0]
+
+
+def test_raw_input_of_a_localiser_beside_no_robot_is_a_note():
+    for child, node, severity in (
+        ("arrow", "/bridge", Severity.NOTE),
+        ("arrow", "/imu", Severity.WARNING),
+        ("base_link", "/bridge", Severity.WARNING),
+    ):
+        made = Robot()
+        made.moving("optitrack", child)
+        made.hears("/light", "LHR-1", kind="hive/ViveLight")
+        made.hears("/imu", "LHR-1", kind="sensor_msgs/Imu")
+        evidence = made.evidence()
+        nodes = (Publisher("/light", "/bridge"), Publisher("/imu", node))
+        told = judge(replace(evidence, publishers=(*evidence.publishers, *nodes))).findings
+        finding = next(one for one in told if one.id == "unknown-frame")
+        assert finding.severity is severity
+        if severity is Severity.NOTE:
+            assert finding.fixes[0].text.startswith("/bridge sends them")
+            assert "/light (hive/ViveLight, 80 messages)" in finding.evidence[0]
 
 
 def test_messages_without_a_frame_name_are_counted_and_name_their_node():

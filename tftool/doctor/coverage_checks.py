@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tftool.base.plain_text import count
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, hit_of, threads
 from tftool.doctor.findings import Area, Fix, Hit, Severity
@@ -526,10 +527,11 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.NOTE,
     rule="messages are older than the first transform they need by more than {seconds:g} s, "
     "and arrive after the first second of the recording; if a localiser stamps that "
-    "transform ahead by up to 2 s, the limit grows by as much",
+    "transform ahead by up to 2 s, the limit grows by as much. A warning if this is true of all "
+    "scans, point clouds or ranges of a topic",
     headline="{where} {concerned:begins|begin} later than messages that need {concerned:it|them}",
-    detail="{edge} begins at {begin:moment}: {lost} messages of {topic} can never be placed "
-    "in {fixed}",
+    detail="{edge} begins at {begin:moment}: {messages} of {topic} can never be placed "
+    "in {fixed}{aged}",
     consequence="waiting does not help",
     causes=(
         "AMCL dates its first transform ahead (transform_tolerance)",
@@ -572,10 +574,17 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
                 topics=(heard.topic,),
                 since=int(heard.logs[0]),
                 count=lost,
+                severity=Severity.WARNING
+                if lost == len(stamped) and last_part(heard.type) in PLACED
+                else None,
                 facts={
                     "edge": last.name,
                     "begin": begin,
                     "lost": lost,
+                    "messages": count(lost, "message"),
+                    "aged": f"; usually {span(heard.median_latency)} late on arrival"
+                    if heard.median_latency > WARM_UP
+                    else "",
                     "topic": heard.topic,
                     "fixed": fixed,
                 },

@@ -17,6 +17,7 @@ from tftool.doctor import clock_checks as clocks
 from tftool.doctor import coverage_checks as coverage
 from tftool.doctor import description_checks as description
 from tftool.doctor import gap_checks as gaps
+from tftool.doctor import heard_names
 from tftool.doctor import lap_checks as laps
 from tftool.doctor import mount_checks as mounts
 from tftool.doctor import name_checks as names
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
 CHECKS: Mapping[str, Check] = {
     check.id: check
     for room in (
-        *(publishers, shape, names, clocks, laps, stamps),
+        *(publishers, shape, heard_names, names, clocks, laps, stamps),
         *(gaps, outages, coverage, values, odometry, mounts, description),
     )
     for check in room.check.checks

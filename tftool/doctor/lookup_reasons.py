@@ -12,9 +12,10 @@ from tftool.base.stamps import LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, S
 from tftool.doctor.clock_checks import cure_of_offset
 from tftool.doctor.coverage_checks import Waits, waits_of
 from tftool.doctor.gap_checks import edge_stopped
+from tftool.doctor.heard_names import alike_frames, is_navsat_output
 from tftool.doctor.missing_joins import is_world, mount_command, proposed_frame, proposed_join
 from tftool.doctor.model import Model
-from tftool.doctor.name_checks import alike_frames, is_navsat_output, wrong_type
+from tftool.doctor.name_checks import wrong_type
 from tftool.doctor.ros_words import in_words, is_ros1
 from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part
