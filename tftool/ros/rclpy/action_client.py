@@ -1,4 +1,4 @@
-"""Action client of rclpy.action, which sends goals, awaits their results and cancels them."""
+"""Action client of rclpy.action, which sends goals, waits for their results and cancels goals."""
 
 import asyncio
 from collections.abc import Callable
@@ -33,7 +33,7 @@ STATUS: dict[str, GoalStatus] = {name: GoalStatus(number) for name, number in EN
 
 
 class _Result(NamedTuple):
-    """Status number and result message of an action's goal, as `get_result` returns them."""
+    """Status number and result message of an action's goal, returned by `get_result`."""
 
     status: int
     result: Any
@@ -47,7 +47,7 @@ class _Feedback(NamedTuple):
 
 
 class ClientGoalHandle:
-    """Client's handle of one goal, to await the goal's result or to cancel the goal."""
+    """Client's handle of one goal, to wait for the goal's result or to cancel the goal."""
 
     def __init__(self, client: "ActionClient", goal_id: Any, goal: WorldGoal | None) -> None:
         self._client = client
@@ -58,13 +58,16 @@ class ClientGoalHandle:
         self._result: Future | None = None
 
     def get_result_async(self) -> Future:
-        """Return a future of the goal's result, an object with `.status` and `.result`."""
+        """Return a future of an object with the goal's status number and result message.
+
+        The object's attributes are `status` and `result`.
+        """
         if self._result is None:
             self._result = self._client.watch(self, self._goal)
         return self._result
 
     def get_result(self) -> Any:
-        """Block until the goal's result arrives; return an object with `.status` and `.result`."""
+        """Block until the goal's result arrives; return what `get_result_async` promises."""
         return wait_for(self._client.seat, self.get_result_async())
 
     def cancel_goal_async(self) -> Future:
@@ -100,7 +103,7 @@ class ActionClient(Requester):
         return self
 
     def is_served(self) -> bool:
-        """Return whether a server of the action exists; call this in the event loop's thread."""
+        """Return whether an action server exists; call this in the event loop's thread."""
         return self.full in self.seat.world.actions()
 
     def send_goal_async(
@@ -138,7 +141,11 @@ class ActionClient(Requester):
         return self.promise(send)
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
-        """Send a goal, block until its result arrives, and return it; None for a rejected goal."""
+        """Send a goal and block until the goal's result arrives.
+
+        Returns:
+            Object with the attributes `status` and `result`; None if the server rejects the goal.
+        """
         handle = wait_for(self.seat, self.send_goal_async(goal, **kwargs))
         return None if handle is None or not handle.accepted else handle.get_result()
 
@@ -161,7 +168,7 @@ class ActionClient(Requester):
 
 
 async def _cancelled(goal: WorldGoal | None, goal_id: Any) -> Any:
-    """Request a goal's cancellation; return the response of the CancelGoal service."""
+    """Request a goal's cancellation; return the response message of the CancelGoal service."""
     response: Any = INTERFACES.part("action_msgs/srv/CancelGoal_Response")
     if goal is None:
         return response(return_code=response.ERROR_UNKNOWN_GOAL_ID)

@@ -24,21 +24,21 @@ from tftool.world.topics import Status
 
 
 class GoalResponse(IntEnum):
-    """Decision of an action server on a new goal."""
+    """Decision of an action server whether to accept a new goal."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(IntEnum):
-    """Decision of an action server on a request to cancel a goal."""
+    """Decision of an action server whether to accept a request to cancel a goal."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class ServerGoalHandle:
-    """Server's handle of one goal, with which it publishes feedback and reports the result.
+    """Handle of one goal in a server's callbacks, to publish feedback and report the result.
 
     Attributes:
         request: The goal message.
@@ -57,7 +57,7 @@ class ServerGoalHandle:
 
     @property
     def is_active(self) -> bool:
-        """Whether the goal has not ended yet."""
+        """Whether the goal has not ended."""
         return self._status is None and not self._goal.done
 
     @property
@@ -90,7 +90,7 @@ class ServerGoalHandle:
         self._status = "aborted"
 
     def canceled(self, response: Any = None) -> None:
-        """Mark the goal as canceled, which its client requested."""
+        """Mark the goal as cancelled at the client's request."""
         self._status = "canceled"
 
     def execute(self, execute_callback: Any = None) -> None:
@@ -103,17 +103,17 @@ class ServerGoalHandle:
         self._server.execute(self, execute_callback)
 
     def destroy(self) -> None:
-        """Do nothing: a goal's handle owns nothing to destroy."""
+        """Do nothing; the method exists in ROS 2."""
 
     def finish(self, result: Any) -> None:
-        """End the goal and send its result message to the client."""
+        """End the goal, and send the result message to the client."""
         status = self._status or "aborted"
         copy = duplicate(result)
         self._server.seat.program.ask(lambda: self._goal.finish(status, copy))
 
 
 class ActionServer(WorkQueue):
-    """Server that accepts and executes an action's goals."""
+    """Server that accepts and executes goals of an action."""
 
     def __init__(
         self,
@@ -154,7 +154,12 @@ class ActionServer(WorkQueue):
         seat.keep(serve)
 
     def _show_parts(self, feedback_profile: QoSProfile, status_profile: QoSProfile) -> None:
-        """Register the action's services and topics in the graph, so that other nodes find them."""
+        """Offer the services and topics of ROS 2's action protocol, such as `_action/status`.
+
+        Args:
+            feedback_profile: Quality of service of the feedback topic.
+            status_profile: Quality of service of the status topic.
+        """
         seat, made = self.seat, self.type_.Impl
 
         def publisher(what: str, kind: Any, profile: QoSProfile) -> Publisher:
@@ -218,7 +223,7 @@ class ActionServer(WorkQueue):
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Remove the server; goals not yet accepted are rejected."""
+        """Close the server; reject goals that were not accepted before."""
         super().withdraw()
         for stop in self._stops:
             stop()
@@ -227,9 +232,12 @@ class ActionServer(WorkQueue):
             goal.decide_cancel(False)
 
     def _decide(self, goal: WorldGoal, accepted: bool) -> bool:
-        """Decide on a goal, unless a decision was made before; return the first decision.
+        """Accept or reject a goal, unless the server has decided about the goal before.
 
         The client receives the decision. A rejected goal ends.
+
+        Returns:
+            The first decision: whether the goal is accepted.
         """
         decided = goal.decided
         assert decided is not None
@@ -264,7 +272,7 @@ class ActionServer(WorkQueue):
             self.seat.program.ask(lambda: goal.decide_cancel(accepted))
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
-        """Schedule the execution of a goal on the node's executor.
+        """Let the node's executor execute a goal.
 
         Args:
             handle: Handle of the goal.

@@ -28,8 +28,9 @@ class Context:
 
         Args:
             args: A command line; only the part after `--ros-args` is used.
-            initialize_logging: Ignored: logging needs no initialisation here.
-            domain_id: Number that `get_domain_id` returns. The option `--domain` sets the real one.
+            initialize_logging: Ignored, because tftool's logging needs no initialisation.
+            domain_id: Number that `get_domain_id` returns. Messages to other processes use the
+                domain of tftool's option `--domain` instead.
 
         Raises:
             RuntimeError: If the context was initialised before, or the domain is negative.
@@ -52,7 +53,7 @@ class Context:
         return self._valid and not self._program.interrupted
 
     def shutdown(self) -> None:
-        """Shut the context down; every call that spins returns.
+        """Shut the context down, which ends all functions that spin.
 
         Raises:
             RuntimeError: If the context was not initialised.
@@ -79,15 +80,15 @@ class Context:
         self._on_shutdown.append(callback)
 
     def on_change(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Register a function to call at shutdown; return a function that unregisters it."""
+        """Register a function to call at shutdown; return a function that removes the callback."""
         self._listeners.append(callback)
         return lambda: self._listeners.remove(callback)
 
     def get_domain_id(self) -> int:
-        """Return the domain given at initialisation, else ROS 2's default, 0.
+        """Return the domain given to `init`, by default 0.
 
-        The domain that messages to other processes use is set by `--domain`; a program does not
-        see that number.
+        Messages to other processes use the domain of tftool's option `--domain`, which a program
+        cannot read.
         """
         return self._domain or 0
 
@@ -105,7 +106,7 @@ class Context:
 
 
 def context_of(owner: Any) -> Context:
-    """Return a program's default context, creating it at the first call."""
+    """Return a program's default context; create the context at the first call."""
     if owner.context is None:
         owner.context = Context()
     context: Context = owner.context

@@ -1,4 +1,4 @@
-"""Functions of rclpy itself, and of its modules utilities, signals, type_support and others."""
+"""Functions of rclpy itself, and of the modules rclpy.utilities, rclpy.signals and others."""
 
 import sys
 from collections.abc import Sequence
@@ -41,7 +41,7 @@ __all__ = [
 
 
 class InitContextManager:
-    """Context manager that `rclpy.init` returns; leaving its block shuts rclpy down."""
+    """Context manager that `rclpy.init` returns; the end of the `with` block shuts rclpy down."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -60,7 +60,7 @@ def init(
     domain_id: int | None = None,
     signal_handler_options: Any = None,
 ) -> InitContextManager:
-    """Initialise rclpy in this program; return a context manager that shuts rclpy down.
+    """Initialise rclpy in the calling program; return a context manager that shuts rclpy down.
 
     Raises:
         RuntimeError: If rclpy is initialised already.
@@ -75,12 +75,12 @@ def init(
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Shut rclpy down in this program; every call that spins returns."""
+    """Shut rclpy down in the calling program, which ends all functions that spin."""
     (context or context_of(program.current())).shutdown()
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Shut rclpy down in this program; do nothing if it is shut down already."""
+    """Shut rclpy down in the calling program; do nothing if rclpy is shut down already."""
     (context or context_of(program.current())).try_shutdown()
 
 
@@ -90,17 +90,17 @@ def ok(*, context: Context | None = None) -> bool:
 
 
 def create_node(node_name: str, **kwargs: Any) -> Node:
-    """Create a `Node` without defining a subclass."""
+    """Return a new `Node` with the given name; `kwargs` are further arguments of `Node`."""
     return Node(node_name, **kwargs)
 
 
 def get_global_executor() -> Executor:
-    """Return the executor that `spin` uses unless another one is given."""
+    """Return the executor that `spin` uses by default."""
     return executor_of(program.current())
 
 
 def get_default_context() -> Context:
-    """Return this program's default context."""
+    """Return the default context of the calling program."""
     return context_of(program.current())
 
 
@@ -115,7 +115,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 def spin_once(
     node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
-    """Wait until one callback of a node is ready, and execute it."""
+    """Wait until one callback of a node is ready, and execute the callback."""
     chosen = executor or get_global_executor()
     with serving(chosen, node):
         chosen.spin_once(timeout_sec)
@@ -129,7 +129,7 @@ def spin_until_future_complete(
 ) -> None:
     """Execute a node's callbacks until a future is done or the timeout has passed.
 
-    Unlike in ROS 2 this may be called inside a callback.
+    Unlike in ROS 2, a callback may call this function.
     """
     chosen = executor or node.executor or get_global_executor()
     with serving(chosen, node):
@@ -137,7 +137,7 @@ def spin_until_future_complete(
 
 
 def warn_of_unused(node: Node) -> None:
-    """Log a warning for each parameter that was given to a node but never declared."""
+    """Log a warning for each parameter that was set at the node's start but never declared."""
     for sentence in unused_parameters(node):
         node.get_logger().warning(sentence, once=False)
 
@@ -157,10 +157,10 @@ def wait_for_message(
         node: Node that subscribes to the topic.
         topic: Name of the topic.
         qos_profile: Quality of service of the subscription, or its depth.
-        time_to_wait: Seconds to wait at most; negative for no limit.
+        time_to_wait: Longest wait in seconds; negative for no limit.
 
     Returns:
-        (True, the message); (False, None) if none arrived in time, or rclpy was shut down.
+        (True, the message); (False, None) at the timeout or if rclpy was shut down.
     """
     arrived = Future()
 
@@ -179,7 +179,7 @@ def wait_for_message(
 
 
 class SignalHandlerOptions(IntEnum):
-    """Signals that rclpy is to handle."""
+    """Signals that rclpy handles, as an option of `init`."""
 
     NO = 0
     ALL = 1
@@ -188,25 +188,25 @@ class SignalHandlerOptions(IntEnum):
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """Return the handled signals: all while the default context is initialised, else none."""
+    """Return ALL while the default context is initialised, otherwise NO."""
     started = context_of(program.current()).ok()
     return SignalHandlerOptions.ALL if started else SignalHandlerOptions.NO
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
-    """Return the command-line arguments without the parts after `--ros-args`."""
+    """Return a command line, by default `sys.argv`, without the parts after `--ros-args`."""
     return names.parse(list(sys.argv if args is None else args))[1]
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
-    """Convert a timeout from seconds to nanoseconds; return -1 for no limit (None or negative)."""
+    """Convert a timeout from seconds to nanoseconds; return -1 for None or a negative timeout."""
     if timeout_sec is None or timeout_sec < 0:
         return -1
     return int(float(timeout_sec) * 1e9)
 
 
 def get_rmw_implementation_identifier() -> str:
-    """Return "tftool" as the middleware's name: no middleware of ROS 2 is used."""
+    """Return "tftool" instead of the name of a ROS 2 middleware, because none is used."""
     return "tftool"
 
 
@@ -214,8 +214,8 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     """Check that a class is a message, service or action type.
 
     Raises:
-        AttributeError: If the object has no type support at all.
-        NoTypeSupportImportedException: If tftool does not know the class's interface.
+        AttributeError: If the class is not generated from an interface definition.
+        NoTypeSupportImportedException: If tftool does not know the definition.
     """
     if _is_message(msg_or_srv_type) or _has(msg_or_srv_type, "Request", "Goal"):
         return

@@ -1,6 +1,7 @@
-"""A node's timers, work queues and guard conditions, and the callback groups they belong to.
+"""Timers, work queues and guard conditions of a node, and callback groups.
 
-An entity is an object whose work an executor runs; it stores its work until the executor does so.
+An entity of a node has work for an executor, such as a callback to call. The entity stores the
+work until an executor takes it.
 """
 
 import asyncio
@@ -28,13 +29,13 @@ MOST_WAITING: Final = 1000
 
 @contextmanager
 def required(require: Callable[[], object]) -> Iterator[None]:
-    """Call `require`, which raises an error for a destroyed entity, before the `with` block."""
+    """Call `require`, which raises an error for a destroyed entity; then run the `with` block."""
     require()
     yield
 
 
 class NodeEntity:
-    """Base of the objects of a node that may have work for an executor, such as timers."""
+    """Base class of a node's objects, such as timers, that may have work for an executor."""
 
     passes_busy_group = False
     is_a_callback = False
@@ -51,11 +52,11 @@ class NodeEntity:
         return False
 
     def take(self) -> Work:
-        """Remove the next piece of work from this entity, and return it; the executor runs it."""
+        """Remove the entity's next work and return it; the executor calls the result."""
         raise NotImplementedError
 
     def withdraw(self) -> None:
-        """Close the entity; called in the event loop's thread."""
+        """Close the entity; call this in the event loop's thread."""
 
     def destroy(self) -> None:
         """Close the entity, and remove it from the node."""
@@ -63,7 +64,7 @@ class NodeEntity:
 
     @property
     def handle(self) -> AbstractContextManager[None]:
-        """Context manager that raises InvalidHandle if the entity is destroyed."""
+        """Context manager that raises InvalidHandle if the entity was destroyed."""
         return required(lambda: self.seat.require_of(self))
 
     def __enter__(self) -> Self:
@@ -74,33 +75,33 @@ class NodeEntity:
 
 
 class WorkQueue(NodeEntity):
-    """Entity that stores its work in a queue; an executor runs the work in order."""
+    """Entity that stores its work in a queue; an executor does the work in order."""
 
     def __init__(self, seat: NodeSeat, group: Any) -> None:
         super().__init__(seat, group)
         self._arrived: deque[Work] = deque()
 
     def put(self, work: Work) -> None:
-        """Queue a piece of work and wake the executor; called in the event loop's thread."""
+        """Append work to the queue and wake the executor; call this in the event loop's thread."""
         self._arrived.append(work)
         self.seat.wake()
 
     @property
     def is_full(self) -> bool:
-        """Whether the queue is at its limit, so that further requests and goals are refused."""
+        """Whether the queue is at its limit; the entity then refuses further requests and goals."""
         return len(self._arrived) >= MOST_WAITING
 
     def ready(self) -> bool:
-        """Return whether the queue has a piece of work."""
+        """Return whether the queue contains work."""
         return bool(self._arrived)
 
     def take(self) -> Work:
-        """Remove the oldest piece of work from the queue and return it."""
+        """Remove the oldest work from the queue and return it."""
         return self._arrived.popleft()
 
 
 class Requester(WorkQueue):
-    """Entity that sends requests to a server; each response is a piece of work."""
+    """Entity that sends requests to a server; the executor's work is to process each response."""
 
     # A response only completes a future and calls no callback. So it is processed even if a
     # callback of the same group waits for it.
@@ -112,31 +113,37 @@ class Requester(WorkQueue):
         self._leave: Callable[[], None] | None = None
 
     def announce(self, service: str, kind: str) -> None:
-        """List the entity as a client of a service; call this in the event loop's thread."""
+        """Add the entity to the graph as a client of a service.
+
+        Call this in the event loop's thread.
+
+        Args:
+            service: Full name of the service.
+            kind: Type of the service.
+        """
         client = Endpoint(CLIENT, self.seat.authority, service, kind)
         self._leave = self.seat.world.clients.add(client)
 
     def is_served(self) -> bool:
-        """Return whether a server is available; called in the event loop's thread."""
+        """Return whether a server is available; call this in the event loop's thread."""
         raise NotImplementedError
 
     def server_is_ready(self) -> bool:
-        """Return whether a server is available now."""
+        """Return whether a server is available now; this method can be called in any thread."""
         ready = bool(self.seat.program.ask(self.is_served))
         if not ready:
             self.seat.program.looked_in_vain(must_keep_pace=False)
         return ready
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is available; return False if the timeout passes first."""
+        """Block until a server is available; return False at the timeout."""
         return self.seat.wait_until(self.is_served, timeout_sec)
 
     def promise(self, request: Callable[[], Coroutine[Any, Any, Any]]) -> Future:
-        """Start a request; return a future of its response.
+        """Start the coroutine of a request in the event loop; return a future of the response.
 
-        The request runs in the event loop, and is cancelled when this entity closes. The node's
-        executor then completes the future and runs the future's callbacks. If the request returns
-        None, the future never completes.
+        The node's executor completes the future, unless the coroutine returns None. Closing this
+        entity cancels the coroutine.
         """
         future = Future(executor=self.seat.executor)
 
@@ -175,14 +182,14 @@ class Requester(WorkQueue):
 
 
 class GuardCondition(WorkQueue):
-    """Entity that calls its callback when triggered."""
+    """Entity that calls its callback when a program calls `trigger`."""
 
     def __init__(self, seat: NodeSeat, callback: Callable[[], Any], group: Any) -> None:
         super().__init__(seat, group)
         self.callback = callback
 
     def trigger(self) -> None:
-        """Schedule the callback; further triggers before it runs have no effect."""
+        """Schedule the callback, unless the callback is already scheduled."""
 
         def set_off() -> None:
             if not self.ready():
@@ -192,13 +199,13 @@ class GuardCondition(WorkQueue):
 
 
 class CallbackGroup:
-    """Group of callbacks with a common rule on which of them may run at the same time."""
+    """Group of callbacks with a rule about which of them may run at the same time."""
 
     def __init__(self) -> None:
         self.busy = 0
 
     def add_entity(self, entity: Any) -> None:
-        """Do nothing: each entity stores its own group."""
+        """Do nothing, because each entity stores its callback group."""
 
     def has_entity(self, entity: Any) -> bool:
         """Return whether an entity belongs to the group."""
@@ -209,14 +216,14 @@ class CallbackGroup:
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Count a callback of this group as running; return False if none may start now."""
+        """Count one more running callback of this group; return False if none may start now."""
         if not self.can_execute(entity):
             return False
         self.busy += 1
         return True
 
     def ending_execution(self, entity: Any) -> None:
-        """Count a callback of this group as ended."""
+        """Count one running callback of this group less."""
         self.busy -= 1
 
 
@@ -232,12 +239,12 @@ class ReentrantCallbackGroup(CallbackGroup):
     """Group of callbacks that may all run at the same time."""
 
     def can_execute(self, entity: Any) -> bool:
-        """Return True: a callback of this group may start at any time."""
+        """Return True, because callbacks of this group may start at any time."""
         return True
 
 
 class TimerInfo:
-    """Time at which a timer's call was due, and time at which the call happened."""
+    """Planned time and actual time of a timer's call."""
 
     def __init__(
         self,
@@ -246,13 +253,13 @@ class TimerInfo:
         actual_call_time: int = 0,
         clock_type: ClockType = ClockType.SYSTEM_TIME,
     ) -> None:
-        """Store two times, given in nanoseconds, as times of one clock type."""
+        """Store the two times, given in nanoseconds on a clock of type `clock_type`."""
         self.expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
         self.actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
 
 
 class Timer(NodeEntity):
-    """Timer that calls its callback at every period, first one period after its creation."""
+    """Timer that calls its callback once per period, first one period after its creation."""
 
     is_a_callback = True
 
@@ -295,7 +302,10 @@ class Timer(NodeEntity):
         return self.ready()
 
     def take(self) -> Work:
-        """Return the timer's callback; set the next call to the next multiple of the period."""
+        """Schedule the timer's next call, and return a function that calls the callback now.
+
+        The next call is at the next multiple of the period, so calls that were missed are left out.
+        """
         now, due = self.seat.world.clock.now(), self.due
         self._last = now
         # A timer with period 0 must not stop simulated time.
@@ -319,7 +329,7 @@ class Timer(NodeEntity):
         return work
 
     def cancel(self) -> None:
-        """Stop the timer's calls until `reset`."""
+        """Stop calling the callback until `reset` is called."""
         self._canceled = True
 
     def is_canceled(self) -> bool:
@@ -327,7 +337,7 @@ class Timer(NodeEntity):
         return self._canceled
 
     def reset(self) -> None:
-        """Restart the timer: its next call is one period from now."""
+        """Restart the timer; the next call is one period from now."""
 
         def restart() -> None:
             self._canceled = False
@@ -341,30 +351,30 @@ class Timer(NodeEntity):
         return self.seat.world.clock.now() - self._last
 
     def time_until_next_call(self) -> int | None:
-        """Return the nanoseconds until the timer's next call; None if it is cancelled."""
+        """Return the nanoseconds until the timer's next call; None for a cancelled timer."""
         return None if self._canceled else self.due - self.seat.world.clock.now()
 
 
 class RateTimer(Timer):
-    """Timer of a `Rate`; as in ROS 2, each of its calls ends a `spin_once`."""
+    """Timer of a `Rate`; as in ROS 2, `spin_once` returns when such a timer fires."""
 
     only_ends_spin_once = True
     on_end: Callable[[], object] = staticmethod(lambda: None)
     """Function called when the timer is destroyed."""
 
     def withdraw(self) -> None:
-        """Close the timer, and call `on_end`."""
+        """Close the timer, and call the function `on_end`."""
         super().withdraw()
         self.on_end()
 
 
 async def outcome(value: Any) -> Any:
-    """Return a callback's result; if the value is a coroutine, await it first."""
+    """Return the result of a callback; await the value if the callback returned a coroutine."""
     return await value if inspect.isawaitable(value) else value
 
 
 def accepts(callback: Callable[..., Any], *args: object) -> bool:
-    """Return whether a callback can be called with these arguments, by its signature."""
+    """Return whether the signature of a callback accepts these arguments."""
     try:
         inspect.signature(callback).bind(*args)
     except TypeError:

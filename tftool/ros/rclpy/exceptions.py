@@ -6,14 +6,14 @@ from tftool.base.plain_text import did_you_mean
 
 
 class NotInitializedException(Exception):
-    """Error for using rclpy before `rclpy.init()` or after a shutdown."""
+    """Error for using rclpy before `rclpy.init()` or after `rclpy.shutdown()`."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.init() has not been called", *args)
 
 
 class ROSInterruptException(Exception):
-    """Error for a sleep that a shutdown interrupted."""
+    """Error for a sleep that the shutdown of rclpy interrupted."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.shutdown() has been called", *args)
@@ -27,7 +27,7 @@ class NoTypeSupportImportedException(Exception):
 
 
 class NameValidationException(ValueError):
-    """Error for an invalid name; its text marks the wrong position with a caret."""
+    """Error for an invalid name; a caret in the text points to the first wrong character."""
 
     def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int) -> None:
         caret = " " * invalid_index + "^"
@@ -63,7 +63,7 @@ class InvalidServiceNameException(NameValidationException):
 
 
 class InvalidHandle(Exception):
-    """Error for using a node or entity that is destroyed."""
+    """Error for using a destroyed node, publisher, timer or the like."""
 
 
 class ParameterException(Exception):
@@ -118,7 +118,7 @@ class ParameterImmutableException(ParameterException):
 
 
 class ParameterUninitializedException(ParameterException):
-    """Error for reading a parameter that was declared by type only and has no value yet."""
+    """Error for reading a parameter that was declared with a type but has no value."""
 
     def __init__(self, parameter: str) -> None:
         super().__init__(f"The parameter '{parameter}' is not initialized", parameter)

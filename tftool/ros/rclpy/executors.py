@@ -1,7 +1,7 @@
-"""rclpy's executors, which run the callbacks of a node's ready entities in a fixed order.
+"""Executors of rclpy, which run the callbacks of nodes in a fixed order.
 
-The event loop's thread decides which entities are ready; the callbacks run in the thread that
-spins. Timers run last within an instant, so that a listener's timer sees everything that the
+The event loop's thread decides which callbacks are ready; the thread that spins runs them. Timers
+run last within an instant of simulated time, so that a listener's timer sees all messages that the
 simulator and the broadcasters sent in that instant.
 """
 
@@ -25,29 +25,29 @@ THREADS = 4
 
 
 class ExternalShutdownException(Exception):
-    """Error raised by an executor that spins when its context is shut down."""
+    """Error raised by an executor that spins while its context is shut down elsewhere."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("context has been shut down", *args)
 
 
 class ShutdownException(Exception):
-    """Error for using an executor that is shut down."""
+    """Error for using an executor that was shut down."""
 
 
 class TimeoutException(Exception):
-    """Error for an executor's wait that took longer than its timeout."""
+    """Error for a wait of an executor that exceeds the timeout."""
 
 
 class ConditionReachedException(Exception):
-    """Exception of rclpy for a condition that became true while an executor waited."""
+    """Exception of rclpy for a condition that became true during a wait of an executor."""
 
 
 class Executor:
-    """Base of executors, which run the callbacks of the nodes added to them.
+    """Base class of executors, which run the callbacks of the nodes added to them.
 
     Attributes:
-        spins_once: Whether the executor is inside `spin_once`, which returns after any work.
+        spins_once: Whether `spin_once` is running now.
     """
 
     def __init__(self, *, context: Context | None = None) -> None:
@@ -68,7 +68,7 @@ class Executor:
 
     @property
     def context(self) -> Context:
-        """Context whose shutdown ends this executor's spinning."""
+        """Context whose shutdown makes this executor stop spinning."""
         return self._context
 
     def __enter__(self) -> "Executor":
@@ -78,7 +78,7 @@ class Executor:
         self.shutdown()
 
     def add_node(self, node: Any) -> bool:
-        """Add a node to this executor; return False if the executor has the node already."""
+        """Add a node to this executor; return False if the node was already added."""
         seat = seat_of(node)
         if seat in self._seats:
             return False
@@ -127,7 +127,7 @@ class Executor:
         return task
 
     def wake(self) -> None:
-        """Wake the threads that wait for work of this executor.
+        """Wake the threads in which this executor waits for work.
 
         Call this in the event loop's thread.
         """
@@ -143,7 +143,7 @@ class Executor:
             self._step(None)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Wait until one callback of the nodes is ready, and execute it.
+        """Wait until one callback of the nodes is ready, and execute the callback.
 
         Raises:
             ShutdownException: If the executor was shut down.
@@ -188,9 +188,9 @@ class Executor:
         return deadline is not None and deadline + by <= self._program.clock.now()
 
     def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
-        """Wait for one callback and execute it; return False if no callback was executed.
+        """Wait for one callback and execute it; return whether a callback was executed.
 
-        The wait ends at the deadline, when the future is done, and at a shutdown.
+        The wait ends at the time `deadline`, when `future` is done, and at a shutdown.
         """
         if self._tasks:
             self._advance(*self._tasks.popleft())
@@ -214,7 +214,7 @@ class Executor:
         return True
 
     def _raise_failure(self) -> None:
-        """Raise the exception of a callback that ran in another thread of this executor, if any."""
+        """Raise the exception that a callback has raised in a worker thread, if there is one."""
         failure, self._failure = self._failure, None
         if failure is not None:
             raise failure
@@ -250,12 +250,13 @@ class Executor:
     async def _next(
         self, deadline: Stamp | None, future: Future | None, takes: bool = True
     ) -> tuple[NodeEntity, Work] | None:
-        """Wait for work; return the entity that has it, and the work.
+        """Wait for work; return the work and the entity that it belongs to.
 
         Args:
             deadline: Time at which the wait ends; None for no limit.
             future: Future whose completion ends the wait; None for no future.
-            takes: Whether to wait for work. If false, only other reasons end the wait.
+            takes: Whether to wait for work. If false, only the deadline, the future, a shutdown or
+                an error in a worker thread ends the wait.
 
         Returns:
             Entity and work; None if the wait ended without work.
@@ -302,7 +303,10 @@ class Executor:
         return None
 
     def _entities(self) -> Iterator[NodeEntity]:
-        """Yield all entities of the executor's nodes in the order of execution: timers first."""
+        """Yield all entities of the executor's nodes in their order of execution.
+
+        For each node, its timers come first.
+        """
         for seat in list(self._seats):
             yield from (one for one in seat.entities if isinstance(one, Timer))
             yield from (one for one in seat.entities if not isinstance(one, Timer))
@@ -337,7 +341,7 @@ class Executor:
         return min(moments, default=None)
 
     async def _pause(self, waker: "asyncio.Future[None]", due: Stamp | None) -> None:
-        """Wait until the future `waker` is done, or until the time `due`, if it is not None."""
+        """Wait until the future `waker` is done, or until the time `due`; None for no limit."""
         owner = self._program
         if due is None:
             await waker
@@ -357,10 +361,10 @@ class SingleThreadedExecutor(Executor):
 
 
 class MultiThreadedExecutor(Executor):
-    """Executor that runs callbacks at the same time, as far as their groups permit.
+    """Executor that runs callbacks at the same time if their callback groups permit it.
 
-    Each callback runs in a worker thread, never in the thread that spins: as in ROS 2, a long
-    callback does not delay the return of `spin_until_future_complete` once its future is done.
+    Worker threads run the callbacks, never the thread that spins. As in ROS 2, a long callback
+    therefore does not delay the return of `spin_until_future_complete` once the future is done.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
@@ -383,7 +387,7 @@ class MultiThreadedExecutor(Executor):
             self._lead(future, self._deadline(timeout_sec))
 
     def _lead(self, future: Future, deadline: Stamp | None) -> None:
-        """Let the worker threads run callbacks until a future is done or the deadline passes."""
+        """Let worker threads run callbacks until `future` is done or the deadline passes."""
         future.watch(lambda _: self._wake_from_anywhere())
         let_go = self._let_go = Future()
         self._program.ask(lambda: self._hire(let_go))
@@ -423,7 +427,7 @@ class MultiThreadedExecutor(Executor):
 
 
 def executor_of(owner: "program.Program") -> Executor:
-    """Return the executor that `rclpy.spin` uses in a program, creating it at the first call."""
+    """Return the executor that `rclpy.spin` uses in a program; create it at the first call."""
     if owner.executor is None:
         owner.executor = SingleThreadedExecutor()
     executor: Executor = owner.executor
@@ -432,7 +436,7 @@ def executor_of(owner: "program.Program") -> Executor:
 
 @contextmanager
 def serving(executor: Any, node: Any) -> Iterator[None]:
-    """Add a node to an executor for this block; a node that was added before stays in it."""
+    """Add a node to an executor during the `with` block; a node added before stays afterwards."""
     added = executor.add_node(node)
     try:
         yield
@@ -442,10 +446,15 @@ def serving(executor: Any, node: Any) -> Iterator[None]:
 
 
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None = None) -> Any:
-    """Block until a future of a node is done, and meanwhile execute the node's callbacks.
+    """Execute a node's callbacks until a future is done or the timeout passes.
+
+    Args:
+        seat: tftool's state of the node.
+        future: Future to wait for.
+        timeout_sec: Longest wait in seconds; None for no limit.
 
     Returns:
-        Result of the future; None if it is not done in time.
+        Result of the future; None if the future is not done in time.
     """
     executor = seat.executor or executor_of(seat.program)
     if seat.executor is None and executor.context is not seat.context:

@@ -1,4 +1,4 @@
-"""Futures of rclpy, and the tasks in which executors run coroutines."""
+"""Futures of rclpy, and tasks, which are the futures of coroutines run by an executor."""
 
 import asyncio
 import contextlib
@@ -9,10 +9,11 @@ from typing import Any
 
 
 class _Stepping(threading.local):
-    """Thread-local state: the asyncio task in which an executor runs a part of a `Task`.
+    """State of one thread: the asyncio task inside which an executor runs a step of a `Task`.
 
     Attributes:
-        beneath: The asyncio task; None if no executor runs, or if it runs outside of asyncio.
+        beneath: The asyncio task; None if no executor runs a step, or the executor runs outside of
+            asyncio.
     """
 
     beneath: "asyncio.Task[Any] | None" = None
@@ -29,7 +30,7 @@ def _asyncio_task() -> "asyncio.Task[Any] | None":
 
 
 class Future:
-    """Placeholder for a result that arrives later."""
+    """Placeholder for a result that is set later."""
 
     def __init__(self, *, executor: Any = None) -> None:
         self._done = False
@@ -56,7 +57,7 @@ class Future:
         return self.result()
 
     def _over_there(self, loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
-        """Wait for the future inside a task of asyncio's loop, without blocking the loop."""
+        """Wait for this future in a task of asyncio, without blocking asyncio's event loop."""
         over = loop.create_future()
 
         def settle() -> None:
@@ -90,7 +91,7 @@ class Future:
         """Return the result; None if the future is not done.
 
         Raises:
-            BaseException: If the future was completed with an exception.
+            BaseException: The exception given to `set_exception`, if that method was called.
         """
         if self._exception is not None:
             self._asked = True
@@ -98,12 +99,12 @@ class Future:
         return self._result
 
     def exception(self) -> BaseException | None:
-        """Return the exception that completed the future; None if there is none."""
+        """Return the exception given to `set_exception`; None if that method was not called."""
         self._asked = True
         return self._exception
 
     def set_result(self, result: Any) -> None:
-        """Complete the future with a result."""
+        """Set the result, which completes the future."""
         with self._mutex:
             self._result = result
             self._done = True
@@ -111,7 +112,7 @@ class Future:
         self._tell()
 
     def set_exception(self, exception: BaseException) -> None:
-        """Complete the future with an exception, which `result` raises."""
+        """Complete the future with an exception, which the method `result` then raises."""
         with self._mutex:
             self._exception = exception
             self._asked = False
@@ -120,16 +121,19 @@ class Future:
         self._tell()
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback` with this future when it is done, or at once if it is done already.
+        """Call `callback` with this future when the future is done.
 
-        The executor that completes the future runs the callback as its next task, as in ROS 2.
+        As in ROS 2, the future's executor calls `callback` as a task. Without an executor, the
+        thread that completes the future calls it. If the future is already done, the call is
+        scheduled at once.
         """
         self._add(callback, self._callbacks, self._call)
 
     def watch(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback` when the future is done, in the thread that completes the future.
+        """Call `callback` with this future when the future is done.
 
-        Unlike `add_done_callback`, this calls it directly, not as a task of the executor.
+        Unlike with `add_done_callback`, the thread that completes the future always calls
+        `callback`.
         """
         self._add(callback, self._watchers, lambda watcher: watcher(self))
 
@@ -147,7 +151,7 @@ class Future:
             call(callback)
 
     def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
-        """Remove a callback of `add_done_callback`; return whether it was registered."""
+        """Remove a callback added by `add_done_callback`; return whether it was found."""
         with self._mutex:
             found = callback in self._callbacks
             self._callbacks[:] = [one for one in self._callbacks if one != callback]
@@ -170,7 +174,7 @@ class Future:
             raise TypeError("a done-callback of a future without an executor cannot be a coroutine")
 
     def set_executor(self, executor: Any) -> None:
-        """Set the executor that runs the callbacks; with None, the completing thread runs them."""
+        """Set the executor that runs done callbacks; None to run them in the completing thread."""
         self._executor = executor
 
 
@@ -195,10 +199,10 @@ class Task(Future):
             self._handler = lambda: function(*(args or ()), **(kwargs or {}))
 
     def __call__(self) -> Any:
-        """Run the task until it waits or ends.
+        """Run the task until it has to wait for another future, or ends.
 
         Returns:
-            The object for which the task waits; None if the task has ended.
+            The object that the task waits for; None if the task has ended.
         """
         if self._done or self._cancelled:
             return None
@@ -223,11 +227,11 @@ class Task(Future):
         return None
 
     def executing(self) -> bool:
-        """Return whether a step of this task is running now."""
+        """Return whether an executor is running a step of this task now."""
         return self._is_stepping
 
     def cancel(self) -> None:
-        """Cancel the task and close its coroutine."""
+        """Cancel the task, and close the coroutine."""
         if self._coroutine is not None and not self._done:
             self._coroutine.close()
         super().cancel()

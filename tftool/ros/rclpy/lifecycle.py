@@ -1,4 +1,4 @@
-"""Lifecycle nodes of rclpy, whose states change by method calls or services (design.ros2.org)."""
+"""Lifecycle nodes of rclpy, whose state is changed by method calls or by services."""
 
 from collections.abc import Callable, Iterable
 from enum import IntEnum
@@ -12,14 +12,14 @@ from tftool.world.node_parameters import answered
 
 
 class TransitionCallbackReturn(IntEnum):
-    """Result of the callback of a lifecycle transition."""
+    """Return value of the callback of a lifecycle transition."""
 
     SUCCESS = 97
     FAILURE = 98
     ERROR = 99
 
     def to_label(self) -> str:
-        """Return the name of the transition that follows a callback with this result."""
+        """Return the name of the transition that follows when a callback returns this value."""
         return f"transition_{self.name.lower()}"
 
 
@@ -31,7 +31,7 @@ class LifecycleState(NamedTuple):
 
 
 class Transition(NamedTuple):
-    """Lifecycle transition from one state to another: its number, name and both states."""
+    """Lifecycle transition: number, name, state in which it starts, and state to which it leads."""
 
     number: int
     label: str
@@ -92,7 +92,7 @@ GRAPH = _REQUESTS + tuple(
 
 
 class StateMachine:
-    """Current state of a lifecycle node, with the transitions it permits."""
+    """State machine with the current state of a lifecycle node."""
 
     def __init__(self) -> None:
         self.state = LifecycleState("unconfigured", STATES["unconfigured"])
@@ -104,14 +104,17 @@ class StateMachine:
 
     @property
     def available_transitions(self) -> list[Transition]:
-        """Transitions that begin in the current state."""
+        """Transitions that start in the current state."""
         return [one for one in GRAPH if one.start == self.state.label]
 
     def take(self, wanted: str | int) -> Transition:
-        """Enter the goal state of a transition, given by name or number; return the transition.
+        """Change to the state that a transition leads to; return the transition.
+
+        Args:
+            wanted: Name or number of the transition.
 
         Raises:
-            RuntimeError: If the transition does not begin in the current state.
+            RuntimeError: If the transition does not start in the current state.
         """
         for one in self.available_transitions:
             if wanted in (one.label, one.number):
@@ -129,10 +132,10 @@ SUCCESS = TransitionCallbackReturn.SUCCESS
 
 
 class ManagedEntity:
-    """Object that a lifecycle node notifies of every transition of the node."""
+    """Object whose callbacks a lifecycle node calls at every transition of the node."""
 
     def _succeed(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Return SUCCESS; this is the default callback of every transition."""
+        """Return SUCCESS, as the default callback of every transition."""
         return SUCCESS
 
     on_configure = on_cleanup = on_shutdown = on_activate = on_deactivate = on_error = _succeed
@@ -144,12 +147,12 @@ class SimpleManagedEntity(ManagedEntity):
     _enabled = False
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Enable the entity when its node becomes active."""
+        """Enable the entity, because the node becomes active."""
         self._enabled = True
         return SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Disable the entity when its node becomes inactive."""
+        """Disable the entity, because the node becomes inactive."""
         self._enabled = False
         return SUCCESS
 
@@ -162,9 +165,11 @@ class SimpleManagedEntity(ManagedEntity):
     def when_enabled(
         wrapped: F | None = None, *, when_not_enabled: Callable[[], object] | None = None
     ) -> Any:
-        """Decorate a method so that it runs only while the entity is enabled.
+        """Return a decorator that lets a method run only while the entity is enabled.
 
-        While the entity is not enabled, `when_not_enabled` is called instead, if it is given.
+        Args:
+            wrapped: Method to decorate; None if the decorator is used with arguments.
+            when_not_enabled: Function called instead of the method while the entity is disabled.
         """
 
         def decorate(method: F) -> Any:
@@ -183,13 +188,16 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
     """Publisher that sends messages only while its lifecycle node is active."""
 
     def publish(self, msg: Any) -> None:
-        """Send a message; drop it if the node is not active."""
+        """Send a message if the node is active; otherwise drop the message."""
         if self._enabled:
             super().publish(msg)
 
 
 def _telling(callback: str) -> Any:
-    """Return the default method for a transition: it calls each managed entity's callback."""
+    """Return the default method for a transition's callback, such as "on_activate".
+
+    The method calls the same callback of each managed entity.
+    """
 
     def tell(self: "LifecycleNodeMixin", state: LifecycleState) -> TransitionCallbackReturn:
         for entity in list(self._managed_entities):
@@ -204,7 +212,12 @@ def _telling(callback: str) -> Any:
 
 
 def _triggering(transition: str, change_of_state: str) -> Any:
-    """Return the method `trigger_…` of lifecycle nodes, which runs a transition."""
+    """Return the method `trigger_TRANSITION` of lifecycle nodes, which runs the transition.
+
+    Args:
+        transition: Name of the transition.
+        change_of_state: Text for the method's docstring, such as "inactive to active".
+    """
 
     def trigger(self: "LifecycleNodeMixin") -> TransitionCallbackReturn:
         return change(self, transition)
@@ -215,7 +228,7 @@ def _triggering(transition: str, change_of_state: str) -> Any:
 
 
 class LifecycleNodeMixin(ManagedEntity):
-    """Methods that a node needs to be a lifecycle node."""
+    """Methods and services that make a node a lifecycle node."""
 
     on_configure = _telling("on_configure")
     on_cleanup = _telling("on_cleanup")
@@ -242,7 +255,7 @@ class LifecycleNodeMixin(ManagedEntity):
     trigger_shutdown = _triggering("shutdown", "any state to finalized")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
-        """Add an entity that this node notifies of every transition."""
+        """Add an entity whose callbacks this node calls at every transition."""
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
@@ -263,7 +276,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
 
 class LifecycleNode(LifecycleNodeMixin, Node):
-    """Node that must be configured and activated before it works."""
+    """Node that works only after it was configured and activated."""
 
     def __init__(
         self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any
@@ -277,8 +290,12 @@ class LifecycleNode(LifecycleNodeMixin, Node):
 def change(node: LifecycleNodeMixin, wanted: str | int) -> TransitionCallbackReturn:
     """Run a lifecycle transition of a node; return the result of the transition's callback.
 
+    Args:
+        node: The node.
+        wanted: Name or number of the transition.
+
     Raises:
-        RuntimeError: If the transition does not begin in the node's current state.
+        RuntimeError: If the transition does not start in the node's current state.
     """
     machine = node._state_machine
     before = machine.state

@@ -30,18 +30,18 @@ _LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 5
 
 
 class SkipFirst:
-    """Class behind `skip_first=True` in rclpy: programs import its name but never call it."""
+    """Class of rclpy that implements `skip_first=True`; programs can import it without effect."""
 
 
 class RcutilsLogger:
-    """Logger with a name; each name has its own lowest severity."""
+    """Named logger with a lowest severity, below which messages are dropped."""
 
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._calls: dict[tuple[CodeType, int] | None, _Call] = {}
 
     def get_child(self, name: str) -> "RcutilsLogger":
-        """Return the logger named `name` below this logger.
+        """Return the child logger `name` of this logger.
 
         Raises:
             ValueError: If the name is empty.
@@ -55,7 +55,7 @@ class RcutilsLogger:
         program.current().log_levels[self.name] = int(LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """Return the lowest severity that is logged, set for this logger or a parent logger."""
+        """Return the lowest severity set for this logger or its nearest parent; by default INFO."""
         levels = program.current().log_levels
         name = self.name
         while name:
@@ -65,7 +65,7 @@ class RcutilsLogger:
         return LoggingSeverity(levels.get("", LoggingSeverity.INFO))
 
     def is_enabled_for(self, severity: int) -> bool:
-        """Return whether a message of that severity would be logged."""
+        """Return whether messages of a severity are logged."""
         return severity >= self.get_effective_level()
 
     def log(
@@ -79,11 +79,11 @@ class RcutilsLogger:
         throttle_time_source_type: Any = None,
         name: str = "",
     ) -> bool:
-        """Log a message; return whether it was logged.
+        """Log a message; return whether the message was logged.
 
-        `once`, `skip_first` and `throttle_duration_sec` count separately for each line of the
-        user's code that logs. With several of these options, a message is logged only if all of
-        them permit it.
+        The filters `once`, `skip_first` and `throttle_duration_sec` count separately for each line
+        of the user's code that logs. With several filters, a message is logged only if all filters
+        permit it.
 
         Raises:
             ValueError: If a line of code changes its severity, name or filters between two calls,
@@ -121,10 +121,10 @@ class RcutilsLogger:
     def _called(
         self, frame: FrameType | None, severity: int, name: str, settings: tuple[bool, bool, int]
     ) -> "_Call":
-        """Return the record of the user's line of code that logs; create it at its first call.
+        """Return the record of the user's line of code that logs; create it at the first call.
 
         Raises:
-            ValueError: If severity, name or settings differ from those of the first call.
+            ValueError: If severity, name or filters differ from the line's first call.
         """
         # The last instruction's index distinguishes two calls on one line.
         place = (frame.f_code, frame.f_lasti) if frame is not None else None
@@ -135,25 +135,25 @@ class RcutilsLogger:
         return call
 
     def debug(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity DEBUG; return whether it was logged."""
+        """Log a message with severity DEBUG; return whether the message was logged."""
         return self.log(message, LoggingSeverity.DEBUG, **kwargs)
 
     def info(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity INFO; return whether it was logged."""
+        """Log a message with severity INFO; return whether the message was logged."""
         return self.log(message, LoggingSeverity.INFO, **kwargs)
 
     def warning(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity WARN; return whether it was logged."""
+        """Log a message with severity WARN; return whether the message was logged."""
         return self.log(message, LoggingSeverity.WARN, **kwargs)
 
     warn = warning
 
     def error(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity ERROR; return whether it was logged."""
+        """Log a message with severity ERROR; return whether the message was logged."""
         return self.log(message, LoggingSeverity.ERROR, **kwargs)
 
     def fatal(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity FATAL; return whether it was logged."""
+        """Log a message with severity FATAL; return whether the message was logged."""
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
 
@@ -174,7 +174,7 @@ class _Call:
         """Check that severity, name and filters are the same as at the first call.
 
         Raises:
-            ValueError: If one of them has changed.
+            ValueError: If the severity, the name or a filter has changed.
         """
         if severity != self._severity:
             raise ValueError("Logger severity cannot be changed between calls.")
@@ -184,7 +184,7 @@ class _Call:
             raise ValueError("Logging filter parameters cannot be changed between calls.")
 
     def passes(self, now: Stamp) -> bool:
-        """Return whether the filters permit a message now, checked in ROS 2's order."""
+        """Return whether the filters permit a message at the time `now`; count the message."""
         if self._throttle:
             if now < self._last + self._throttle:
                 return False
@@ -199,7 +199,11 @@ class _Call:
 
 
 def _rosout_of(owner: program.Program, logger: str) -> Any:
-    """Return the /rosout publisher of the node whose logger is the nearest parent of `logger`."""
+    """Return the /rosout publisher of the node that a logger belongs to.
+
+    The node's logger is `logger` itself or its nearest parent. Return None if there is no such
+    node.
+    """
     told = [seat.rosout for seat in owner.nodes if seat.rosout is not None]
     fitting = (one for one in told if one.speaks_for(logger))
     return max(fitting, key=lambda rosout: len(rosout.logger), default=None)
@@ -216,7 +220,7 @@ _root_logger = RcutilsLogger()
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """Return the logger with a name.
+    """Return the logger named `name`.
 
     Raises:
         ValueError: If the name is empty.
@@ -227,20 +231,20 @@ def get_logger(name: str) -> RcutilsLogger:
 
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
-    """Set the lowest severity that the logger with a name logs."""
+    """Set the lowest severity of the logger `name`; less severe messages are dropped."""
     program.current().log_levels[name] = int(LoggingSeverity(level))
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
-    """Return the lowest severity that the logger with a name logs."""
+    """Return the lowest severity that the logger `name` does not drop."""
     return RcutilsLogger(name).get_effective_level()
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
-    """Return the severity with a name such as "info".
+    """Return the severity for a name such as "info".
 
     Raises:
-        RuntimeError: If no severity has that name.
+        RuntimeError: If there is no severity of this name.
     """
     try:
         return LoggingSeverity[log_severity.upper()]
@@ -251,30 +255,37 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
 
 
 def clear_config() -> None:
-    """Remove the severities set for all loggers."""
+    """Remove the lowest severities that were set for loggers."""
     program.current().log_levels.clear()
 
 
 def get_logging_directory() -> Path:
-    """Return ROS 2's folder of logs: `ROS_LOG_DIR`, else `log` in `ROS_HOME`, else `~/.ros/log`."""
+    """Return ROS 2's folder of log files.
+
+    The folder is the value of `ROS_LOG_DIR`, else `log` in the folder `ROS_HOME`, else
+    `~/.ros/log`.
+    """
     told = os.environ.get("ROS_LOG_DIR")
     home = os.environ.get("ROS_HOME") or "~/.ros"
     return Path(told).expanduser() if told else Path(home).expanduser() / "log"
 
 
 def initialize() -> None:
-    """Do nothing: logging needs no initialisation here."""
+    """Do nothing, because tftool's logging needs no initialisation."""
 
 
 def shutdown() -> None:
-    """Do nothing: logging needs no shutdown here."""
+    """Do nothing, because tftool's logging needs no shutdown."""
 
 
 _NO_LEVEL = "Failed reason: Invalid logger level."
 
 
 def logger_services() -> Iterator[tuple[str, Any, Answer]]:
-    """Yield the services that read and set logger levels: name below the node, type, handler."""
+    """Yield (name, type, handler) of the services that read and set a node's logger levels.
+
+    The names are relative to the node's name.
+    """
     level_kind: Any = INTERFACES.message("rcl_interfaces/LoggerLevel")
     result_kind: Any = INTERFACES.message("rcl_interfaces/SetLoggerLevelsResult")
 

@@ -9,25 +9,25 @@ from tftool.ros.rclpy.time import Duration, ROSClock, Time
 
 
 class SimpleFilter:
-    """Base of filters, which pass messages to registered callbacks."""
+    """Base class of filters, which call registered callbacks with messages."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
 
     def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802
-        """Call `cb(message, *args)` with every message; return the number of this registration."""
+        """Call `cb(message, *args)` with every message; return the callback's number."""
         connection = len(self.callbacks)
         self.callbacks[connection] = (cb, args)
         return connection
 
     def signalMessage(self, *msg: Any) -> None:  # noqa: N802
-        """Call the registered callbacks with a message, or with one message of each topic."""
+        """Call the registered callbacks with `msg`: one message, or one for each input filter."""
         for callback, args in list(self.callbacks.values()):
             callback(*msg, *args)
 
 
 class Subscriber(SimpleFilter):
-    """Filter of one subscription, made as `Subscriber(node, type, topic, …)`.
+    """Filter whose messages come from a subscription: `Subscriber(node, type, topic, …)`.
 
     Further arguments are passed to `Node.create_subscription`.
     """
@@ -41,7 +41,7 @@ class Subscriber(SimpleFilter):
         self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
 
     def callback(self, msg: Any) -> None:
-        """Pass a received message to the registered callbacks."""
+        """Call the registered callbacks with a received message."""
         self.signalMessage(msg)
 
     def getTopic(self) -> str:  # noqa: N802
@@ -56,7 +56,13 @@ class Subscriber(SimpleFilter):
 
 
 def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
-    """Return a message's stamp, or the current time if messages without stamp are allowed."""
+    """Return the stamp of a message; for a message without a header, the time now or None.
+
+    Args:
+        msg: The message.
+        allow_headerless: Whether a message without a header gets the present time.
+        who: Name of the logger for the warning about a message that gets no time.
+    """
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
         stamp = msg.header.stamp
         return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
@@ -70,7 +76,7 @@ def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
 
 
 class Cache(SimpleFilter):
-    """Filter that stores a filter's last `cache_size` messages with their times."""
+    """Filter that stores the last `cache_size` messages of another filter with their stamps."""
 
     def __init__(
         self, f: SimpleFilter, cache_size: int = 1, allow_headerless: bool = False
@@ -83,11 +89,11 @@ class Cache(SimpleFilter):
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
-        """Store the messages of a filter from now on."""
+        """Set the filter whose messages are stored from now on."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Store a message and pass it on; a message without a usable time is dropped."""
+        """Store a message and call the registered callbacks; drop a message without a stamp."""
         stamp = _stamp(msg, self.allow_headerless, "message_filters_cache")
         if stamp is None:
             return
@@ -96,15 +102,15 @@ class Cache(SimpleFilter):
         self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802
-        """Return the stored messages between two times, both included."""
+        """Return the stored messages with stamps from `from_stamp` to `to_stamp`, both included."""
         return self._where(lambda stamp: from_stamp <= stamp <= to_stamp)
 
     def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802
-        """Return the oldest stored message at or after a time; None if there is none."""
+        """Return the oldest stored message with a stamp at or after `stamp`; None without one."""
         return next(iter(self._where(lambda kept: kept >= stamp)), None)
 
     def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802
-        """Return the newest stored message at or before a time; None if there is none."""
+        """Return the newest stored message with a stamp at or before `stamp`; None without one."""
         return next(reversed(self._where(lambda kept: kept <= stamp)), None)
 
     def _where(self, fits: Callable[[Time], bool]) -> list[Any]:
@@ -112,23 +118,23 @@ class Cache(SimpleFilter):
         return [msg for stamp, msg in kept if fits(stamp)]
 
     def getLastestTime(self) -> Time | None:  # noqa: N802
-        """Return the time of the newest stored message; None if there is none.
+        """Return the stamp of the newest stored message; None if the cache is empty.
 
-        The method's misspelt name is ROS 2's.
+        ROS 2 misspells the method's name in the same way.
         """
         return self.cache_times[-1] if self.cache_times else None
 
     def getOldestTime(self) -> Time | None:  # noqa: N802
-        """Return the time of the oldest stored message; None if there is none."""
+        """Return the stamp of the oldest stored message; None if the cache is empty."""
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:  # noqa: N802
-        """Return the newest stored message; None if there is none."""
+        """Return the newest stored message; None if the cache is empty."""
         return self.cache_msgs[-1] if self.cache_msgs else None
 
 
 class TimeSynchronizer(SimpleFilter):
-    """Filter that passes on sets of messages with equal stamps, one from each input filter."""
+    """Filter that combines messages with equal stamps, one from each of several input filters."""
 
     def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
         super().__init__()
@@ -136,7 +142,7 @@ class TimeSynchronizer(SimpleFilter):
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802
-        """Set the input filters whose messages are synchronised."""
+        """Set the input filters whose messages are combined."""
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
             one.registerCallback(self.add, queue, index)
@@ -144,7 +150,13 @@ class TimeSynchronizer(SimpleFilter):
         ]
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Store a filter's message; pass on the sets of equal stamps that are complete."""
+        """Store a message; call the registered callbacks for each complete set of equal stamps.
+
+        Args:
+            msg: Message of an input filter.
+            my_queue: Stored messages of that filter, by stamp.
+            my_queue_index: Number of that filter.
+        """
         self._keep(Time.from_msg(msg.header.stamp).nanoseconds, msg, my_queue)
         for stamp in sorted(set.intersection(*(set(queue) for queue in self.queues))):
             self._hand_on([stamp] * len(self.queues))
@@ -160,7 +172,7 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Filter that passes on sets of messages whose stamps are less than `slop` seconds apart."""
+    """Filter that combines messages whose stamps are less than `slop` seconds apart."""
 
     def __init__(
         self,
@@ -174,7 +186,10 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Store a filter's message; pass it on with the nearest message of each other filter."""
+        """Store a message; call the registered callbacks if all other filters have a near message.
+
+        For the arguments see `TimeSynchronizer.add`.
+        """
         time = _stamp(msg, self.allow_headerless, "message_filters_approx")
         if time is None:
             return

@@ -1,4 +1,4 @@
-"""Class Node of rclpy, which users' nodes derive from."""
+"""Class Node of rclpy, the base class of users' nodes."""
 
 import copy
 import sys
@@ -40,7 +40,7 @@ E = TypeVar("E", bound=NodeEntity)
 
 
 class Node(NodeGraph, NodeParameters):
-    """Node of ROS 2 with rclpy's methods, which rclpy's own documentation describes."""
+    """ROS 2 node with the methods of rclpy's Node, which rclpy's documentation describes."""
 
     def __init__(
         self,
@@ -110,7 +110,7 @@ class Node(NodeGraph, NodeParameters):
         return f"/{self._tftool.namespace}"
 
     def get_fully_qualified_name(self) -> str:
-        """Return the node's namespace and name, joined, with a leading slash."""
+        """Return the node's full name: namespace and name with a leading slash."""
         return f"/{names.join(self._tftool.namespace, self._tftool.name)}"
 
     def get_logger(self) -> RcutilsLogger:
@@ -128,7 +128,7 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def executor(self) -> Any:
-        """Executor to which the node is added; None if there is none."""
+        """Executor that the node was added to; None if there is none."""
         return self._tftool.executor
 
     @executor.setter
@@ -145,12 +145,12 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def default_callback_group(self) -> CallbackGroup:
-        """Group of the callbacks for which no group was given."""
+        """Callback group of timers, subscriptions and the like that were created without one."""
         return self._default_callback_group
 
     @property
     def handle(self) -> AbstractContextManager[None]:
-        """Context manager that raises InvalidHandle if the node is destroyed."""
+        """Context manager that raises InvalidHandle if the node was destroyed."""
         return required(self._tftool.require)
 
     def __enter__(self) -> "Node":
@@ -160,11 +160,11 @@ class Node(NodeGraph, NodeParameters):
         self.destroy_node()
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Return a topic's full name after remapping; with `only_expand`, without remapping."""
+        """Return a topic's full name after remapping; with `only_expand`, before remapping."""
         return f"/{self._tftool.full(topic, remap=not only_expand)}"
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """Return a service's full name after remapping; with `only_expand`, without remapping."""
+        """Return a service's full name after remapping; with `only_expand`, before remapping."""
         return f"/{self._tftool.full(service, remap=not only_expand, is_service=True)}"
 
     # Publishers, timers and other entities
@@ -180,7 +180,7 @@ class Node(NodeGraph, NodeParameters):
         qos_overriding_options: Any = None,
         publisher_class: Any = None,
     ) -> Publisher:
-        """Create a publisher of a topic."""
+        """Create a publisher on a topic."""
         _require_message(msg_type)
         full = self._tftool.full(topic)
         profile = self.__profile(Publisher, full, qos_profile, qos_overriding_options)
@@ -202,7 +202,7 @@ class Node(NodeGraph, NodeParameters):
         raw: bool = False,
         content_filter_options: Any = None,
     ) -> Subscription:
-        """Create a subscription that calls `callback` with every message of a topic."""
+        """Create a subscription that calls `callback` with every message on a topic."""
         _require_message(msg_type)
         _require_callable(callback)
         full = self._tftool.full(topic)
@@ -219,7 +219,13 @@ class Node(NodeGraph, NodeParameters):
     ) -> QoSProfile:
         """Return the QoS profile for a new publisher or subscription.
 
-        With `options`, first declare parameters from which the user may change the profile.
+        With `options`, also declare parameters with which the user may change the profile.
+
+        Args:
+            kind: Class Publisher or Subscription.
+            full: Full name of the topic.
+            given: Profile, or depth of the default profile.
+            options: Policies that parameters may change; None for none.
         """
         profile = profile_of(given)
         if options is not None:
@@ -228,7 +234,7 @@ class Node(NodeGraph, NodeParameters):
         return profile
 
     def __watch(self, made: Any, group: Any, wanted: Any) -> None:
-        """Register the event callbacks of a new publisher or subscription, if any are given."""
+        """Register the user's event callbacks of a new publisher or subscription, if any."""
         if wanted is None:
             return
         group = group or self._default_callback_group
@@ -242,7 +248,7 @@ class Node(NodeGraph, NodeParameters):
         clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
-        """Create a timer that calls `callback` every period; None for a timer without callback."""
+        """Create a timer that calls `callback` once per period; the callback may be None."""
         if callback is None:
             self._warn_of_missing_callback(user_line(sys._getframe(1)))
         else:
@@ -296,12 +302,12 @@ class Node(NodeGraph, NodeParameters):
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
-        """Create a guard condition that calls `callback` when triggered."""
+        """Create a guard condition that calls `callback` after each trigger."""
         group = callback_group or self._default_callback_group
         return self.__keep(GuardCondition, callback, group)
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        """Create a rate, whose `sleep` makes a loop run `frequency` times a second.
+        """Create a rate, whose method `sleep` makes a loop run `frequency` times per second.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -315,7 +321,7 @@ class Node(NodeGraph, NodeParameters):
         return Rate(self._tftool, timer)
 
     def destroy_rate(self, rate: Rate) -> bool:
-        """Destroy a rate; return whether it belonged to this node."""
+        """Destroy a rate; return False if the rate does not belong to this node."""
         return self._tftool.forget(rate.timer)
 
     def _serve_own(
@@ -323,9 +329,13 @@ class Node(NodeGraph, NodeParameters):
         services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
         callback_group: CallbackGroup | None = None,
     ) -> None:
-        """Create the services that ROS 2 gives every node, such as those for its parameters.
+        """Create services that every ROS 2 node has, such as the services for its parameters.
 
-        If another node of the same name already offers such a service, that node responds to it.
+        A service that another node of the same name already offers is not created.
+
+        Args:
+            services: Tuples (name below the node's name, type, handler).
+            callback_group: Callback group; None for the node's default group.
         """
         seat, wanted = self._tftool, list(services)
         group = callback_group or self._default_callback_group
@@ -354,7 +364,7 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """Publishers of the node; as in ROS 2, without the publisher of its log on /rosout."""
+        """Publishers of the node; as in ROS 2, without the publisher of log messages on /rosout."""
         yield from (one for one in self.__all(Publisher) if one is not self._tftool.rosout)
 
     @property
@@ -410,7 +420,7 @@ def _require_service(kind: Any) -> None:
 
 
 def _period_of(seconds_or_duration: Any) -> int:
-    """Return a timer's period in nanoseconds, from seconds or a Duration."""
+    """Return the nanoseconds in a timer's period, which is given in seconds or as a Duration."""
     if isinstance(seconds_or_duration, Duration):
         return seconds_or_duration.nanoseconds
     return int(float(seconds_or_duration) * 1_000_000_000)

@@ -1,4 +1,4 @@
-"""Methods of a node that list nodes, topics, services and actions, and endpoint descriptions."""
+"""Methods of a node that list nodes, topics, services and actions, and describe endpoints."""
 
 from collections.abc import Callable, Iterable, Iterator
 from copy import copy
@@ -21,7 +21,7 @@ from tftool.world.endpoints import CLIENT, PUBLISHER, SUBSCRIPTION, Endpoint, En
 
 
 class TopicEndpointTypeEnum(IntEnum):
-    """Kind of a topic's endpoint: publisher or subscription."""
+    """Type of an endpoint of a topic: publisher or subscription."""
 
     INVALID = 0
     PUBLISHER = 1
@@ -30,10 +30,10 @@ class TopicEndpointTypeEnum(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class TypeHash:
-    """Hash of a message type: the version of the hash algorithm, and 32 bytes.
+    """Hash of the definition of a message type.
 
     Attributes:
-        version: Version of the algorithm, 1; -1 if there is no hash.
+        version: Version of the hash algorithm, 1; -1 without a hash.
         value: The 32 bytes of the hash.
     """
 
@@ -48,7 +48,7 @@ class TypeHash:
 
 @dataclass(slots=True)
 class TopicEndpointInfo:
-    """Description of a topic's publisher or subscription: node, type and quality of service."""
+    """Description of a publisher or subscription: its node, topic type and quality of service."""
 
     node_name: str = ""
     node_namespace: str = ""
@@ -84,7 +84,7 @@ def _time(length: Duration) -> str:
 
 
 def endpoint_info(end: Endpoint) -> TopicEndpointInfo:
-    """Return the description of a publisher or subscription for ROS programs."""
+    """Return the `TopicEndpointInfo` of a publisher or subscription."""
     namespace, _, name = end.node.rpartition("/")
     publishes = end.role == PUBLISHER
     return TopicEndpointInfo(
@@ -108,7 +108,7 @@ class NodeNameNonExistentError(Exception):
 
 
 class NodeGraph:
-    """Methods of a node that list the other nodes and their topics, services and actions."""
+    """Methods of a node that list all nodes, topics, services and actions."""
 
     _tftool: NodeSeat
 
@@ -119,16 +119,16 @@ class NodeGraph:
     # Nodes
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Block until a node exists; return False if the timeout passes first."""
+        """Block until a node exists; return False after `timeout` seconds."""
         wanted = fully_qualified_node_name.strip("/")
         return self._tftool.wait_until(lambda: wanted in self.__nodes(), timeout)
 
     def get_node_names(self) -> list[str]:
-        """Return the names of all nodes."""
+        """Return the names, without namespaces, of all nodes."""
         return [name for name, _ in self.get_node_names_and_namespaces()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
-        """Return the full names of all nodes."""
+        """Return the full names, such as "/robot/camera", of all nodes."""
         return [f"/{full}" for full in self.__look(self.__nodes)]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
@@ -146,7 +146,7 @@ class NodeGraph:
     # Topics
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
-        """Return every topic's name with its types."""
+        """Return (name, types) of every topic."""
         return self.__look(self.__topics)
 
     def __topics(self) -> NamesAndTypes:
@@ -195,18 +195,18 @@ class NodeGraph:
     # Services
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """Return the name of every service that has a server or a client, with the known types."""
+        """Return (name, known types) of every service that has a server or a client."""
         clients = self._tftool.world.clients
         return self.__look(lambda: _listed(chain(self.__served(), _held(None, clients, CLIENT))))
 
     def __served(self, by: str | None = None) -> Iterator[tuple[str, str]]:
-        """Yield (name, type) of each service, or of the services of one node."""
+        """Yield (name, type) of each service that the node `by` offers; None for all nodes."""
         for name, offer in self._tftool.world.services().items():
             if by in (None, offer.node):
                 yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
-        """Count the servers of a service; servers in other processes count as at most one."""
+        """Count the servers of a service; all servers in other processes together count as one."""
         full = self._tftool.full(service_name, is_service=True)
         return self.__look(lambda: self._tftool.world.count_services(full))
 
@@ -234,13 +234,13 @@ class NodeGraph:
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
-        """Return (name, types) of each service that a node serves."""
+        """Return (name, types) of each service that a node offers."""
         return _of_node(self._tftool, node_name, node_namespace, self.__served)
 
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
-        """Return (name, types) of each service that a ROS node calls."""
+        """Return (name, types) of each service for which a ROS node has a client."""
         clients = self._tftool.world.clients
         return _of_node(self._tftool, node_name, node_namespace, _held, clients, CLIENT)
 
@@ -257,7 +257,7 @@ def get_action_names_and_types(node: Any) -> NamesAndTypes:
 def get_action_server_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Return (name, types) of each action that a node serves.
+    """Return (name, types) of each action for which a node has a server.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -269,7 +269,7 @@ def get_action_server_names_and_types_by_node(
 def get_action_client_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Return (name, types) of the action clients of a ROS node.
+    """Return (name, types) of each action for which a ROS node has a client.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -283,7 +283,13 @@ def _node_names(seat: NodeSeat) -> list[str]:
 
 
 def _held(node: str | None, ends: Endpoints, role: Role) -> Iterator[tuple[str, str]]:
-    """Yield (name, type) of each endpoint in one role, of one node or of all (None)."""
+    """Yield (name, type) of each publisher, subscription or client of a node.
+
+    Args:
+        node: Full name of the node; None for all nodes.
+        ends: Endpoints to search.
+        role: Role of the endpoints to yield, such as publisher.
+    """
     for name in ends.topics():
         for end in ends.of(name, role):
             if node in (None, end.node):
@@ -309,7 +315,14 @@ def _of_node(
     find: Callable[..., Iterable[tuple[str, str]]],
     *args: Any,
 ) -> NamesAndTypes:
-    """Return the names and types that `find` yields for a node.
+    """Return (name, types) of the topics, services or actions of one node.
+
+    Args:
+        seat: tftool's state of the node that asks.
+        name: Name of the other node.
+        namespace: Namespace of the other node.
+        find: Function that yields (name, type) for a node's full name.
+        args: Further arguments of `find`.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -325,7 +338,7 @@ def _of_node(
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
-    """Group (name, type) pairs to (name, types), sorted by name; an unknown type is left out."""
+    """Group pairs (name, type) to (name, types), sorted by name; leave out unknown types, ""."""
     found: dict[str, set[str]] = {}
     for name, kind in pairs:
         found.setdefault(f"/{name}", set()).update([kind] if kind else [])

@@ -66,9 +66,13 @@ class NodeParameters:
         descriptor: Any = None,
         ignore_override: bool = False,
     ) -> Parameter:
-        """Declare a parameter; a value from the command line or launch file takes precedence.
+        """Declare a parameter; a value from the command line or launch file replaces `value`.
 
-        `value` is the default value, or a `Parameter.Type` to declare the type alone.
+        Args:
+            name: Name of the parameter.
+            value: Default value, or a `Parameter.Type` for a parameter without a default.
+            descriptor: ParameterDescriptor message; None for an empty one.
+            ignore_override: Whether to ignore a value from the command line or launch file.
 
         Raises:
             ParameterAlreadyDeclaredException: If the parameter is declared already.
@@ -83,10 +87,15 @@ class NodeParameters:
         parameters: Sequence[tuple[Any, ...]],
         ignore_override: bool = False,
     ) -> list[Parameter]:
-        """Declare several parameters, given as tuples of name, value and descriptor.
+        """Declare several parameters.
+
+        Args:
+            namespace: Prefix of the names, which a dot separates from each name; may be "".
+            parameters: Tuples (name, value, descriptor); value and descriptor may be missing.
+            ignore_override: Whether to ignore values from the command line or launch file.
 
         Warns:
-            UserWarning: If a tuple has a name only, so that any type of value is accepted.
+            UserWarning: If a tuple contains only a name, so that values of any type are accepted.
         """
         prefix = f"{namespace}." if namespace else ""
         for one in parameters:
@@ -176,14 +185,17 @@ class NodeParameters:
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """Return a declared parameter that has a value; for any other, return the alternative."""
+        """Return a declared parameter with a value; otherwise return the alternative.
+
+        If the alternative is None, return a parameter whose type is NOT_SET.
+        """
         found = self._parameters.get(name)
         if found is not None and found.type_ is not Type.NOT_SET:
             return found
         return alternative_value or found or Parameter(name, Type.NOT_SET, None)
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """Return the declared parameters below a prefix, by their names without the prefix."""
+        """Return the parameters whose names begin with `prefix` and a dot, by shortened name."""
         start = f"{prefix}." if prefix else ""
         return {
             name.removeprefix(start): parameter
@@ -200,9 +212,10 @@ class NodeParameters:
         return self.get_parameter(name).type_
 
     def describe_parameter(self, name: str) -> Any:
-        """Return a parameter's descriptor.
+        """Return the ParameterDescriptor message of a parameter.
 
-        If the node allows undeclared parameters, an undeclared one has an empty descriptor.
+        For a node that allows undeclared parameters, the descriptor of an undeclared parameter is
+        empty.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
@@ -210,16 +223,18 @@ class NodeParameters:
         return self._descriptors[name]
 
     def describe_parameters(self, names: Iterable[str]) -> list[Any]:
-        """Return the descriptors of several parameters."""
+        """Return the ParameterDescriptor messages of several parameters."""
         return [self.describe_parameter(name) for name in names]
 
     def list_parameters(self, prefixes: Sequence[str], depth: int = 0) -> Any:
-        """Return the names of the parameters below some prefixes; of all if the list is empty.
+        """Return the names of parameters in a ListParametersResult message.
 
-        `depth` is the number of levels to list below a prefix; 0 lists all levels.
+        Args:
+            prefixes: Prefixes of the names to list; [] for all names.
+            depth: Number of levels, separated by dots, to list below a prefix; 0 for all levels.
 
         Raises:
-            TypeError: If the prefixes are not a list or tuple of strings, or depth not an integer.
+            TypeError: If `prefixes` is not a list or tuple of strings, or `depth` not an integer.
             ValueError: If the depth is negative.
         """
         if not isinstance(prefixes, (list, tuple)) or not all(
@@ -239,16 +254,20 @@ class NodeParameters:
     # Setting
 
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[Any]:
-        """Set parameters one by one; return a result for each, accepted or not.
+        """Set parameters one by one; return a SetParametersResult message for each parameter.
 
         Raises:
-            ParameterNotDeclaredException: If a parameter is not declared; those before it stay set.
+            ParameterNotDeclaredException: If a parameter is not declared; parameters earlier in the
+                list are then set.
             TypeError: If an item of the list is not a Parameter.
         """
         return [self.set_parameters_atomically([one]) for one in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Any:
-        """Set all given parameters, or none if one of them is rejected; return one result.
+        """Set all parameters in the list, or none of them if one is rejected.
+
+        Returns:
+            A SetParametersResult message.
 
         Raises:
             ParameterNotDeclaredException: If a parameter, given or added by a callback, is not
@@ -304,7 +323,7 @@ class NodeParameters:
             after(changes)
 
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
-        """Replace a declared parameter's descriptor; its name and type do not change.
+        """Replace the descriptor of a declared parameter, except its name and type.
 
         Args:
             name: Name of the parameter.
@@ -317,8 +336,8 @@ class NodeParameters:
         Raises:
             ParameterNotDeclaredException: If the parameter is not declared.
             ParameterImmutableException: If the parameter is read-only.
-            InvalidParameterValueException: If neither the old nor the alternative value fits;
-                nothing is changed then.
+            InvalidParameterValueException: If the new descriptor excludes both the old and the
+                alternative value; nothing is changed then.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None).get_parameter_value()
@@ -405,16 +424,22 @@ class NodeParameters:
         self._post_set_parameters_callbacks.remove(callback)
 
     def add_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Register a callback that may rewrite a list of changes before it is checked."""
+        """Register a callback that may rewrite a list of changes before the changes are checked."""
         self._pre_set_parameters_callbacks.append(callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Register a callback that is called with the changes after they are set."""
+        """Register a callback that is called with the changed parameters after a change."""
         self._post_set_parameters_callbacks.append(callback)
 
 
 def _is_on_step(value: float, limits: Any) -> bool:
-    """Return whether a value fits a range's step: start plus a multiple of it, or the end."""
+    """Return whether a value is allowed by the step of a range.
+
+    Args:
+        value: The value.
+        limits: Message with the range: `from_value`, `to_value` and `step`. Allowed values are
+            `from_value` plus a multiple of `step`, and `to_value`.
+    """
     if not limits.step or value == limits.to_value:
         return True
     if isinstance(value, int):
@@ -424,18 +449,22 @@ def _is_on_step(value: float, limits: Any) -> bool:
 
 
 def unused_parameters(node: NodeParameters) -> list[str]:
-    """Return a warning for each parameter with a given value that the node never declared."""
+    """Return a warning for each parameter that was set at the node's start but never declared."""
     return [undeclared(name, node._parameters) for name in node._unused_parameters]
 
 
 def set_result(successful: bool, reason: str) -> Any:
-    """Return a SetParametersResult message: success, and the reason of a rejection."""
+    """Return a SetParametersResult message with `successful` and the reason of a rejection."""
     kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
     return kind(successful=successful, reason=reason)
 
 
 def _checked_descriptor(descriptor: Any) -> Any:
-    """Return the given ParameterDescriptor, or an empty one for None; raise for another type."""
+    """Return the descriptor; for None, an empty ParameterDescriptor message.
+
+    Raises:
+        TypeError: If the descriptor has another type.
+    """
     wanted: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
     if descriptor is None:
         return wanted()
@@ -449,7 +478,13 @@ def _checked_descriptor(descriptor: Any) -> Any:
 def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, Any]:
     """Return the type and the default value of a parameter to declare.
 
-    The value is None if the user gives only a type.
+    Args:
+        name: Name of the parameter.
+        declared: Default value, or a type; the returned default value is None for a type.
+        descriptor: ParameterDescriptor message.
+
+    Raises:
+        ValueError: If `declared` is not possible with this descriptor.
     """
     if isinstance(declared, INTERFACES.message("rcl_interfaces/ParameterValue")):
         if not descriptor.dynamic_typing:
@@ -490,7 +525,7 @@ def _hint(wanted: Type, value: Any) -> str:
 
 
 def teller(seat: NodeSeat) -> Callable[..., None]:
-    """Create a node's publisher of parameter events; return a function that publishes changes."""
+    """Create a node's publisher of parameter events; return a function that publishes an event."""
     kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
     publisher: Publisher = seat.keep(
         Publisher, seat, kind, PARAMETER_EVENTS, PARAMETER_EVENTS[1:], qos_profile_parameter_events
@@ -518,7 +553,7 @@ def teller(seat: NodeSeat) -> Callable[..., None]:
 
 
 def services_of(node: NodeParameters) -> Iterator[tuple[str, Any, Answer]]:
-    """Yield the services that read and set a node's parameters: name, type, handler."""
+    """Yield (name, type, handler) of the services that read and set a node's parameters."""
 
     def values(names: Sequence[str]) -> list[Any]:
         # As in ROS 2, return no values if one parameter has none.

@@ -1,4 +1,4 @@
-"""Names, types and values of parameters, as messages and in files: ROS's `rclpy.parameter`."""
+"""Parameters of rclpy.parameter: names, types and values, as messages and in files."""
 
 import array
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from tftool.world.node_parameters import SCALARS, value_message, value_of
 
 
 class ParameterType(IntEnum):
-    """Type of a parameter's value, with rcl_interfaces' numbers."""
+    """Type of a parameter's value, with the numbers of rcl_interfaces/ParameterType."""
 
     NOT_SET = 0
     BOOL = 1
@@ -30,7 +30,7 @@ class ParameterType(IntEnum):
         """Return the parameter type of a Python value.
 
         Raises:
-            TypeError: If a parameter cannot have such a value.
+            TypeError: If a parameter cannot have a value of this Python type.
         """
         if value is None:
             return cls.NOT_SET
@@ -49,7 +49,7 @@ class ParameterType(IntEnum):
         raise TypeError(f"The given value is not one of the allowed types: {value!r}")
 
     def check(self, value: Any) -> bool:
-        """Return whether a Python value is of this parameter type."""
+        """Return whether a Python value has this parameter type."""
         if self >= ParameterType.BYTE_ARRAY and isinstance(value, list | tuple) and not len(value):
             return True
         try:
@@ -63,7 +63,7 @@ Type = ParameterType
 
 @dataclass(slots=True)
 class Parameter:
-    """Name, type and value of one parameter; the type follows from the value unless given."""
+    """Name, type and value of one parameter; without `type_`, the value determines the type."""
 
     Type: ClassVar[type[ParameterType]] = ParameterType
 
@@ -81,7 +81,7 @@ class Parameter:
 
     @property
     def _value(self) -> Any:
-        """Value of the parameter, under the private name that some ROS programs read."""
+        """Value of the parameter; some ROS programs read this private attribute."""
         return self.value
 
     def get_parameter_value(self) -> Any:
@@ -101,7 +101,7 @@ class Parameter:
 
 
 def parameter_value_to_python(parameter_value: Any) -> Any:
-    """Return the Python value in a ParameterValue message; None if it is not set.
+    """Return the Python value in a ParameterValue message; None for a message without a value.
 
     Raises:
         RuntimeError: If the message's type number is unknown.
@@ -115,7 +115,7 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 def get_parameter_value(string_value: str) -> Any:
     """Parse a text as YAML, and return the value as a ParameterValue message.
 
-    For a text without a value, such as "null", the message contains the text itself.
+    For a YAML text without a value, such as "null", the value is the text itself.
     """
     value = names.yaml_value(string_value)
     return Parameter("", value=string_value if value is None else value).get_parameter_value()
@@ -130,13 +130,13 @@ def parameter_dict_from_yaml_file(
     target_nodes: list[str] | None = None,
     namespace: str = "",
 ) -> dict[str, Any]:
-    """Read a parameter file; return its parameters as messages, by name.
+    """Read a parameter file; return a mapping from names to Parameter messages.
 
     Args:
         parameter_file: Path of the YAML file.
         use_wildcard: Whether to include entries under `/**`.
         target_nodes: Names of the nodes whose parameters to return; all nodes if empty.
-        namespace: Prefix of the parameters' names.
+        namespace: Prefix for the names of the parameters.
 
     Raises:
         FileNotFoundError: If there is no such file.

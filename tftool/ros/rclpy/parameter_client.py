@@ -1,4 +1,4 @@
-"""Client of rclpy for another node's parameters, and handler of parameter change events."""
+"""Client of rclpy for the parameters of another node, and handler of parameter events."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -72,45 +72,50 @@ class AsyncParameterClient:
         depth: int | None = None,
         callback: Callback | None = None,
     ) -> Future:
-        """Request the names of the parameters below some prefixes, by default of all."""
+        """Request the names of the parameters below some prefixes; by default all names."""
         return self._ask("ListParameters", callback, prefixes=prefixes or [], depth=depth or 0)
 
     def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
-        """Request the values of some parameters."""
+        """Request the values of several parameters."""
         return self._ask("GetParameters", callback, names=names)
 
     def get_parameter_types(self, names: list[str], callback: Callback | None = None) -> Future:
-        """Request the types of some parameters."""
+        """Request the types of several parameters."""
         return self._ask("GetParameterTypes", callback, names=names)
 
     def describe_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
-        """Request the descriptors of some parameters."""
+        """Request the descriptors of several parameters."""
         return self._ask("DescribeParameters", callback, names=names)
 
     def set_parameters(self, parameters: Sequence[Any], callback: Callback | None = None) -> Future:
-        """Set parameters, given as Parameters or messages; each may be accepted or rejected."""
+        """Request to set parameters, which the other node accepts or rejects one by one.
+
+        Args:
+            parameters: Parameters, as `Parameter` objects or Parameter messages.
+            callback: Function to call with the future of the response.
+        """
         return self._ask("SetParameters", callback, parameters=_messages(parameters))
 
     def set_parameters_atomically(
         self, parameters: Sequence[Any], callback: Callback | None = None
     ) -> Future:
-        """Set all given parameters, or none if one is rejected."""
+        """Request to set all given parameters, or none of them if one is rejected."""
         return self._ask("SetParametersAtomically", callback, parameters=_messages(parameters))
 
     def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
-        """Delete parameters that were declared with dynamic typing."""
+        """Request to delete parameters, which must have been declared with dynamic typing."""
         return self.set_parameters([Parameter(name) for name in names], callback)
 
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Set the parameters of a file; some may be accepted and others rejected."""
+        """Request to set the parameters of a file, which are accepted or rejected one by one."""
         return self.set_parameters(_of_file(parameter_file, use_wildcard), callback)
 
     def load_parameter_file_atomically(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Set all parameters of a file, or none if one is rejected."""
+        """Request to set all parameters of a file, or none of them if one is rejected."""
         return self.set_parameters_atomically(_of_file(parameter_file, use_wildcard), callback)
 
     def on_parameter_event(
@@ -119,7 +124,7 @@ class AsyncParameterClient:
         qos_profile: QoSProfile = qos_profile_parameter_events,
         **options: Any,
     ) -> Any:
-        """Subscribe `callback` to the changes of any node's parameters."""
+        """Subscribe to the parameter events of all nodes; return the subscription."""
         kind = INTERFACES.message("rcl_interfaces/ParameterEvent")
         return self.node.create_subscription(
             kind, PARAMETER_EVENTS, callback, qos_profile, **options
@@ -136,21 +141,21 @@ def _messages(parameters: Sequence[Any]) -> list[Any]:
 
 @dataclass(eq=False, slots=True)
 class ParameterEventCallbackHandle:
-    """Handle of a callback registered for every parameter event."""
+    """Handle of a callback that is registered for all parameter events."""
 
     callback: Callable[[Any], object]
 
 
 @dataclass(eq=False, slots=True)
 class ParameterCallbackHandle(ParameterEventCallbackHandle):
-    """Handle of a callback registered for one parameter of one node."""
+    """Handle of a callback that is registered for one parameter of one node."""
 
     parameter_name: str
     node_name: str
 
 
 class ParameterEventHandler:
-    """Handler that calls registered callbacks when parameters of any node change."""
+    """Handler that calls registered callbacks when nodes change their parameters."""
 
     def __init__(
         self,
@@ -172,7 +177,7 @@ class ParameterEventHandler:
         )
 
     def destroy(self) -> None:
-        """Unsubscribe from parameter events; no callback is called any more."""
+        """Unsubscribe from parameter events, so that no callback is called any more."""
         self.node.destroy_subscription(self.parameter_event_subscription)
 
     def _arrived(self, event: Any) -> None:
@@ -185,7 +190,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
-        """Return the message about one node's parameter in an event; None if there is none."""
+        """Return the message about one parameter of one node in an event; None if not included."""
         if event.node != node_name:
             return None
         told = ParameterEventHandler.get_parameters_from_event(event)
@@ -193,14 +198,14 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameters_from_event(event: Any) -> Iterator[Any]:
-        """Yield the messages of an event's new and changed parameters."""
+        """Yield the Parameter messages of new and changed parameters in an event."""
         yield from event.new_parameters
         yield from event.changed_parameters
 
     def add_parameter_callback(
         self, parameter_name: str, node_name: str, callback: Callable[[Any], object]
     ) -> ParameterCallbackHandle:
-        """Call `callback` with the parameter's message whenever one parameter is set."""
+        """Call `callback` with the Parameter message each time one parameter of one node is set."""
         handle = ParameterCallbackHandle(callback, parameter_name, self._resolve_path(node_name))
         # As in ROS 2, the callback registered last is called first.
         self._of_one.insert(0, handle)
@@ -209,7 +214,7 @@ class ParameterEventHandler:
     def add_parameter_event_callback(
         self, callback: Callable[[Any], object]
     ) -> ParameterEventCallbackHandle:
-        """Call `callback` with every parameter event of any node."""
+        """Call `callback` with each parameter event of all nodes."""
         handle = ParameterEventCallbackHandle(callback)
         self._of_all.insert(0, handle)
         return handle
@@ -231,9 +236,9 @@ class ParameterEventHandler:
         _remove(self._of_all, handle)
 
     def configure_nodes_filter(self, node_names: Iterable[str] | None = None) -> bool:
-        """Return whether tftool can filter parameter events by node: False if names are given.
+        """Return whether parameter events are limited to `node_names`: False if names are given.
 
-        tftool delivers the events of all nodes to this handler.
+        tftool cannot limit the events; this handler always gets the events of all nodes.
         """
         return not node_names
 

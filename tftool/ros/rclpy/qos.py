@@ -1,4 +1,7 @@
-"""Quality-of-service profiles of rclpy. Within a process only depth and durability matter."""
+"""Quality-of-service profiles of rclpy.
+
+Within one process, only depth and durability have an effect.
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
@@ -12,7 +15,7 @@ from tftool.world.endpoints import Quality, Timing, conflict
 class _Policy(IntEnum):
     @classmethod
     def short_keys(cls) -> list[str]:
-        """Return the names of all values in lower case."""
+        """Return the names of all values of this policy in lower case, such as "reliable"."""
         return [policy.name.lower() for policy in cls]
 
     @property
@@ -22,12 +25,12 @@ class _Policy(IntEnum):
 
     @classmethod
     def get_from_short_key(cls, name: str) -> int:
-        """Return the number of the value with a lower-case name."""
+        """Return the number of the value with the lower-case name `name`."""
         return cls[name.upper()].value
 
 
 class HistoryPolicy(_Policy):
-    """Whether a queue stores only its newest messages (as many as the depth), or all messages."""
+    """Rule for a queue: store only the newest messages, as many as the depth, or all messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
@@ -39,7 +42,7 @@ class HistoryPolicy(_Policy):
 
 
 class ReliabilityPolicy(_Policy):
-    """Whether every message must be delivered, or messages may be lost."""
+    """Rule for delivery: deliver every message, or allow the loss of messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_RELIABILITY_SYSTEM_DEFAULT = 0
@@ -52,7 +55,7 @@ class ReliabilityPolicy(_Policy):
 
 
 class DurabilityPolicy(_Policy):
-    """Whether late subscribers receive messages that were sent before."""
+    """Rule for late subscribers: send them earlier messages, or only new messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT = 0
@@ -65,7 +68,7 @@ class DurabilityPolicy(_Policy):
 
 
 class LivelinessPolicy(_Policy):
-    """Way in which a publisher shows that it still runs."""
+    """Rule for how a publisher shows that it is alive: automatically, or by its messages."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -81,7 +84,7 @@ QoSLivelinessPolicy = LivelinessPolicy
 
 
 class QoSPolicyKind(IntEnum):
-    """Name of one setting of a QoS profile, as a number."""
+    """Number of each policy in a QoS profile."""
 
     INVALID = 1
     DURABILITY = 2
@@ -142,7 +145,7 @@ class QoSProfile:
 
 
 def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
-    """Return tftool's form of a QoS profile.
+    """Convert a QoS profile to tftool's class for quality of service.
 
     Args:
         profile: Profile of a publisher or subscription.
@@ -171,7 +174,7 @@ def _limit(duration: Duration) -> int | None:
 
 
 class QoSCompatibility(IntEnum):
-    """Result of comparing a publisher's profile with a subscription's."""
+    """Result of the comparison of a publisher's profile with a subscription's profile."""
 
     OK = 0
     WARNING = 1
@@ -181,7 +184,11 @@ class QoSCompatibility(IntEnum):
 def qos_check_compatible(
     publisher_qos: QoSProfile, subscription_qos: QoSProfile
 ) -> tuple[QoSCompatibility, str]:
-    """Return whether two profiles are compatible, and the reason if not."""
+    """Compare a publisher's profile with a subscription's profile.
+
+    Returns:
+        Whether the profiles are compatible, and the reason if not.
+    """
     policy = conflict(
         quality_of(publisher_qos, offered=True), quality_of(subscription_qos, offered=False)
     )
@@ -203,7 +210,10 @@ def _time(length: int | None) -> Duration:
 
 
 def profile_from(quality: Quality) -> QoSProfile:
-    """Return the QoS profile of another process's endpoint, with defaults for unknown settings."""
+    """Convert tftool's class for quality of service to a QoS profile.
+
+    Settings that another process has not sent get default values.
+    """
     timing = quality.timing or Timing()
     manual = timing.is_manual
     return QoSProfile(
@@ -223,10 +233,10 @@ def profile_from(quality: Quality) -> QoSProfile:
 
 
 def profile_of(given: "QoSProfile | int") -> QoSProfile:
-    """Return the given QoS profile, or the default profile with the given depth.
+    """Return `given` if it is a QoS profile; for a depth, the default profile with this depth.
 
     Raises:
-        TypeError: If the argument is neither a profile nor a depth.
+        TypeError: If `given` is neither a profile nor an integer.
         ValueError: If the depth is negative.
     """
     if isinstance(given, QoSProfile):
@@ -263,7 +273,7 @@ qos_profile_best_available = QoSProfile(
 
 
 class QoSPresetProfiles(Enum):
-    """Preset QoS profiles of rclpy; `.value` is the profile."""
+    """Predefined QoS profiles of rclpy; the attribute `value` is the profile."""
 
     UNKNOWN = qos_profile_unknown
     DEFAULT = qos_profile_default
@@ -277,22 +287,22 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """Return the presets' names in lower case."""
+        """Return the names of the predefined profiles in lower case."""
         return [seat.lower() for seat in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:
-        """Return the preset profile with a lower-case name."""
+        """Return the predefined profile with the lower-case name `name`."""
         return cls[name.upper()].value
 
 
 class InvalidQosOverridesError(Exception):
-    """Error for a QoS profile, changed by parameters, that is invalid or rejected."""
+    """Error for parameters that make a QoS profile invalid, or that a callback rejects."""
 
 
 @dataclass(slots=True)
 class QosCallbackResult:
-    """Result of a callback that checks a QoS profile."""
+    """Result of a user's callback that accepts or rejects a QoS profile."""
 
     successful: bool = False
     reason: str = ""
@@ -300,7 +310,7 @@ class QosCallbackResult:
 
 @dataclass(slots=True)
 class QoSOverridingOptions:
-    """QoS policies that parameters may change, and the callback that checks the result."""
+    """QoS policies that parameters may change, and a callback that checks the changed profile."""
 
     policy_kinds: Sequence[QoSPolicyKind]
     _: KW_ONLY
@@ -315,7 +325,10 @@ class QoSOverridingOptions:
 
 
 def qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
-    """Return one policy of a profile as a parameter's value: a lower-case name or a number."""
+    """Return a policy of a QoS profile as the value of a parameter.
+
+    The value is a lower-case name, a number of messages, or a number of nanoseconds.
+    """
     value = getattr(qos, policy.name.lower())
     if isinstance(value, Duration):
         return value.nanoseconds
@@ -325,10 +338,11 @@ def qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
 def declare_qos_parameters(
     entity_type: Any, node: Any, topic: str, qos: QoSProfile, options: QoSOverridingOptions
 ) -> None:
-    """Declare parameters for a topic's QoS policies, and set the profile to their values.
+    """Declare a parameter for each QoS policy in `options`; set `qos` to the parameters' values.
 
     Raises:
-        InvalidQosOverridesError: If a parameter's value is invalid, or the callback rejects it.
+        InvalidQosOverridesError: If a parameter's value is invalid, or the callback rejects the
+            profile.
     """
     sort = "publisher" if "Publisher" in entity_type.__name__ else "subscription"
     which = f"{sort}_{options.entity_id}" if options.entity_id else sort

@@ -1,9 +1,9 @@
-"""Events of rclpy.event_handler about a publisher's or subscription's counterparts.
+"""Events of rclpy.event_handler, which tell a publisher about subscriptions and vice versa.
 
-Events report matched endpoints that appear or disappear ("matched"), an incompatible quality of
-service ("incompatible_qos"), silence for too long ("deadline"), and publishers that appear to have
-stopped ("liveliness"). ROS 2's other events do not occur: no message is lost, and a topic has one
-type.
+The events are: matching endpoints appear or disappear ("matched"), the quality of service of
+another endpoint is incompatible ("incompatible_qos"), no message was sent in time ("deadline"), and
+a publisher seems to have stopped ("liveliness"). ROS 2's other events do not occur in tftool,
+because no message is lost and a topic has only one type.
 """
 
 import asyncio
@@ -20,11 +20,11 @@ from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 
 
 class UnsupportedEventTypeError(Exception):
-    """Error for an event type that is not supported."""
+    """Error of rclpy for a type of event that a middleware does not support."""
 
 
 class QoSPublisherEventType(IntEnum):
-    """Type of a publisher's event, with ROS 2's numbers."""
+    """Types of events of a publisher, with ROS 2's numbers."""
 
     RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
     RCL_PUBLISHER_LIVELINESS_LOST = 1
@@ -34,7 +34,7 @@ class QoSPublisherEventType(IntEnum):
 
 
 class QoSSubscriptionEventType(IntEnum):
-    """Type of a subscription's event, with ROS 2's numbers."""
+    """Types of events of a subscription, with ROS 2's numbers."""
 
     RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0
     RCL_SUBSCRIPTION_LIVELINESS_CHANGED = 1
@@ -45,14 +45,14 @@ class QoSSubscriptionEventType(IntEnum):
 
 
 class QoSCountInfo(NamedTuple):
-    """Total count of an event, and its change since the last report."""
+    """Number of times that an event has occurred, and the change since the last report."""
 
     total_count: int = 0
     total_count_change: int = 0
 
 
 class QoSLivelinessChangedInfo(NamedTuple):
-    """Numbers of publishers that are alive and not alive, and their changes."""
+    """Numbers of publishers that are alive and not alive, and the changes since the last report."""
 
     alive_count: int = 0
     not_alive_count: int = 0
@@ -61,7 +61,7 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSIncompatibleInfo(NamedTuple):
-    """Number of incompatible endpoints, and the policy that excludes the last one."""
+    """Number of incompatible endpoints, its change, and the policy that excludes the last one."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -69,7 +69,7 @@ class QoSIncompatibleInfo(NamedTuple):
 
 
 class QoSMatchedInfo(NamedTuple):
-    """Number of matched endpoints, since the start and at present, and their changes."""
+    """Numbers of matched endpoints since the start and at present, each with the change."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -82,7 +82,7 @@ Told = Callable[[Any], object] | None
 
 @dataclass(slots=True)
 class PublisherEventCallbacks:
-    """Callbacks for a publisher's events; None for events to ignore."""
+    """Callbacks for the events of a publisher; None to ignore an event."""
 
     incompatible_qos: Told = None
     liveliness: Told = None
@@ -94,7 +94,7 @@ class PublisherEventCallbacks:
 
 @dataclass(slots=True)
 class SubscriptionEventCallbacks:
-    """Callbacks for a subscription's events; None for events to ignore."""
+    """Callbacks for the events of a subscription; None to ignore an event."""
 
     incompatible_qos: Told = None
     liveliness: Told = None
@@ -106,14 +106,15 @@ class SubscriptionEventCallbacks:
 
 
 class Silence:
-    """Timer that reports when no message or sign of life has come for too long."""
+    """Timer that calls a function when nothing has been recorded for longer than a limit."""
 
     def __init__(self, seat: NodeSeat, limit: int | None, told: Callable[[], object]) -> None:
-        """Create the timer, which starts at the first sign of life.
+        """Create the timer; the first call of `end` starts it.
 
         Args:
             seat: tftool's state of the node, whose clock is used.
-            limit: Longest allowed silence in nanoseconds; None for no limit.
+            limit: Longest allowed time between two calls of `end`, in nanoseconds; None for no
+                limit.
             told: Function called in the event loop's thread when the limit has passed.
         """
         self._seat = seat
@@ -123,13 +124,13 @@ class Silence:
         self._timer: asyncio.Future[None] | None = None
 
     def end(self) -> None:
-        """Record a message or a sign of life; the time limit starts again."""
+        """Record a message or another sign of a living publisher; restart the time limit."""
         self._last = self._seat.world.clock.now()
         if self._timer is None and self._limit is not None:
             self._wait(self._limit)
 
     def stop(self) -> None:
-        """Stop the timer: no silence is reported any more."""
+        """Stop the timer for good."""
         if self._timer is not None:
             self._timer.cancel()
 
@@ -151,10 +152,17 @@ class Silence:
 
 
 class EndpointWatch(WorkQueue):
-    """Work queue that calls a node's callbacks for the events of one endpoint."""
+    """Work queue that calls the user's callbacks for events of one publisher or subscription."""
 
     def __init__(self, seat: NodeSeat, group: Any, own: Endpoint, wanted: Any) -> None:
-        """Watch a publisher or subscription for events; called in the event loop's thread."""
+        """Watch a publisher or subscription for events; call this in the event loop's thread.
+
+        Args:
+            seat: tftool's state of the node.
+            group: Callback group of the callbacks.
+            own: The publisher or subscription in the graph.
+            wanted: The user's callbacks.
+        """
         super().__init__(seat, group)
         self._own = own
         self._wanted = wanted
@@ -217,7 +225,7 @@ class EndpointWatch(WorkQueue):
             self._tell(self._wanted.liveliness, self._lives)
 
     def message_passed(self) -> None:
-        """Record that a message was sent or received; the deadline for the next starts now."""
+        """Record that a message was sent or received, and restart the deadline."""
         self._deadline.end()
 
     def _miss(self) -> None:
@@ -226,7 +234,7 @@ class EndpointWatch(WorkQueue):
         self._deadline.end()
 
     def lease_expired(self) -> None:
-        """Report that this publisher's liveliness lease has expired."""
+        """Report that this publisher's lease, the time it may be silent, has expired."""
         self._lost = QoSCountInfo(self._lost.total_count + 1, 1)
         self._tell(self._wanted.liveliness, self._lost)
 
@@ -235,7 +243,7 @@ class EndpointWatch(WorkQueue):
             self.put(lambda: callback(info))
 
     def withdraw(self) -> None:
-        """Stop watching the endpoint."""
+        """Stop reporting events of the publisher or subscription."""
         super().withdraw()
         self._stop()
         self._deadline.stop()

@@ -1,8 +1,8 @@
-"""State that tftool keeps for each rclpy node, shared by its publishers, timers and services.
+"""tftool's state of each rclpy node, which publishers, timers and services of the node share.
 
-A node's class belongs to the user, who may use attribute names such as `world`, `graph` or
-`entities`: so tftool's state is in one attribute, `_tftool`. The node's own attributes, such as its
-clock and parameters, are private as in rclpy.
+A node's class belongs to the user, who may choose attribute names such as `world`, `graph` or
+`entities`. tftool therefore stores its state in one attribute, `_tftool`. The node's own
+attributes, such as its clock and parameters, are private as in rclpy.
 """
 
 import asyncio
@@ -22,21 +22,21 @@ T = TypeVar("T")
 
 
 class NodeSeat:
-    """State that tftool keeps for one rclpy node, used by its entities and its executor.
+    """tftool's state of one rclpy node, for its publishers, timers and services, and its executor.
 
     Attributes:
         program: User's program that created the node.
         world: World in which the node's topics and services are.
         name: Name of the node, after renaming by `__node`.
-        namespace: Namespace of the node, without slashes at the ends.
+        namespace: Namespace of the node, without slashes at its ends.
         options: Options of `--ros-args` for the node.
         context: rclpy's context of the node.
         ros_node: The user's `Node` object.
-        executor: Executor to which the node is added; None if there is none.
+        executor: Executor that the node was added to; None if there is none.
         was_served: Whether the node was ever added to an executor.
         rosout: Publisher of the node's log messages; None if there is none.
         entities: The node's publishers, subscriptions, timers and the like, oldest first.
-        authority: Name under which the node publishes transforms.
+        authority: Name of the node as the sender of transforms.
     """
 
     def __init__(
@@ -87,7 +87,12 @@ class NodeSeat:
         return ProgramNode(self.program, name)
 
     def full(self, name: str, *, remap: bool = True, is_service: bool = False) -> str:
-        """Return a topic's or service's full name, without leading slash.
+        """Return the full name of a topic or service, without leading slash.
+
+        Args:
+            name: Name in the user's code.
+            remap: Whether to apply the node's remapping rules.
+            is_service: Whether the name is the name of a service.
 
         Raises:
             NameValidationException: If ROS 2 refuses the name.
@@ -99,7 +104,7 @@ class NodeSeat:
     # Entities of the node
 
     def require_of(self, entity: Any) -> None:
-        """Check that a publisher, timer or other entity still belongs to the node.
+        """Check that a publisher, timer or other entity has not been destroyed.
 
         Raises:
             InvalidHandle: If the entity is destroyed.
@@ -110,7 +115,7 @@ class NodeSeat:
             )
 
     def require(self) -> None:
-        """Check that the node may get new entities, that is, was not destroyed.
+        """Check that the node has not been destroyed.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -122,7 +127,7 @@ class NodeSeat:
             )
 
     def keep(self, make: Callable[..., T], *args: Any) -> T:
-        """Create an entity by `make(*args)` in the event loop's thread, and add it to the node.
+        """Call `make(*args)` in the event loop's thread, and add the resulting entity to the node.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -132,7 +137,7 @@ class NodeSeat:
         return entity
 
     def add(self, make: Callable[..., T], *args: Any) -> T:
-        """Create an entity by `make(*args)` and add it to the node.
+        """Call `make(*args)`, and add the resulting entity to the node.
 
         Call this in the event loop's thread.
         """
@@ -142,7 +147,7 @@ class NodeSeat:
         return entity
 
     def forget(self, entity: Any) -> bool:
-        """Close an entity and remove it from the node; return whether it belonged to the node."""
+        """Close an entity and remove it from the node; return False if it was not in the node."""
 
         def drop() -> bool:
             if entity not in self.entities:
@@ -154,7 +159,7 @@ class NodeSeat:
         return bool(self.program.ask(drop))
 
     def leave(self) -> None:
-        """Destroy the node with all its entities; called in the program's thread."""
+        """Destroy the node with all its entities; call this in the program's thread."""
         if not self._destroyed:
             self.program.unserved.append((self.name, self.unserved()))
             self.program.ask(self.withdraw)
@@ -162,18 +167,18 @@ class NodeSeat:
                 self.program.nodes.remove(self)
 
     def unserved(self) -> int:
-        """Count the node's callbacks, if no executor has ever served the node; else return 0."""
+        """Return the number of the node's callbacks if no executor ever had the node, else 0."""
         return 0 if self.was_served else sum(one.is_a_callback for one in self.entities)
 
     # On the loop's thread
 
     def wake(self) -> None:
-        """Wake the executor that spins the node, so that it looks for work."""
+        """Wake the node's executor, so that the executor looks for work."""
         if self.executor is not None:
             self.executor.wake()
 
     def withdraw(self) -> None:
-        """Remove the node from the world; called in the event loop's thread."""
+        """Remove the node from the world; call this in the event loop's thread."""
         if self._destroyed:
             return
         self._destroyed = True
@@ -183,9 +188,14 @@ class NodeSeat:
         self.world.remove(self._node)
 
     def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
-        """Return the latched messages of this process's publishers for a new subscription.
+        """Return earlier messages that a new subscription with durability TRANSIENT_LOCAL receives.
 
-        Each message comes with its publisher; None for the static transforms.
+        Args:
+            full: Full name of the topic.
+
+        Returns:
+            Tuples (message, publisher) for the publishers of this process; the publisher of static
+            transforms is None.
         """
         if full == "tf_static":
             transforms = self.world.static_transforms()
@@ -199,7 +209,7 @@ class NodeSeat:
     # Waiting
 
     def wait_until(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
-        """Block until `there` is true or the timeout passes; return whether it became true."""
+        """Block until the function `there` returns True; return False at the timeout."""
         if timeout_sec is not None and timeout_sec <= 0:
             timeout_sec = 0.0
         return bool(self.program.ask(lambda: self._appears(there, timeout_sec)))
@@ -228,7 +238,7 @@ def seat_of(node: Any) -> NodeSeat:
     """Return tftool's state of a user's node.
 
     Raises:
-        TypeError: If it is not a node, or its `__init__` did not call `super().__init__`.
+        TypeError: If `node` is not a node, or its `__init__` did not call `super().__init__`.
     """
     seat = getattr(node, "_tftool", None)
     if not isinstance(seat, NodeSeat):

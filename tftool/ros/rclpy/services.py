@@ -22,7 +22,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class ServiceIntrospectionState(IntEnum):
-    """Amount of data about requests and responses that a service publishes for debugging."""
+    """Amount of data about requests and responses that ROS 2 publishes for debugging."""
 
     OFF = 0
     METADATA = 1
@@ -30,7 +30,7 @@ class ServiceIntrospectionState(IntEnum):
 
 
 class ServiceEnd(WorkQueue):
-    """Base of clients and servers of a service."""
+    """Base class of clients and servers of a service."""
 
     def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
         super().__init__(seat, group)
@@ -46,7 +46,7 @@ class ServiceEnd(WorkQueue):
     def configure_introspection(
         self, clock: Any, service_event_qos_profile: Any, introspection_state: int
     ) -> None:
-        """Store the introspection state; tftool publishes no requests or responses."""
+        """Store `introspection_state`; unlike ROS 2, tftool publishes no service events."""
         self.introspection_state = ServiceIntrospectionState(introspection_state)
 
 
@@ -58,14 +58,16 @@ class Client(ServiceEnd, Requester):
         self.announce(full, kind.interface__)
 
     def is_served(self) -> bool:
-        """Return whether a server is available; called in the event loop's thread."""
+        """Return whether a server is available; call this in the event loop's thread."""
         return self.seat.world.has_service(self.full)
 
     service_is_ready = Requester.server_is_ready
     wait_for_service = Requester.wait_for_server
 
     def call_async(self, request: Any) -> Future:
-        """Send a request; return a future of the response, which arrives while an executor spins.
+        """Send a request; return a future of the response.
+
+        The future completes while an executor spins the client's node.
 
         Raises:
             TypeError: If the request is not a message of the service's Request type.
@@ -77,10 +79,10 @@ class Client(ServiceEnd, Requester):
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Send a request, and block until the response arrives.
 
-        Unlike in ROS 2 this may be called inside a callback.
+        Unlike in ROS 2, a callback may call this method.
 
         Raises:
-            TimeoutError: If the call takes longer than allowed.
+            TimeoutError: If no response arrives in `timeout_sec` seconds.
         """
         future = self.call_async(request)
         response = wait_for(self.seat, future, timeout_sec)
@@ -92,7 +94,7 @@ class Client(ServiceEnd, Requester):
         return response
 
     def remove_pending_request(self, future: Future) -> None:
-        """Stop waiting for the response of a request, given by its future."""
+        """Cancel the future that `call_async` returned for a request."""
         future.cancel()
 
     async def _call(self, request: Any) -> Any:
@@ -104,7 +106,7 @@ class Client(ServiceEnd, Requester):
 
 
 class Service(ServiceEnd):
-    """Server that responds to the requests of a service."""
+    """Server that responds to requests of a service."""
 
     def __init__(
         self,
@@ -121,7 +123,7 @@ class Service(ServiceEnd):
         self._stop = seat.world.serve(full, self.asked, kind, node=seat.authority, shares=True)
 
     async def asked(self, request: Any) -> Any:
-        """Queue a request for the executor; return a future of the response.
+        """Queue a request for the executor; return the response when the callback has run.
 
         Raises:
             TftoolError: If the queue of requests is full.
@@ -155,7 +157,7 @@ class Service(ServiceEnd):
         self.seat.program.ask(send)
 
     def withdraw(self) -> None:
-        """Stop serving; clients that wait for a response get an error."""
+        """Stop the server; clients that wait for a response get an error."""
         super().withdraw()
         self._stop()
         for answer in self._open:

@@ -97,7 +97,7 @@ Infinite = Duration(nanoseconds=_RANGE - 1)
 
 @total_ordering
 class Time:
-    """Point in time in whole nanoseconds; in a lookup, 0 means the latest time."""
+    """Point in time in whole nanoseconds; a transform lookup takes 0 as the latest time."""
 
     __slots__ = ("_clock_type", "_nanoseconds")
 
@@ -126,11 +126,11 @@ class Time:
 
     @property
     def clock_type(self) -> ClockType:
-        """Type of the clock that the time belongs to."""
+        """Type of the clock on which the time was measured."""
         return self._clock_type
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
-        """Return the time as whole seconds and remaining nanoseconds."""
+        """Return the time as (whole seconds, remaining nanoseconds)."""
         return self._nanoseconds // S_TO_NS, self._nanoseconds % S_TO_NS
 
     def __repr__(self) -> str:
@@ -180,10 +180,10 @@ class Time:
 
 
 class Clock:
-    """Clock of ROS. All types show the same time: a simulated world has only one."""
+    """Clock of rclpy; in tftool, clocks of all types show the same time."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> "Clock":
-        """Create a clock of a type; for ROS time, a `ROSClock`."""
+        """Create a clock of the type `clock_type`; for ROS time, a `ROSClock`."""
         return super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
 
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
@@ -210,24 +210,27 @@ class Clock:
         return Time(nanoseconds=self._program.now(), clock_type=self._clock_type)
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
-        """Block until a time on this clock; return False if the program or context ended first."""
+        """Block until a time on this clock; return False if the program or context ends earlier."""
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
         return self._sleep(until.nanoseconds - self.now().nanoseconds, context)
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
-        """Block for a duration; return False if the program or context ended first."""
+        """Block for a duration; return False if the program or context ends earlier."""
         return self._sleep(rel_time.nanoseconds, context)
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block for nanoseconds of this clock; return False if the sleep ended early."""
+        """Block for nanoseconds on this clock; return False if the sleep ends earlier."""
         _require_started(context)
         return self._block(duration, context)
 
     def _block(
         self, duration: int, context: Any, is_over: Callable[[], bool] = lambda: False
     ) -> bool:
-        """Block for nanoseconds, or until `is_over`; return False if program or context ended."""
+        """Block for nanoseconds of tftool's clock, or until `is_over` returns True.
+
+        Return False if the program or the context ends earlier.
+        """
 
         def has_ended() -> bool:
             return context is not None and not context.ok()
@@ -247,10 +250,10 @@ class Clock:
         pre_callback: Callable[[], object] | None = None,
         post_callback: "Callable[[TimeJump], object] | None" = None,
     ) -> "JumpHandle":
-        """Register callbacks for jumps of this clock; only a clock with a time source jumps.
+        """Register callbacks for jumps of this clock; only a clock set by a `TimeSource` jumps.
 
         Raises:
-            ValueError: If neither callback is given.
+            ValueError: If both callbacks are None.
         """
         if pre_callback is None and post_callback is None:
             raise ValueError("One of pre_callback or post_callback must be callable")
@@ -261,13 +264,13 @@ class Clock:
 
 
 def _require_started(context: Any) -> None:
-    """Raise NotInitializedException if a context is given that is not initialised."""
+    """Raise NotInitializedException if the context is given but not initialised."""
     if context is not None and not context.ok():
         raise NotInitializedException
 
 
 class ROSClock(Clock):
-    """Clock of ROS time, which every node has; a `TimeSource` may set its time."""
+    """Clock of ROS time, which every node has; a `TimeSource` can set the clock."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> "ROSClock":
         """Create a clock of ROS time."""
@@ -281,15 +284,15 @@ class ROSClock(Clock):
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether this clock shows simulated time or the time of a time source."""
+        """Whether this clock shows simulated time, or a time set by a `TimeSource`."""
         return super().ros_time_is_active if self._is_overridden is None else self._is_overridden
 
     def now(self) -> Time:
-        """Return the present time, or the last time set by an active time source."""
+        """Return the present time; with an active `TimeSource`, the time that it set last."""
         return self._override if self._is_overridden else super().now()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Switch between the time source's time and the world's; the time source calls this."""
+        """Switch between the time set by a `TimeSource` and tftool's time."""
         if enabled is bool(self._is_overridden):
             self._is_overridden = enabled
             return
@@ -298,7 +301,7 @@ class ROSClock(Clock):
             self._is_overridden = enabled
 
     def set_ros_time_override(self, time: Time) -> None:
-        """Set the time that the clock shows while its time source is active.
+        """Set the time that the clock shows while a `TimeSource` is active.
 
         Raises:
             TypeError: If the argument is not a Time.
@@ -316,7 +319,10 @@ class ROSClock(Clock):
             self._override = override
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block for nanoseconds of this clock; return False if its time source was switched."""
+        """Block for nanoseconds on this clock; return False if the sleep ends earlier.
+
+        Switching a `TimeSource` on or off ends the sleep.
+        """
         _require_started(context)
         until, is_changed = super().now().nanoseconds + duration, False
         if self._is_overridden:
@@ -340,7 +346,7 @@ class ROSClock(Clock):
 
     @contextmanager
     def _jumping(self, jump: "TimeJump") -> Iterator[None]:
-        """Call the registered jump callbacks before and after the jump made in this block."""
+        """Call the registered callbacks before and after the jump that the `with` block makes."""
         handles = [one for one in self._jump_handles if one.concerns(jump)]
         for handle in handles:
             handle.call_before()
@@ -350,7 +356,7 @@ class ROSClock(Clock):
 
 
 class ClockChange(IntEnum):
-    """Kind of a time jump: whether the clock was switched to its time source or away from it."""
+    """Kind of a clock's jump: a `TimeSource` was switched on or off, or set another time."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -360,7 +366,7 @@ class ClockChange(IntEnum):
 
 @dataclass(kw_only=True, eq=False)
 class JumpThreshold:
-    """Smallest jump of a clock for which a callback is called."""
+    """Smallest jump of a clock at which a callback is called."""
 
     min_forward: Duration | None
     min_backward: Duration | None
@@ -377,14 +383,14 @@ class JumpThreshold:
 
 @dataclass(eq=False)
 class TimeJump:
-    """One jump of a clock: its length, and whether the jump switched the clock's source."""
+    """Jump of a clock: its kind, and its length in time."""
 
     clock_change: ClockChange
     delta: Duration
 
 
 class JumpHandle:
-    """Registration of callbacks for a clock's jumps; the oldest registration is called first."""
+    """Registration of callbacks for jumps of a clock; the oldest registration is called first."""
 
     def __init__(
         self,
@@ -399,7 +405,7 @@ class JumpHandle:
         siblings.append(self)
 
     def concerns(self, jump: TimeJump) -> bool:
-        """Return whether a jump reaches this registration's threshold."""
+        """Return whether a jump is large enough for this registration's threshold."""
         least, most = self._threshold.min_forward, self._threshold.min_backward
         changes = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
         return (
@@ -421,7 +427,7 @@ class JumpHandle:
 
 
 class Rate:
-    """Timer for a loop, whose `sleep` makes the loop run at a fixed rate."""
+    """Timer for a loop: its method `sleep` makes the loop run at a fixed rate."""
 
     def __init__(self, seat: Any, timer: Any) -> None:
         self.timer = timer
@@ -459,7 +465,7 @@ class Rate:
             raise ROSInterruptException
 
     def destroy(self) -> None:
-        """Destroy the rate, and wake the threads that sleep in it."""
+        """Destroy the rate, and wake the threads that are blocked in `sleep`."""
         self.timer.destroy()
 
     def _end(self) -> None:

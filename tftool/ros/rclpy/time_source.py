@@ -1,7 +1,7 @@
-"""Class TimeSource of rclpy.time_source, which sets clocks to the times of the topic `/clock`.
+"""Class TimeSource of rclpy.time_source, which sets clocks to the times on the topic `/clock`.
 
-A node's own clock needs no `TimeSource`: it shows tftool's time. Mostly tests create a
-`TimeSource`; the parameter `use_sim_time` of its node switches the source on.
+A node's own clock needs no `TimeSource`, because it shows tftool's time. Programs rarely create a
+`TimeSource`; tests do. The parameter `use_sim_time` of the attached node switches it on.
 """
 
 from typing import Any
@@ -18,7 +18,7 @@ USE_SIM_TIME_NAME = "use_sim_time"
 
 
 class TimeSource:
-    """Source that sets attached clocks from `/clock` while its node's `use_sim_time` is true."""
+    """Source that sets clocks to the times on `/clock` while its node's `use_sim_time` is true."""
 
     def __init__(self, *, node: Any = None) -> None:
         self._node: Any = None
@@ -31,7 +31,7 @@ class TimeSource:
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether the attached clocks follow `/clock`."""
+        """Whether the attached clocks show the times on `/clock`."""
         return self._ros_time_is_active
 
     @ros_time_is_active.setter
@@ -85,17 +85,17 @@ class TimeSource:
         node.add_on_set_parameters_callback(self._on_parameters)
 
     def detach_node(self) -> None:
-        """Detach the node, if any, and stop following `/clock`."""
+        """Detach the node, if there is one, and unsubscribe from `/clock`."""
         if self._node is not None:
             self._node.remove_on_set_parameters_callback(self._on_parameters)
         self._unsubscribe()
         self._node = None
 
     def attach_clock(self, clock: Any) -> None:
-        """Add a clock that this source sets.
+        """Add a clock that this time source sets.
 
         Raises:
-            ValueError: If the clock is not of ROS time.
+            ValueError: If the clock is not a clock of ROS time.
         """
         if not isinstance(clock, ROSClock):
             raise ValueError("Only clocks with type ROS_TIME can be attached.")

@@ -1,4 +1,4 @@
-"""Publishers and subscriptions of rclpy, and conversion of messages to bytes and back."""
+"""Publishers and subscriptions of rclpy, and conversion between messages and bytes."""
 
 from collections import deque
 from collections.abc import Callable
@@ -22,7 +22,7 @@ from tftool.world.world import TransformMessage
 
 
 def serialize_message(message: Any) -> bytes:
-    """Return a message in ROS 2's serialised form (CDR).
+    """Return a message as bytes in ROS 2's serialised form (CDR).
 
     Raises:
         TypeError: If the object is not a message.
@@ -33,16 +33,19 @@ def serialize_message(message: Any) -> bytes:
 
 
 def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
-    """Return the message of a type that some bytes in ROS 2's serialised form contain.
+    """Convert bytes in ROS 2's serialised form (CDR) to a message of the class `message_type`.
 
     Raises:
-        MalformedMessage: If the bytes are not a message of that type.
+        MalformedMessage: If the bytes are not a message of this class.
     """
     return codec(message_type).decode(bytes(serialized_message))
 
 
 class TopicEnd(NodeEntity):
-    """Base of publishers and subscriptions; `endpoint` is the entry in the graph."""
+    """Base class of publishers and subscriptions.
+
+    The attribute `endpoint` is the publisher's or subscription's entry in the graph.
+    """
 
     event_watch: EndpointWatch | None = None
     _leave: Callable[[], None]
@@ -86,7 +89,7 @@ class TopicEnd(NodeEntity):
         return f"/{self.full}"
 
     def withdraw(self) -> None:
-        """Remove the entry from the graph; no message is sent or received any more."""
+        """Remove the publisher or subscription from the graph."""
         super().withdraw()
         self._leave()
         if self.event_watch is not None:
@@ -94,7 +97,7 @@ class TopicEnd(NodeEntity):
 
 
 class Publisher(TopicEnd):
-    """Publisher that sends messages on a topic; `endpoint` is its entry in the graph."""
+    """Publisher, which sends messages on a topic."""
 
     def __init__(
         self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
@@ -109,10 +112,10 @@ class Publisher(TopicEnd):
         self._leave = seat.world.endpoints.add(self.endpoint)
 
     def publish(self, msg: Any) -> None:
-        """Send a message, given as an object or in serialised form.
+        """Send a message, given as an object or as bytes in serialised form.
 
         Raises:
-            TypeError: If the message has another type.
+            TypeError: If the message is not of the publisher's type.
             InvalidHandle: If this publisher is destroyed.
         """
         if self._withdrawn:
@@ -149,7 +152,7 @@ class Publisher(TopicEnd):
         return count
 
     def assert_liveliness(self) -> None:
-        """Report that this publisher is alive, for subscribers that require such reports."""
+        """Report that this publisher is alive, for liveliness MANUAL_BY_TOPIC."""
         self.seat.program.ask(self._be_alive)
 
     def _be_alive(self) -> None:
@@ -163,11 +166,11 @@ class Publisher(TopicEnd):
             self.event_watch.lease_expired()
 
     def wait_for_all_acked(self, timeout: Any = None) -> bool:
-        """Return True at once: `publish` returns only after delivery in this process."""
+        """Return True at once, because `publish` returns only after delivery in this process."""
         return True
 
     def withdraw(self) -> None:
-        """Remove the publisher from the graph, and drop messages stored for late subscribers."""
+        """Remove the publisher from the graph; drop messages stored for late subscribers."""
         self._withdrawn = True
         if self._lease is not None:
             self._lease.stop()
@@ -175,9 +178,9 @@ class Publisher(TopicEnd):
 
 
 class MessageInfo(TypedDict):
-    """Times (nanoseconds) and sequence numbers of a message.
+    """Times in nanoseconds and sequence numbers of a received message.
 
-    A subscription's callback with two arguments gets this as its second argument.
+    If a subscription's callback has two arguments, the second argument is a MessageInfo.
     """
 
     source_timestamp: int
@@ -187,7 +190,7 @@ class MessageInfo(TypedDict):
 
 
 class Subscription(TopicEnd):
-    """Subscription that receives a topic's messages; `endpoint` is its entry in the graph."""
+    """Subscription, which receives messages on a topic."""
 
     is_a_callback = True
 
@@ -232,11 +235,11 @@ class Subscription(TopicEnd):
                 self.event_watch.message_passed()
 
     def ready(self) -> bool:
-        """Return whether a received message waits for the executor."""
+        """Return whether the queue contains a received message."""
         return bool(self._queue)
 
     def take(self) -> Work:
-        """Remove the oldest received message; return a call of the callback with it."""
+        """Remove the oldest message from the queue; return a function that calls the callback."""
         stamp, value = self._queue.popleft()
 
         def work() -> Any:
@@ -258,17 +261,17 @@ class Subscription(TopicEnd):
         return work
 
     def withdraw(self) -> None:
-        """Unsubscribe from the topic, and drop received messages."""
+        """Unsubscribe from the topic, and drop the queued messages."""
         super().withdraw()
         self._stop()
         self._queue.clear()
 
 
 class RosoutPublisher(Publisher):
-    """Publisher of one node's log messages on /rosout.
+    """Publisher of a node's log messages on /rosout.
 
     Attributes:
-        logger: The name of the node's logger.
+        logger: Name of the node's logger.
     """
 
     def __init__(self, seat: NodeSeat, logger: str, profile: QoSProfile | None) -> None:
@@ -276,7 +279,7 @@ class RosoutPublisher(Publisher):
 
         Args:
             seat: tftool's state of the node.
-            logger: Name of the node's logger, with which the names of its child loggers begin.
+            logger: Name of the node's logger; names of its child loggers begin with this name.
             profile: Quality of service; None for ROS 2's default.
         """
         kind: Any = INTERFACES.message("rcl_interfaces/Log")
@@ -284,7 +287,7 @@ class RosoutPublisher(Publisher):
         self.logger = logger
 
     def speaks_for(self, logger: str) -> bool:
-        """Return whether a logger is the node's logger or a child of it."""
+        """Return whether a logger is the node's logger or a child of the node's logger."""
         return logger == self.logger or logger.startswith(f"{self.logger}.")
 
     def tell(self, level: int, logger: str, text: str, place: tuple[str, str, int]) -> None:
@@ -294,7 +297,7 @@ class RosoutPublisher(Publisher):
             level: Severity of the message.
             logger: Name of the logger.
             text: The message.
-            place: File, function and line that logs.
+            place: File, function and line number of the code that logs.
         """
         file, function, line = place
         message = self.msg_type(
@@ -310,5 +313,5 @@ class RosoutPublisher(Publisher):
 
 
 def _room(profile: QoSProfile) -> int | None:
-    """Return how many messages a queue with this profile stores; None for no limit."""
+    """Return the largest number of messages in a queue with this profile; None for no limit."""
     return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)

@@ -1,4 +1,4 @@
-"""Functions of rclpy that validate and expand names of topics, services, nodes and parameters."""
+"""Functions of rclpy that validate or expand names of topics, services, nodes and parameters."""
 
 from collections.abc import Callable
 
@@ -17,12 +17,12 @@ HIDDEN_TOPIC_PREFIX = "_"
 
 
 def topic_or_service_is_hidden(name: str) -> bool:
-    """Return whether a part of a name begins with an underscore, so that lists leave it out."""
+    """Return whether a part of a name begins with "_"; ROS 2 omits such names from lists."""
     return any(part.startswith(HIDDEN_TOPIC_PREFIX) for part in name.split("/"))
 
 
 def validate_node_name(node_name: str) -> bool:
-    """Return True if a node name is valid; else raise.
+    """Return True if a node name is valid; otherwise raise an error.
 
     Raises:
         InvalidNodeNameException: If ROS 2 refuses the name.
@@ -31,7 +31,7 @@ def validate_node_name(node_name: str) -> bool:
 
 
 def validate_namespace(namespace: str) -> bool:
-    """Return True if an absolute namespace is valid; else raise.
+    """Return True if an absolute namespace is valid; otherwise raise an error.
 
     Raises:
         InvalidNamespaceException: If ROS 2 refuses the namespace.
@@ -40,7 +40,9 @@ def validate_namespace(namespace: str) -> bool:
 
 
 def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """Return True if a topic or service name, not yet expanded, is valid; else raise.
+    """Return True if a topic or service name is valid; otherwise raise an error.
+
+    The name may be relative, or private ("~/x"), and may contain substitutions such as "{node}".
 
     Raises:
         InvalidTopicNameException: If the name is not a valid topic name.
@@ -51,7 +53,7 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
 
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """Return True if a full topic or service name is valid; else raise.
+    """Return True if a full topic or service name is valid; otherwise raise an error.
 
     Raises:
         InvalidTopicNameException: If the name is not a valid topic name.
@@ -63,7 +65,7 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
 
 
 def validate_parameter_name(name: str) -> bool:
-    """Return True if a parameter name is valid; else raise.
+    """Return True if a parameter name is valid; otherwise raise an error.
 
     Raises:
         InvalidParameterException: If ROS 2 refuses the name.
@@ -74,7 +76,7 @@ def validate_parameter_name(name: str) -> bool:
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
-    """Return a topic's full name, with a leading slash.
+    """Return the full name of a topic in a node, with a leading slash.
 
     Raises:
         NameValidationException: If the topic, node name or namespace is not valid.
