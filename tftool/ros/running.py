@@ -1,4 +1,4 @@
-"""Running of users' programs in a world, for the commands `run` and `launch`."""
+"""Functions of the commands `run` and `launch` that run users' programs in a world."""
 
 import asyncio
 from collections.abc import Callable, Iterator, Sequence
@@ -27,11 +27,16 @@ TURTLE_TOPICS = frozenset(("turtle1/cmd_vel", "turtle1/pose", "turtle1/color_sen
 
 
 def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
-    """Raise an error if `start_program` would refuse these arguments; no world is needed.
+    """Raise an error if `start_program` would reject the same arguments.
+
+    Args:
+        workspace: Workspace in which packages are searched.
+        target: Path of a file, or name of a package.
+        rest: Further words of the command line; for a package, the executable first.
 
     Raises:
-        UsageError: If no executable is given, or it does not exist, or the part after
-            `--ros-args` is malformed.
+        UsageError: If no executable is given, if there is no such executable, or if the part
+            after `--ros-args` is malformed.
         InputError: If the file cannot be read or is not valid Python.
     """
     words = rest
@@ -68,7 +73,7 @@ def start_program(
     on_exit: Callable[[Program], object],
     name: str = "",
 ) -> str:
-    """Start a node's file, or an executable of a package, in a world.
+    """Start a Python file, or an executable of a package, as a program of a world.
 
     Args:
         world: World to join.
@@ -112,7 +117,7 @@ def start_program(
 
 
 def tell_unfound(workspace: Workspace, file: Path | None) -> str:
-    """Return a line with one reason why ROS 2 would not find a node or launch file.
+    """Return a sentence with the first reason why ROS 2 would not find a node or launch file.
 
     Return "" if ROS 2 would find the file.
     """
@@ -126,7 +131,13 @@ def tell_unfound(workspace: Workspace, file: Path | None) -> str:
 
 
 def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> Path | None:
-    """Return the file of a user's executable in a package; None for any other program."""
+    """Return the Python file of an executable in a user's package; None for all other targets.
+
+    Args:
+        workspace: Workspace in which packages are searched.
+        target: Path of a file, or name of a package.
+        rest: Further words of the command line; for a package, the executable first.
+    """
     package = None if is_file(target) or not rest else workspace.packages.get(target)
     if package is None:
         return None
@@ -137,12 +148,12 @@ def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> P
 
 
 def driven_turtle(words: Sequence[str]) -> str:
-    """Return the name of the turtle that turtle_teleop_key drives when given some arguments.
+    """Return the name of the turtle that turtle_teleop_key drives with the arguments `words`.
 
-    The program publishes on `turtle1/cmd_vel`, or on another topic if `--ros-args` remaps this one.
+    turtle_teleop_key publishes on `turtle1/cmd_vel`, unless `--ros-args` remaps this topic.
 
     Raises:
-        UsageError: If the arguments are malformed, or the other topic is not a turtle's `cmd_vel`.
+        UsageError: If the arguments are malformed, or the topic is not the `cmd_vel` of a turtle.
     """
     options, _ = names.parse(words)
     namespace = (options.namespace or "").strip("/")
@@ -158,24 +169,24 @@ def driven_turtle(words: Sequence[str]) -> str:
 
 
 class TurtlesOnDemand:
-    """Starter of a simulated turtlesim in a world, as soon as a program uses turtles."""
+    """Starter that adds a simulated turtlesim to a world when a program first needs turtles."""
 
     def __init__(self, world: World) -> None:
         self._world = world
         self._is_asked = False
 
     def host_from_program(self) -> None:
-        """Start turtlesim from a program's thread, unless turtles are simulated already."""
+        """Start turtlesim, unless the world already has one; call this in a program's thread."""
         program.current().ask(self.host)
 
     def host_for_topics(self) -> None:
-        """Start turtlesim if a program uses a topic of the first turtle."""
+        """Start turtlesim if a program uses a topic of the turtle `turtle1`."""
         if not self._is_asked and TURTLE_TOPICS & self._world.topics().keys():
             # Not at once, because the world is just adding the topic.
             asyncio.get_running_loop().call_soon(self.host)
 
     def host(self) -> None:
-        """Start turtlesim unless turtles are simulated already; called in the loop's thread."""
+        """Start turtlesim, unless the world has one; call this in the event loop's thread."""
         if self._is_asked:
             return
         self._is_asked = True
@@ -187,7 +198,7 @@ class TurtlesOnDemand:
 
 
 def advice(world: World) -> Iterator[str]:
-    """Yield advice about the transform lookups of each program in a world."""
+    """Yield hints about the transform lookups of the programs in a world."""
     for one in world.nodes:
         if isinstance(one, Program):
             told = filter(None, (sum_up() for sum_up in one.advice))
@@ -195,7 +206,7 @@ def advice(world: World) -> Iterator[str]:
 
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
-    """Wait until an event is set, at most for a duration in nanoseconds."""
+    """Wait until the event `over` is set, at most `limit` nanoseconds; None for no limit."""
     if limit is None:
         await over.wait()
         return
@@ -213,19 +224,19 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
 
 
 class Ending:
-    """End of a run: the program that ended, and an event for it."""
+    """Record of the program whose end ends a run, with an event for the end."""
 
     def __init__(self) -> None:
         self.program: Program | None = None
         self.over: asyncio.Event = asyncio.Event()
 
     def __call__(self, program: Program) -> None:
-        """Store the program that has ended, and set the event."""
+        """Store the program that has ended, and set the event `over`."""
         self.program = program
         self.over.set()
 
     def judge(self) -> int:
-        """Return the exit status of the run: the ended program's, or 0.
+        """Return the exit status of the run; 0 if no program has ended.
 
         Raises:
             NodeFailed: If the program raised an exception.
@@ -250,7 +261,7 @@ def status_of(program: Program) -> int:
 
 
 class ProgramFailed(NodeFailed):
-    """Error for a program that raised an exception; the text shows the user's line."""
+    """Error for a program that raised an exception; the text has the line of the user's code."""
 
     def __init__(self, name: str, error: BaseException) -> None:
         super().__init__(name, error)

@@ -1,7 +1,7 @@
-"""Unit tests of ROS nodes without ROS, on simulated time.
+"""World for unit tests of ROS nodes, without ROS and on simulated time.
 
-The test itself is a program in the simulated world: no time passes between its calls, and
-`rclpy.spin_once(node, timeout_sec=10.0)` takes no real time.
+The test is itself a program in the simulated world. No simulated time passes between the test's
+calls, and `rclpy.spin_once(node, timeout_sec=10.0)` takes no real time.
 """
 
 import threading
@@ -22,12 +22,12 @@ from tftool.world.world import World
 
 
 class RosRuntime:
-    """Simulated world whose event loop runs in a second thread; a context manager.
+    """Context manager with a simulated world, whose event loop runs in a second thread.
 
     Attributes:
         clock: Simulated clock of the world, which starts at 1000 s.
         world: World of the nodes.
-        program: Program as which the test itself runs in the world.
+        program: Program in the world that represents the test.
     """
 
     def __init__(self) -> None:
@@ -57,7 +57,7 @@ class RosRuntime:
             raise self._failure
 
     def _ended(self) -> BaseException:
-        """Return the exception for a test that waits although the world has ended."""
+        """Return the exception to raise in a test that still waits after the end of the world."""
         failure = self.world.failure
         if failure is None:
             return EndedError("the world has ended")
@@ -71,25 +71,25 @@ class RosRuntime:
             self._failure = error
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Call `request` in the world's event loop; await the result if it is awaitable.
+        """Call `request` in the world's event loop; return the result, awaited if awaitable.
 
         Raises:
-            NodeFailed: If a program beside the test, or a node, has failed.
+            NodeFailed: If a node, or a program started by the test, has failed.
         """
         __tracebackhide__ = True
         return self.program.ask(request)
 
     def sleep(self, duration: float) -> None:
-        """Advance simulated time by `duration` seconds, running everything due meanwhile.
+        """Advance simulated time by `duration` seconds; nodes and programs run meanwhile.
 
         Raises:
-            NodeFailed: If a program beside the test, or a node, has failed.
+            NodeFailed: If a node, or a program started by the test, has failed.
         """
         __tracebackhide__ = True
         self.program.ask(lambda: self.clock.sleep(seconds(duration), Phase.WATCH))
 
     def elapsed(self) -> float:
-        """Return the simulated seconds since the start."""
+        """Return the simulated seconds since the world was created."""
         return (self.clock.now() - self.clock.epoch) / 1e9
 
     def start(
@@ -98,13 +98,13 @@ class RosRuntime:
         *argv: str,
         on_exit: Callable[[Program], object] | None = None,
     ) -> Program:
-        """Start a program beside the test: a node's file, or a function such as a module's `main`.
+        """Start a further program in the world, from a Python file or a function.
 
         Args:
-            what: Path of the file, or the function.
-            argv: Arguments after the file's name on the command line, with `--ros-args`.
-            on_exit: Function called when the program has ended in any way; without it, a program
-                that fails ends the world and fails the test.
+            what: Path of the file, or a function such as a module's `main`.
+            argv: Words of the command line after the file's name, including `--ros-args`.
+            on_exit: Function called when the program has ended for any reason. Without this
+                function, a program that fails ends the world and fails the test.
 
         Raises:
             InputError: If the file cannot be read or is not valid Python.
@@ -132,6 +132,6 @@ class RosRuntime:
         )
 
     def log(self, node: str | None = None) -> list[str]:
-        """Return the log messages so far: of all nodes, or of the node with a name."""
+        """Return the texts of the log messages so far, of the node named `node` or of all nodes."""
         records: Sequence[LogRecord] = list(self.world.log.records)
         return [record.text for record in records if node is None or record.node == node]

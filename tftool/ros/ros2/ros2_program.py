@@ -1,6 +1,6 @@
-"""Command `ros2`, a program of tftool's world like any node.
+"""Command `ros2`, which runs as a program of tftool's world, like a node.
 
-`tftool ros2 …` starts it, and launch files that execute `ros2` run it without a separate process.
+`tftool ros2 …` and launch files that execute `ros2` both run this program, in tftool's process.
 """
 
 import argparse
@@ -23,10 +23,15 @@ NAME = "_ros2cli"
 
 
 def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[], None]:
-    """Return the function of a `Program` that runs `ros2 WORDS` and prints lines by calling `show`.
+    """Return a function that runs the command line `ros2 WORDS` as a program.
+
+    Args:
+        words: Words after `ros2`.
+        workspace: Workspace in which packages are searched.
+        show: Function called with each line to print.
 
     Raises:
-        UsageError: If there is no such command, or a type in the words is not known.
+        UsageError: If there is no such command, or the command line names an unknown type.
     """
     asked = ros2_words.parse(words)
     if asked.noun in ros2_words.SESSIONLESS:
@@ -50,10 +55,10 @@ def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[]
 
 
 def _message(asked: argparse.Namespace) -> Any:
-    """Create the message that a command line describes by a type and YAML text.
+    """Create the message that a command line describes by a type and a YAML text.
 
     Raises:
-        UsageError: If the YAML text does not describe a message of the type.
+        UsageError: If the type is unknown, or the YAML text does not fit the type.
     """
     kind = {"topic": "msg", "service": "srv", "action": "action"}[asked.noun]
     asked.kind = rosidl_runtime.interface(asked.type, kind)
@@ -82,10 +87,10 @@ def _pkg_prefix(asked: argparse.Namespace, workspace: Workspace) -> str:
 
 
 def _pkg_xml(asked: argparse.Namespace, workspace: Workspace) -> str:
-    """Return the text of a package's package.xml, or of one of its tags.
+    """Return the text of a package's package.xml, or the content of one XML tag in the file.
 
     Raises:
-        UsageError: If the package has no package.xml, or that file has no such tag.
+        UsageError: If the package has no package.xml, or the file has no such tag.
     """
     file = workspace.package(asked.package).path / "package.xml"
     if not file.is_file():

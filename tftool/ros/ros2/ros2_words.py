@@ -1,4 +1,4 @@
-"""Parser of ROS 2's command line: `ros2 topic list`, `ros2 service call` and so on."""
+"""Parser of command lines of `ros2`, such as `ros2 topic list` or `ros2 service call`."""
 
 import argparse
 import math
@@ -73,7 +73,10 @@ def _count(text: str) -> int:
 
 
 def _expression(text: str) -> Callable[[Any], bool]:
-    """Return a function that evaluates a --filter expression for a message, named `m` in it."""
+    """Return a function that evaluates an expression of the option --filter for a message.
+
+    In the expression, `m` is the message.
+    """
     try:
         code = compile(text, "--filter", "eval")
     except SyntaxError as error:
@@ -111,7 +114,7 @@ _VALUES: dict[str, dict[str, Any]] = {
 
 
 class _Parser(argparse.ArgumentParser):
-    """Argument parser that reports errors as a UsageError with one sentence."""
+    """Argument parser that raises a UsageError instead of printing the usage and exiting."""
 
     def error(self, message: str) -> NoReturn:
         usage = self.format_usage().removeprefix("usage: ").strip()
@@ -119,7 +122,10 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """Parse the words after `ros2`; `noun` and `verb` of the result name the command.
+    """Parse the words after `ros2`.
+
+    Returns:
+        Parsed arguments; `noun` and `verb` name the command, such as "topic" and "list".
 
     Raises:
         UsageError: If there is no such command, or an argument or option is wrong.
@@ -129,7 +135,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def verbs() -> dict[str, list[str]]:
-    """Return the verbs of each noun of `ros2`, in the order of the help."""
+    """Return the verbs of each noun, such as "list" for "topic", in the order of the help text."""
     return _parser()[1]
 
 

@@ -1,4 +1,4 @@
-"""Commands `ros2 topic`, and functions that all commands of `ros2` use."""
+"""Commands `ros2 topic …`, and functions that the other `ros2` commands use too."""
 
 import argparse
 import itertools
@@ -37,18 +37,18 @@ PATIENCE = 10.0
 
 
 def show_lines(text: str, show: Print) -> None:
-    """Print the lines of a text."""
+    """Call `show` with each line of a text."""
     for line in text.rstrip("\n").splitlines():
         show(line)
 
 
 def listen() -> None:
-    """Wait until the nodes and topics of other processes are known."""
+    """Wait long enough to discover the nodes and topics of other processes."""
     program.current().sleep(SETTLE)
 
 
 def full_name(name: str) -> str:
-    """Return a name with a slash before it, and none behind it."""
+    """Return a name with a leading slash and without a trailing slash."""
     return f"/{name.strip('/')}"
 
 
@@ -60,13 +60,13 @@ _NAMES_AND_TYPES: dict[str, Callable[[Node], Any]] = {
 
 
 def names_and_types(node: Node, asked: argparse.Namespace) -> Any:
-    """Return (name, types) of all topics, services or actions, after time to discover them."""
+    """Wait for discovery; return (name, types) of all topics, services or actions."""
     listen()
     return _NAMES_AND_TYPES[asked.noun](node)
 
 
 def list_names(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    """Print the names of all topics, services or actions, or their number."""
+    """Print the names of all topics, services or actions; with a count option, only the number."""
     hidden = getattr(asked, f"include_hidden_{asked.noun}s", False)
     pairs = names_and_types(node, asked)
     seen = [one for one in pairs if hidden or not topic_or_service_is_hidden(one[0])]
@@ -95,10 +95,10 @@ def _topic_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _type_of_topic(node: Node, topic: str) -> str:
-    """Wait until a topic exists, and return the name of its type.
+    """Wait until a topic exists, and return the name of its message type.
 
     Raises:
-        UsageError: If the topic does not appear in time.
+        UsageError: If the topic does not appear in `PATIENCE` seconds.
     """
 
     def found() -> str:
@@ -122,7 +122,10 @@ def _wait_until(found: Callable[[], object]) -> None:
 
 
 def _wanted_quality(asked: argparse.Namespace, otherwise: QoSProfile) -> QoSProfile:
-    """Return the QoS profile of the `--qos-…` options; `otherwise` gives the other settings."""
+    """Return the QoS profile that the options `--qos-…` describe.
+
+    Settings without an option come from the profile `otherwise`.
+    """
     profile = otherwise
     if asked.qos_profile:
         profile = copy(QoSPresetProfiles[asked.qos_profile.upper()].value)
@@ -143,9 +146,9 @@ _POLICIES: dict[str, Any] = {
 
 
 def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
-    """Subscribe to a topic; call `callback` with each message that passes --filter.
+    """Subscribe to a topic; call `callback` with each message that passes the option --filter.
 
-    The QoS profile is that of the `--qos-…` options; without options, it fits the publishers.
+    The QoS profile is that of the options `--qos-…`; without options, it fits the publishers.
     """
     name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
     ends = [one.qos_profile for one in node.get_publishers_info_by_topic(full_name(asked.topic))]
@@ -198,7 +201,7 @@ def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _field(message: Any, path: str) -> Any:
-    """Return a message's field, given by a path such as "points[0].x".
+    """Return the field of a message at a path such as "points[0].x".
 
     Raises:
         UsageError: If the message has no such field.
@@ -220,9 +223,9 @@ def _measured(
     value: Callable[[Any], Any],
     tell: Callable[[list[Any]], None],
 ) -> None:
-    """Compute `value` for each message of a topic; once a second, call `tell` with the values.
+    """Call `value` for each message on a topic; once a second, call `tell` with the results.
 
-    Only the last `--window` values are used.
+    Only the results of the last `--window` messages are passed.
     """
     values: list[Any] = []
     _heard(node, asked, lambda message: values.append(value(message)))

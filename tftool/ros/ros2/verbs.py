@@ -1,4 +1,4 @@
-"""Commands `ros2 service`, `param`, `node` and `action`, and the function of each command."""
+"""Commands `ros2 service`, `param`, `node` and `action`, and a lookup of a command's function."""
 
 import argparse
 import textwrap
@@ -38,9 +38,9 @@ Verb = Callable[[Node, argparse.Namespace, Print], int | None]
 
 
 def verb_of(asked: argparse.Namespace) -> Verb:
-    """Return the function of a command: `_topic_echo` for `ros2 topic echo`, say.
+    """Return the function of a command, such as `_topic_echo` for `ros2 topic echo`.
 
-    A verb that several nouns share has one function for all: `_type` for `ros2 topic type`.
+    A command of several nouns has one function for all nouns: `_type` for `ros2 topic type`.
     """
     known = {"_list": list_names, **vars(topic_verbs), **globals()}
     found: Verb = known.get(f"_{asked.noun}_{asked.verb}") or known[f"_{asked.verb}"]
@@ -55,7 +55,10 @@ def _type(node: Node, asked: argparse.Namespace, show: Print) -> int:
 
 
 def _find(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    """Print the names whose types include the given one: "package/msg/Name" or "package/Name"."""
+    """Print the names of all topics or services that have the type given in `asked`.
+
+    The type is "package/msg/Name" or "package/Name".
+    """
     kind = asked.type
     for name, kinds in names_and_types(node, asked):
         if any(kind in (one, "/".join(one.split("/")[::2])) for one in kinds):
@@ -92,7 +95,7 @@ def _service_call(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _parameters(node: Node, name: str) -> AsyncParameterClient:
-    """Return a client for the parameters of a node.
+    """Return a client for the parameters of the node named `name`.
 
     Raises:
         UsageError: If the node's parameter services do not appear in time.
@@ -215,7 +218,7 @@ _TYPES = {
 
 
 def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    """Set a node's parameters from a file; print each, with the reason if it is rejected.
+    """Set a node's parameters from a file; print whether the node accepts each parameter.
 
     Raises:
         UsageError: If the file cannot be read, or has no parameters for the node.

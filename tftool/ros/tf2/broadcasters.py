@@ -1,6 +1,6 @@
-"""Transform listener and broadcasters of tf2_ros.
+"""Transform listeners and broadcasters of tf2_ros.
 
-A listener's transforms are inserted into its buffer at once, whether its node spins or not.
+A listener inserts each transform into its buffer on arrival, even while its node does not spin.
 """
 
 from collections.abc import Callable, Iterable
@@ -36,7 +36,10 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class TransformListener:
-    """Listener that fills a buffer from `/tf` and `/tf_static`, with earlier static transforms."""
+    """Listener that inserts the transforms on `/tf` and `/tf_static` into a buffer.
+
+    Static transforms that were sent before the listener existed are inserted too.
+    """
 
     def __init__(
         self,
@@ -93,21 +96,21 @@ class TransformListener:
         self._stops.clear()
 
     def unregister(self) -> None:
-        """Unsubscribe from both topics; the buffer is not filled any more."""
+        """Unsubscribe from both topics, so that the buffer gets no further transforms."""
         self._member.program.ask(self._stop)
 
 
 class StaticTransformListener(TransformListener):
-    """Listener that fills a buffer from `/tf_static` only."""
+    """Listener that inserts the transforms on `/tf_static` into a buffer."""
 
     def __init__(self, buffer: Buffer, node: Node, **kwargs: Any) -> None:
         super().__init__(buffer, node, static_only=True, **kwargs)
 
 
 class _Arrivals(NodeEntity):
-    """Entity that ends a `spin_once` of the node when transforms have arrived, as in ROS.
+    """Entity of a node that lets `spin_once` return when transforms arrive, as in ROS 2.
 
-    The buffer itself is filled without an executor.
+    The transforms are inserted into the buffer without this entity.
     """
 
     only_ends_spin_once = True
@@ -118,28 +121,28 @@ class _Arrivals(NodeEntity):
         self._any = False
 
     def note(self) -> None:
-        """Record that transforms have arrived; called in the event loop's thread."""
+        """Record that transforms have arrived; call this in the event loop's thread."""
         self._any = True
         executor = self.seat.executor
         if executor is not None and executor.spins_once:
             executor.wake()
 
     def ready(self) -> bool:
-        """Return whether transforms arrived since the last `take`."""
+        """Return whether transforms have arrived since the last call of `take`."""
         return self._any
 
     def take(self) -> Work:
-        """Return an empty piece of work: the transforms are already in the buffer."""
+        """Return a function that does nothing, as the transforms are already in the buffer."""
         self._any = False
         return lambda: None
 
     def withdraw(self) -> None:
-        """Unsubscribe from the topics of transforms."""
+        """Unsubscribe from the topics with transforms."""
         self._stop()
 
 
 class TransformBroadcaster:
-    """Broadcaster of moving transforms."""
+    """Broadcaster that publishes transforms on `/tf`."""
 
     _static = False
 
@@ -158,7 +161,7 @@ class TransformBroadcaster:
         timer.add_done_callback(lambda _: self._note_silence())
 
     def _note_silence(self) -> None:
-        """Log a warning if the broadcaster has sent no transforms although its node was spun."""
+        """Log a warning if the broadcaster has sent nothing although its node was spun."""
         lives = self._member in self._member.program.nodes
         if not self._has_sent and self._member.was_served and lives:
             kind = type(self).__name__
@@ -170,7 +173,7 @@ class TransformBroadcaster:
             )
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802
-        """Publish one transform or several."""
+        """Publish a TransformStamped message, or several in a list."""
         several = transform if isinstance(transform, Iterable) else [transform]
         kind = INTERFACES.message("geometry_msgs/TransformStamped")
         sent = []
@@ -190,7 +193,7 @@ class TransformBroadcaster:
         seat.world.broadcast(sent, seat.authority, static=self._static)
 
     def _note_parent(self, parent: str, child: str) -> None:
-        """Log a warning, once, if parent and child are exchanged or a child has two parents."""
+        """Log one warning per child if parent and child are swapped or a child has two parents."""
         above = self._member.world.buffer.parent
         before = above(child)
         if above(parent) == child != parent:
@@ -214,7 +217,7 @@ class TransformBroadcaster:
             self._member.program.say("WARN", self._member.authority, fault)
 
     def _judge(self, sample: TransformStamped) -> None:
-        """Log a warning, once per child, if a stamp is 0 or a rotation is probably wrong."""
+        """Log one warning per child frame if a stamp is 0 or a rotation is probably wrong."""
         now = self._member.world.clock.now()
         if not (self._static or sample.stamp) and now > seconds(1.0):
             self._report_once(
@@ -253,6 +256,6 @@ class TransformBroadcaster:
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):
-    """Broadcaster of static transforms, which late listeners receive too."""
+    """Broadcaster that publishes transforms on `/tf_static`, which later listeners receive too."""
 
     _static = True

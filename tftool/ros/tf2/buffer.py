@@ -1,7 +1,7 @@
-"""Transform buffer of tf2_ros and tf2_py, with the registries of types to transform and convert.
+"""Transform buffers of tf2_ros and tf2_py, and registries of types to transform and convert.
 
-A listener's transforms are inserted into its buffer at once, whether its node spins or not. So a
-callback can wait for a transform; it waits on tftool's clock.
+A listener inserts each transform into its buffer on arrival, even while its node does not spin. A
+callback can therefore wait for a transform; the timeout counts seconds of tftool's clock.
 """
 
 import asyncio
@@ -32,7 +32,7 @@ _convert: dict[tuple[Any, Any], Callable[[Any], Any]] = {}
 
 
 class TypeException(TransformException):
-    """Error for a message type for which no transformation is registered."""
+    """Error for a type of data for which no transformation or conversion is registered."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -40,24 +40,24 @@ class TypeException(TransformException):
 
 
 class NotImplementedException(TransformException):
-    """Error for a method that a buffer does not implement."""
+    """Error for a method that a class of buffers does not implement."""
 
     def __init__(self) -> None:
         super().__init__("CanTransform or LookupTransform not implemented")
 
 
 class TransformRegistration:
-    """Registry of the functions that transform data of a type."""
+    """Registry of functions that transform data, by the type of the data."""
 
     def print_me(self) -> None:
         """Do nothing; the method exists in ROS 2."""
 
     def add(self, key: Any, callback: Callable[[Any, Any], Any]) -> None:
-        """Register `callback(data, transform)` as the function that transforms data of a type."""
+        """Register `callback(data, transform)`, which transforms data of the type `key`."""
         _transform[key] = callback
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
-        """Return the function that transforms data of a type.
+        """Return the function that transforms data of the type `key`.
 
         Raises:
             TypeException: If no function is registered for the type.
@@ -66,30 +66,30 @@ class TransformRegistration:
 
 
 class ConvertRegistration:
-    """Registry of the functions that convert between types and messages."""
+    """Registry of functions that convert between types of data, by the types."""
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Register `callback` as the function that makes an object of a type from a message."""
+        """Register `callback`, which converts a message to an object of the type `key`."""
         _from_msg[key] = callback
 
     def add_to_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Register `callback` as the function that makes a message from an object of a type."""
+        """Register `callback`, which converts an object of the type `key` to a message."""
         _to_msg[key] = callback
 
     def add_convert(self, key: tuple[Any, Any], callback: Callable[[Any], Any]) -> None:
-        """Register `callback` as the function that converts from one type to another."""
+        """Register `callback`, which converts between the two types in `key`: (from, to)."""
         _convert[key] = callback
 
     def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Return the function that makes an object of a type from a message."""
+        """Return the function that converts a message to an object of the type `key`."""
         return _of(_from_msg, key)
 
     def get_to_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Return the function that makes a message from an object of a type."""
+        """Return the function that converts an object of the type `key` to a message."""
         return _of(_to_msg, key)
 
     def get_convert(self, key: tuple[Any, Any]) -> Callable[[Any], Any]:
-        """Return the function that converts one type to another."""
+        """Return the function that converts between the two types in `key`: (from, to)."""
         return _of(_convert, key)
 
 
@@ -101,9 +101,9 @@ def _of(registry: dict[Any, T], key: Any) -> T:
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """Convert `a` to the type `b_type` with the registered functions; copy an object of that type.
+    """Convert the object `a` to the type `b_type`; return a copy if `a` has this type.
 
-    Without a function for this pair of types, the conversion goes through a message.
+    If no function is registered for the two types, `a` is converted to a message first.
     """
     if isinstance(a, b_type):
         return copy.deepcopy(a)
@@ -118,13 +118,13 @@ NOW = Duration()
 
 
 class BufferInterface:
-    """Base of buffers, with methods that transform stamped data; subclasses implement lookups."""
+    """Base class of buffers, which transforms stamped data; subclasses implement the lookups."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
     def _look_up(self, asked: "LookupRequest", timeout: Any) -> Any:
-        """Return the requested transform; wait for it, at most for the timeout.
+        """Return the requested transform, waiting for it at most until the timeout.
 
         Raises:
             TransformException: If the transform is not available in time.
@@ -133,7 +133,7 @@ class BufferInterface:
         raise NotImplementedException
 
     def _whether(self, asked: "LookupRequest", timeout: Any) -> tuple[int, str]:
-        """Return (whether a lookup succeeds within the timeout, the reason if not)."""
+        """Return whether a lookup succeeds within the timeout, as (1, "") or (0, reason)."""
         try:
             self._look_up(asked, timeout)
         except NotImplementedException:
@@ -145,10 +145,13 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
     ) -> Any:
-        """Return the pose of source in target as a geometry_msgs TransformStamped message.
+        """Return the pose of the source frame in the target frame, as a TransformStamped message.
 
-        With a timeout, the calling thread waits for the transform, at most for that time of
-        tftool's clock.
+        Args:
+            target_frame: Frame in which the pose is expressed.
+            source_frame: Frame whose pose is requested.
+            time: Time of the pose; `Time()` for the latest.
+            timeout: Longest wait for the transform on tftool's clock, as a Duration.
 
         Raises:
             TransformException: If the transform is not available in time.
@@ -164,7 +167,15 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = NOW,
     ) -> Any:
-        """Return the pose of source at one time in target at another, via a fixed frame.
+        """Return the pose of the source frame at one time in the target frame at another time.
+
+        Args:
+            target_frame: Frame in which the pose is expressed.
+            target_time: Time of the target frame.
+            source_frame: Frame whose pose is requested.
+            source_time: Time of the source frame.
+            fixed_frame: Frame that does not move between the two times.
+            timeout: Longest wait for the transform on tftool's clock, as a Duration.
 
         Raises:
             TransformException: If the transform is not available in time.
@@ -180,7 +191,10 @@ class BufferInterface:
         timeout: Any = NOW,
         return_debug_tuple: bool = False,
     ) -> Any:
-        """Return whether a lookup would succeed; with `return_debug_tuple`, the reason too."""
+        """Return whether `lookup_transform` would succeed.
+
+        With `return_debug_tuple`, return (1, "") or (0, reason) instead.
+        """
         found = self._whether(question(target_frame, source_frame, time), timeout)
         return found if return_debug_tuple else bool(found[0])
 
@@ -194,7 +208,10 @@ class BufferInterface:
         timeout: Any = NOW,
         return_debug_tuple: bool = False,
     ) -> Any:
-        """Return whether a lookup at two times, through a fixed frame, would succeed."""
+        """Return whether `lookup_transform_full` would succeed.
+
+        With `return_debug_tuple`, return (1, "") or (0, reason) instead.
+        """
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
         found = self._whether(asked, timeout)
         return found if return_debug_tuple else bool(found[0])
@@ -202,10 +219,17 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = NOW, new_type: Any = None
     ) -> Any:
-        """Transform stamped data from the frame in its header to another frame.
+        """Transform a stamped message from the frame in its header to another frame.
+
+        Args:
+            object_stamped: Message with a header.
+            target_frame: Frame of the result.
+            timeout: Longest wait for the transform on tftool's clock, as a Duration.
+            new_type: Type to which the result is converted; None for the type of the message.
 
         Raises:
-            TypeException: If no transformation is registered for this type.
+            TypeException: If no transformation is registered for the type of the message.
+            TransformException: If the transform is not available in time.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
@@ -221,7 +245,10 @@ class BufferInterface:
         timeout: Any = NOW,
         new_type: Any = None,
     ) -> Any:
-        """Transform stamped data to another frame at another time, through a fixed frame."""
+        """Transform a stamped message to another frame at another time, through a fixed frame.
+
+        For the arguments see `transform` and `lookup_transform_full`.
+        """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         found = self.lookup_transform_full(
@@ -236,13 +263,13 @@ def _converted(result: Any, new_type: Any) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class LookupRequest:
-    """Request for the transform between two frames, at one time or at two.
+    """Request for the transform between two frames.
 
     Attributes:
         target: Frame in which the pose is expressed.
         source: Frame whose pose is requested.
-        time: Time of the source frame, in nanoseconds.
-        target_time: Time of the target frame, used with a fixed frame.
+        time: Time of the source frame, in nanoseconds; 0 for the latest.
+        target_time: Time of the target frame, in nanoseconds, for a lookup with a fixed frame.
         fixed: Frame that does not move between the two times; None for a lookup at one time.
     """
 
@@ -253,19 +280,19 @@ class LookupRequest:
     fixed: str | None = None
 
     def answer(self, frames: Frames) -> TransformStamped:
-        """Return the transform from a buffer; raise if the buffer does not have it."""
+        """Look up the transform in the buffer `frames`; raise if the lookup fails."""
         if self.fixed is None:
             return frames.lookup_transform(self.target, self.source, self.time)
         return frames.lookup_transform_full(*self._full)
 
     def why_not(self, frames: Frames) -> str:
-        """Return the reason why the lookup fails; "" if it succeeds."""
+        """Return the reason why the lookup in the buffer `frames` fails; "" if it succeeds."""
         if self.fixed is None:
             return frames.why_not(self.target, self.source, self.time)
         return frames.why_not_full(*self._full)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:
-        """Wait until the lookup succeeds; raise as soon as it never can."""
+        """Wait until the lookup succeeds; raise an error as soon as it can never succeed."""
         if self.fixed is None:
             await waiting.wait_for_transform(frames, clock, self.target, self.source, self.time)
         else:
@@ -277,7 +304,7 @@ class LookupRequest:
 
 
 def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
-    """Check the arguments of a lookup in users' code; return them as a `LookupRequest`.
+    """Check the arguments of `lookup_transform`; return a `LookupRequest`.
 
     Raises:
         TypeError: If a frame is not a string, or the time is not a Time.
@@ -289,7 +316,7 @@ def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
 def full_question(
     target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
 ) -> LookupRequest:
-    """Check the arguments of a lookup at two times; return them as a `LookupRequest`.
+    """Check the arguments of `lookup_transform_full`; return a `LookupRequest`.
 
     Raises:
         TypeError: If a frame is not a string, or a time is not a Time.
@@ -307,7 +334,7 @@ def _require_names(**frames: object) -> None:
 
 
 def stamp(time: Any) -> Stamp:
-    """Return a Time of rclpy or a builtin_interfaces message in nanoseconds.
+    """Return the nanoseconds in an rclpy Time or a builtin_interfaces Time message.
 
     Raises:
         TypeError: If the value is not a Time.
@@ -323,7 +350,7 @@ def stamp(time: Any) -> Stamp:
 
 
 def length(timeout: Any) -> int:
-    """Return a Duration of rclpy in nanoseconds.
+    """Return the nanoseconds in an rclpy Duration.
 
     Raises:
         TypeError: If the value is not a Duration.
@@ -337,10 +364,10 @@ def length(timeout: Any) -> int:
 
 
 class BufferCore:
-    """Buffer of frames and the transforms between them, without waiting.
+    """Buffer of transforms, whose lookups do not wait.
 
-    The methods that end in `_core` have the arguments of `Buffer`'s methods except the timeout, and
-    raise at once if a transform is not available.
+    The methods that end in `_core` have the arguments of `Buffer`'s methods without the timeout,
+    and raise an error at once if a transform is not available.
 
     Attributes:
         frames: tftool's buffer, which stores the transforms.
@@ -363,23 +390,33 @@ class BufferCore:
     # Inserts
 
     def set_transform(self, transform: Any, authority: str) -> None:
-        """Insert a sample of a moving transform; a rejection is logged."""
+        """Insert a transform of `/tf`; log the reason if the buffer rejects the transform.
+
+        Args:
+            transform: TransformStamped message.
+            authority: Name of the sender.
+        """
         sample = values.pack_transform(transform)
         self._ask(lambda: self.frames.set_transform(sample, authority))
 
     def set_transform_static(self, transform: Any, authority: str) -> None:
-        """Insert a static transform; a rejection is logged."""
+        """Insert a static transform; log the reason if the buffer rejects the transform.
+
+        Args:
+            transform: TransformStamped message.
+            authority: Name of the sender.
+        """
         sample = values.pack_transform(transform)
         self._ask(lambda: self.frames.set_transform_static(sample, authority))
 
     def clear(self) -> None:
-        """Drop all moving transforms; static ones stay."""
+        """Remove all transforms except static transforms."""
         self._ask(self.frames.clear)
 
     # Lookups
 
     def answer(self, asked: LookupRequest) -> Any:
-        """Look a transform up; return it as a geometry_msgs TransformStamped message."""
+        """Look up the requested transform; return a geometry_msgs TransformStamped message."""
         return values.unpack_transform(self._ask(lambda: self._looked_up(asked)))
 
     def _looked_up(self, asked: LookupRequest) -> TransformStamped:
@@ -406,7 +443,7 @@ class BufferCore:
         return reason
 
     def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
-        """Return the pose of source in target as a geometry_msgs TransformStamped message.
+        """Return the pose of the source frame in the target frame, as a TransformStamped message.
 
         Raises:
             TransformException: If the transform is not available.
@@ -414,7 +451,7 @@ class BufferCore:
         return self.answer(question(*asked, **named))
 
     def lookup_transform_full_core(self, *asked: Any, **named: Any) -> Any:
-        """Return the pose of source at one time in target at another, via a fixed frame.
+        """Return the pose of the source frame at one time in the target frame at another time.
 
         Raises:
             TransformException: If the transform is not available.
@@ -422,15 +459,15 @@ class BufferCore:
         return self.answer(full_question(*asked, **named))
 
     def can_transform_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
-        """Return (whether a lookup would succeed, the reason if not)."""
+        """Return whether `lookup_transform_core` would succeed, as (1, "") or (0, reason)."""
         return self._whether_now(question(*asked, **named))
 
     def can_transform_full_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
-        """Return (whether a lookup at two times would succeed, the reason if not)."""
+        """Return whether `lookup_transform_full_core` would succeed, as (1, "") or (0, reason)."""
         return self._whether_now(full_question(*asked, **named))
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """Return the newest time for which all edges between two frames have data."""
+        """Return the newest time at which every edge between two frames has data."""
         stamp = self._ask(lambda: self.frames.get_latest_common_time(target_frame, source_frame))
         return Time(nanoseconds=stamp)
 
@@ -455,7 +492,7 @@ class BufferCore:
 
 
 class Buffer(BufferCore, BufferInterface):
-    """Buffer of a node, with lookups that wait; a `TransformListener` fills it."""
+    """Buffer whose lookups can wait; a `TransformListener` inserts the transforms."""
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
         BufferCore.__init__(self, cache_time)
@@ -479,7 +516,7 @@ class Buffer(BufferCore, BufferInterface):
         return self._whether_now(asked)
 
     def _wait(self, asked: LookupRequest, timeout: Any) -> None:
-        """Wait for a transform that may still become available, at most for the timeout."""
+        """Wait until the lookup succeeds or can never succeed, at most until the timeout."""
         limit = length(timeout)
         if limit > 0:
             self.hints.wait()
@@ -497,15 +534,15 @@ class Buffer(BufferCore, BufferInterface):
     # Lookups that return futures
 
     def wait_for_transform_async(self, *asked: Any, **named: Any) -> Future:
-        """Return a future that completes with the transform as soon as it is available."""
+        """Return a future of the transform, which completes when the transform is available."""
         return self.promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
-        """Return a future that completes with the transform between two times when available."""
+        """Return a future of the transform between two times, which completes when available."""
         return self.promise(full_question(*asked, **named))
 
     def promise(self, asked: LookupRequest) -> Future:
-        """Return a future that completes with the requested transform once it is available."""
+        """Return a future of the requested transform, which completes when it is available."""
         future = Future(executor=self._program.executor)
         self.hints.wait()
 
@@ -535,11 +572,11 @@ class Buffer(BufferCore, BufferInterface):
         return future
 
     async def lookup_transform_async(self, *asked: Any, **named: Any) -> Any:
-        """Await a transform, and return it."""
+        """Wait until a transform is available, and return it."""
         await self.wait_for_transform_async(*asked, **named)
         return self.lookup_transform_core(*asked, **named)
 
     async def lookup_transform_full_async(self, *asked: Any, **named: Any) -> Any:
-        """Await a transform between two times, and return it."""
+        """Wait until a transform between two times is available, and return it."""
         await self.wait_for_transform_full_async(*asked, **named)
         return self.lookup_transform_full_core(*asked, **named)

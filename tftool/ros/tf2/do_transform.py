@@ -1,6 +1,6 @@
 """Functions of tf2_geometry_msgs and tf2_sensor_msgs that transform messages to another frame.
 
-They return new messages. The formulas for each kind of quantity are in
+The functions return new messages. The formula for each kind of quantity is in
 `tftool.geometry.quantities`.
 """
 
@@ -17,7 +17,7 @@ Do = TypeVar("Do", bound=Callable[[Any, Any], Any])
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """Return the given message itself: it needs no conversion."""
+    """Return the given message, which needs no conversion."""
     return msg
 
 
@@ -25,7 +25,10 @@ from_msg_msg = to_msg_msg
 
 
 def _registered(name: str) -> Callable[[Do], Do]:
-    """Register the decorated function with buffers: it transforms messages of one type."""
+    """Return a decorator that registers a function as the transformation of one message type.
+
+    Buffers then use the function for messages of the type `name`.
+    """
     kind = INTERFACES.message(name)
 
     def register(function: Do) -> Do:
@@ -82,7 +85,7 @@ def do_transform_point(point: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/Vector3Stamped")
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:
-    """Rotate a Vector3Stamped message; a translation does not change a vector."""
+    """Rotate a Vector3Stamped message by a TransformStamped, whose translation is ignored."""
     result = _headed(vector3, transform)
     _put(result.vector, carry.vector(_transform_of(transform), _xyz(vector3.vector)))
     return result
@@ -104,7 +107,7 @@ def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/PoseWithCovarianceStamped")
 def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
-    """Transform a PoseWithCovarianceStamped message, with its covariance."""
+    """Transform the pose and the covariance in a PoseWithCovarianceStamped message."""
     result = _headed(pose, transform)
     result.pose.pose = _pose(_transform_of(transform), pose.pose.pose)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
@@ -112,7 +115,7 @@ def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
 
 
 def transform_covariance(cov_in: Any, transform: Any) -> Any:
-    """Rotate a 6×6 covariance: D·C·Dᵀ with the rotation twice on D's diagonal."""
+    """Rotate a 6×6 covariance C: return D·C·Dᵀ, where D has the rotation twice on its diagonal."""
     import numpy as np
 
     return np.array(carry.covariance(_transform_of(transform), cov_in))
@@ -130,7 +133,7 @@ def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
 
 @_registered("geometry_msgs/Wrench")
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
-    """Transform a Wrench message; the force's lever arm adds to the torque."""
+    """Transform a Wrench message; the force acts on a lever arm and so adds to the torque."""
     result = duplicate(wrench)
     force, torque = carry.wrench(_transform_of(transform), _xyz(wrench.force), _xyz(wrench.torque))
     _put(result.force, force)
@@ -148,7 +151,7 @@ def do_transform_wrench_stamped(wrench: Any, transform: Any) -> Any:
 
 @_registered("sensor_msgs/PointCloud2")
 def do_transform_cloud(cloud: Any, transform: Any) -> Any:
-    """Transform the points of a PointCloud2 message; other fields and the layout stay.
+    """Transform the points of a PointCloud2 message; keep the layout and all other fields.
 
     Raises:
         AssertionError: If the cloud has no fields x, y and z.
@@ -175,7 +178,7 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
 
 
 def transform_points(point_cloud: Any, transform: Any) -> Any:
-    """Transform points, an array of shape (n, 3), by a Transform message."""
+    """Transform an array of points, shape (n, 3), by a Transform message."""
     import numpy as np
 
     points = np.asarray(point_cloud)

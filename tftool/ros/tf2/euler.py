@@ -1,7 +1,7 @@
 """Functions of tf_transformations for Euler angles, quaternions (x, y, z, w) and 4×4 matrices.
 
-`axes` is "s" (fixed axes) or "r" (rotating axes) and three letters; "sxyz" is roll, pitch, yaw.
-`tftool.geometry` computes the results.
+The argument `axes` is "s" (fixed axes) or "r" (rotating axes), followed by three axes: "sxyz" means
+roll, pitch, yaw. `tftool.geometry` computes the results.
 """
 
 import math
@@ -30,7 +30,7 @@ def _quad(quaternion: Sequence[float]) -> Quad:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quad:
-    """Return the quaternion of three Euler angles in radians."""
+    """Return the quaternion for three Euler angles in radians."""
     made = _quad(conversions.quaternion_from_euler((ai, aj, ak), axes))
     if (owner := running_program()) is not None:
         _look_for_degrees(owner, sys._getframe(1), (ai, aj, ak))
@@ -38,10 +38,10 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, float]) -> None:
-    """Log a warning, once per line of a program, for angles that look like degrees.
+    """Log a warning, once per line of a program, for Euler angles that are probably degrees.
 
-    Only the first angles of a line are checked, because an angle may grow from call to call. Only
-    multiples of 0.5 up to 360 count as degrees: 90.0 is an unlikely angle in radians.
+    Only the first call of a line is checked, because an angle in radians may grow from call to
+    call. Multiples of 0.5 up to 360 count as degrees, because 90.0 is an unlikely angle in radians.
     """
     line = (frame.f_code, frame.f_lineno)
     if line in owner.lines_with_angles:
@@ -62,25 +62,25 @@ def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, 
 def euler_from_quaternion(
     quaternion: Sequence[float], axes: str = "sxyz"
 ) -> tuple[float, float, float]:
-    """Return the three Euler angles of a quaternion, in radians."""
+    """Return the three Euler angles, in radians, for a quaternion."""
     return conversions.euler_from_quaternion(quaternion, axes)
 
 
 def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, float]:
-    """Return the three Euler angles of a rotation matrix, in radians.
+    """Return the three Euler angles, in radians, for a rotation matrix.
 
-    If several triples of angles describe the rotation (gimbal lock), the last angle is 0.
+    If several sets of angles describe the rotation (gimbal lock), the last angle is 0.
     """
     return conversions.euler_from_matrix(matrix, axes)
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Any:
-    """Return the 4×4 rotation matrix of three Euler angles in radians."""
+    """Return the 4×4 rotation matrix for three Euler angles in radians."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def quaternion_matrix(quaternion: Sequence[float]) -> Any:
-    """Return the 4×4 rotation matrix of a quaternion; the identity for a zero quaternion."""
+    """Return the 4×4 rotation matrix for a quaternion; the identity for a quaternion of zeros."""
     matrix = np.eye(4)
     turn = _quad(quaternion)
     if sum(part * part for part in turn) > _EPSILON:
@@ -89,13 +89,13 @@ def quaternion_matrix(quaternion: Sequence[float]) -> Any:
 
 
 def quaternion_from_matrix(matrix: Any) -> Quad:
-    """Return the quaternion, with w ≥ 0, of the rotation in a 4×4 matrix."""
+    """Return the quaternion, with w ≥ 0, for the rotation in a 4×4 matrix."""
     x, y, z, w = conversions.quaternion_from_matrix(np.asarray(matrix, dtype=float).tolist())
     return (-x, -y, -z, -w) if w < 0.0 else (x, y, z, w)
 
 
 def quaternion_about_axis(angle: float, axis: Sequence[float]) -> Quad:
-    """Return the quaternion of a rotation by an angle in radians about an axis."""
+    """Return the quaternion for a rotation by an angle, in radians, about an axis."""
     return _quad(conversions.quaternion_from_axis_angle(axis, angle))
 
 
@@ -118,7 +118,7 @@ def quaternion_inverse(quaternion: Sequence[float]) -> Quad:
 
 
 def quaternion_slerp(quat0: Sequence[float], quat1: Sequence[float], fraction: float) -> Quad:
-    """Interpolate between two rotations along the shorter arc."""
+    """Interpolate between two quaternions along the shorter arc; `fraction` is 0 to 1."""
     start, end = quaternions.unit(_quad(quat0)), quaternions.unit(_quad(quat1))
     return quaternions.slerp(start, end, fraction)
 
@@ -129,14 +129,14 @@ def identity_matrix() -> Any:
 
 
 def translation_matrix(direction: Sequence[float]) -> Any:
-    """Return the 4×4 matrix of a translation."""
+    """Return the 4×4 matrix for a translation."""
     matrix = np.identity(4)
     matrix[:3, 3] = direction[:3]
     return matrix
 
 
 def translation_from_matrix(matrix: Any) -> Any:
-    """Return the translation of a 4×4 matrix."""
+    """Return the translation in a 4×4 matrix, shape (3,)."""
     return np.array(matrix, dtype=float)[:3, 3].copy()
 
 
@@ -160,7 +160,7 @@ def compose_matrix(
     translate: Any = None,
     perspective: Any = None,
 ) -> Any:
-    """Return the 4×4 matrix of a rotation (roll, pitch, yaw in radians) and a translation."""
+    """Return the 4×4 matrix for a rotation (roll, pitch, yaw in radians) and a translation."""
     if scale is not None or shear is not None or perspective is not None:
         raise NotImplementedError(
             "compose_matrix supports only the arguments angles and translate here"
@@ -177,6 +177,6 @@ def vector_norm(data: Any) -> float:
 
 
 def unit_vector(data: Any) -> Any:
-    """Return a vector scaled to length one."""
+    """Return a vector scaled to length 1."""
     array = np.array(data, dtype=float)
     return array / np.linalg.norm(array)

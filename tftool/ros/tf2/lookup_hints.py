@@ -1,4 +1,4 @@
-"""Hints, logged for the user, about transform lookups that fail again and again."""
+"""Hints for the user about transform lookups that fail repeatedly."""
 
 from collections.abc import Iterator
 
@@ -26,10 +26,10 @@ ONCE = seconds(2.0)
 class LookupHints:
     """Record of the lookups in one buffer, which logs hints about repeated failures.
 
-    Each hint is logged once, as a warning of the program that looks transforms up.
+    Each hint is logged once, as a warning of the program that uses the buffer.
 
     Attributes:
-        has_listener: Whether a TransformListener fills the buffer.
+        has_listener: Whether a TransformListener inserts transforms into the buffer.
     """
 
     def __init__(self, program: Program, frames: Frames) -> None:
@@ -45,7 +45,7 @@ class LookupHints:
         program.advice.append(self.summary)
 
     def wait(self) -> None:
-        """Record that the program waits for transforms, or checks whether they are available."""
+        """Record that the program waits for transforms, or tests whether they are available."""
         self._waits = True
 
     def answer(self, target: str, source: str, time: Stamp) -> None:
@@ -58,7 +58,7 @@ class LookupHints:
             self._just_in_time += self._frames.newest_common(target, source) != 0
 
     def refuse(self, target: str, source: str, error: TransformException) -> None:
-        """Record a lookup that failed; log the reason if lookups have failed for long."""
+        """Record a lookup that failed; log the reason if lookups have failed for a long time."""
         self._asked += 1
         now = self._program.clock.now()
         since = self._refused_since.setdefault((target, source), now)
@@ -84,7 +84,7 @@ class LookupHints:
                     self._say("early", self._early_text())
 
     def look_in_vain(self, target: str, source: str) -> None:
-        """Record a check that found no transform; log the reason if checks fail for long."""
+        """Record a test (`can_transform`) that returned False; log the reason after a long time."""
         self._waits = True
         self._hint_that_nothing_arrives()
         now = self._program.clock.now()
@@ -98,7 +98,7 @@ class LookupHints:
                 pass
 
     def summary(self) -> str:
-        """Return a sentence about lookups at times newer than the data; "" if there were few."""
+        """Return a hint about lookups at times newer than the data; "" if there were few."""
         return self._early_text() if self._is_early else ""
 
     @property
@@ -116,7 +116,7 @@ class LookupHints:
         return f"{told}: use Time(), the latest, or a timeout"
 
     def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
-        """Yield each ancestor edge of two frames that has only one sample, sent long ago."""
+        """Yield the edges above two frames that have only one sample, sent long ago."""
         infos = {info.frame: info for info in self._frames.snapshot(now).frames}
         for frame in (target, source):
             seen: set[str] = set()
@@ -130,7 +130,7 @@ class LookupHints:
                 info = infos.get(info.parent)
 
     def _hint_that_nothing_arrives(self) -> None:
-        """Log the reason why the buffer stays empty while the node looks transforms up."""
+        """Log a hint why the buffer is empty, if the buffer is empty at a lookup."""
         owner = self._program
         if self._frames.frames():
             return

@@ -1,4 +1,4 @@
-"""Functions of sensor_msgs_py.point_cloud2, for a PointCloud2's points as numpy arrays."""
+"""Functions of sensor_msgs_py.point_cloud2, which convert PointCloud2 messages and numpy arrays."""
 
 import array
 from collections import namedtuple
@@ -21,7 +21,7 @@ _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"
 def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
     """Return (name, (field, index)) for each number of a point.
 
-    A field `x` with a count of 3 has three numbers, with the names x_0, x_1 and x_2.
+    A field `x` with a count of 3 has three numbers, named x_0, x_1 and x_2.
     """
     named = []
     for number, field in enumerate(fields):
@@ -37,7 +37,12 @@ def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
 def dtype_from_fields(
     fields: Iterable[Any], point_step: int | None = None, is_bigendian: bool = False
 ) -> "np.dtype[Any]":
-    """Return the structured numpy dtype of a point with the PointFields `fields`.
+    """Return the structured numpy dtype of one point.
+
+    Args:
+        fields: PointField messages.
+        point_step: Bytes from one point to the next; None if the fields have no gaps.
+        is_bigendian: Whether the numbers are big-endian.
 
     Raises:
         ValueError: If a field's datatype is unknown, or the fields are larger than a point.
@@ -65,7 +70,13 @@ def dtype_from_fields(
 
 
 def rows_of(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.NDArray[Any]:
-    """Return a cloud's data as a structured array of some fields, shape (height, width)."""
+    """Return some fields of a cloud's points as a structured array of shape (height, width).
+
+    Args:
+        cloud: PointCloud2 message, which gives the shape.
+        fields: PointField messages of the fields.
+        data: Bytes of the points.
+    """
     form = dtype_from_fields(fields, cloud.point_step, cloud.is_bigendian)
     steps = (cloud.row_step, cloud.point_step)
     return np.ndarray((cloud.height, cloud.width), form, data, 0, steps)
@@ -82,10 +93,10 @@ def read_points(
 
     Args:
         cloud: PointCloud2 message.
-        field_names: Fields to read, in this order; None for all.
+        field_names: Names of the fields to read, in this order; None for all fields.
         skip_nans: Whether to leave out points that contain a NaN.
-        uvs: Points to read: their indices, or (u, v) pairs for an organized cloud.
-        reshape_organized_cloud: Whether to return an organized cloud's points in rows.
+        uvs: Points to read: indices, or pairs (u, v) for an organized cloud; None for all points.
+        reshape_organized_cloud: Whether to return the points of an organized cloud in rows.
 
     Raises:
         AssertionError: If the message is not a PointCloud2, lacks a field or has too little data.
@@ -126,10 +137,12 @@ def read_points_numpy(
     uvs: Any = None,
     reshape_organized_cloud: bool = False,
 ) -> npt.NDArray[Any]:
-    """Return the points of a cloud as a plain array, one row per point.
+    """Return the points of a cloud as an unstructured array, one row per point.
+
+    For the arguments see `read_points`.
 
     Raises:
-        AssertionError: If the fields have different types, and in the cases of `read_points`.
+        AssertionError: If the fields have different types, or for the reasons in `read_points`.
     """
     wanted = _named(cloud.fields)
     if field_names is not None:
@@ -146,7 +159,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Any = None,
 ) -> list[Any]:
-    """Return the points of a cloud as named tuples."""
+    """Return the points of a cloud as named tuples; for the arguments see `read_points`."""
     points = read_points(cloud, field_names, skip_nans, uvs)
     kind = namedtuple("Point", points.dtype.names or ())  # type: ignore[misc]
     return [kind._make(point) for point in points.tolist()]
@@ -155,14 +168,15 @@ def read_points_list(
 def create_cloud(
     header: Any, fields: Sequence[Any], points: Any, step: int | None = None, point_step: Any = None
 ) -> Any:
-    """Return a PointCloud2 message with some points.
+    """Return a PointCloud2 message with the given points.
 
     Args:
         header: Header of the message.
         fields: PointField messages.
         points: Tuples with a number for each field, or an array: structured, or with one row per
-            point. An array of rows of points makes an organized cloud.
-        step: Bytes from one point to the next, if more than the fields need.
+            point. An array of shape (height, width, fields), or a structured array of shape
+            (height, width), makes an organized cloud.
+        step: Bytes from one point to the next; None if the fields have no gaps.
         point_step: Another name for `step`.
 
     Raises:
@@ -199,7 +213,7 @@ def create_cloud(
 
 
 def create_cloud_xyz32(header: Any, points: Any, step: int | None = None) -> Any:
-    """Return a PointCloud2 message of points with x, y and z as 32-bit floats."""
+    """Return a PointCloud2 message with points (x, y, z) as 32-bit floats."""
     field: Any = INTERFACES.message("sensor_msgs/PointField")
     fields = [
         field(name=name, offset=4 * place, datatype=field.FLOAT32, count=1)

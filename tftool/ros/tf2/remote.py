@@ -1,4 +1,4 @@
-"""Client and server of tf2_ros's action for lookups in another node's buffer."""
+"""Client and server of the action of tf2_ros for lookups in the buffer of another node."""
 
 from typing import Any
 
@@ -45,7 +45,7 @@ def _action() -> Any:
 
 
 class BufferClient(BufferInterface):
-    """Client that looks transforms up in another node's buffer, like a `Buffer`."""
+    """Client that looks up transforms in another node's buffer, with the methods of `Buffer`."""
 
     def __init__(
         self,
@@ -54,14 +54,14 @@ class BufferClient(BufferInterface):
         check_frequency: float = 10.0,
         timeout_padding: Any = _PADDING,
     ) -> None:
-        """Create a client for the buffer that another node serves.
+        """Create a client for the buffer of another node.
 
         Args:
-            node: Node that looks transforms up.
-            ns: Name of the action.
-            check_frequency: Unused: ROS 2 polls for the result, tftool awaits it.
-            timeout_padding: Additional time to wait for the result after the timeout, as a Duration
-                or in seconds.
+            node: Node that looks up transforms.
+            ns: Name of the action that the other node serves.
+            check_frequency: Ignored, because tftool does not poll for the result as ROS 2 does.
+            timeout_padding: Time to wait for the result in addition to a lookup's timeout, as a
+                Duration or in seconds.
         """
         super().__init__()
         self.node = node
@@ -70,7 +70,7 @@ class BufferClient(BufferInterface):
         self.timeout_padding = timeout_padding
 
     def destroy(self) -> None:
-        """Close the client of the action."""
+        """Destroy the action client."""
         self.action_client.destroy()
 
     def _look_up(self, asked: LookupRequest, timeout: Any) -> Any:
@@ -106,7 +106,7 @@ class BufferClient(BufferInterface):
 
 
 class BufferServer:
-    """Server that looks transforms up in a node's buffer for `BufferClient`s."""
+    """Server that lets `BufferClient`s of other nodes look up transforms in a buffer."""
 
     def __init__(
         self,
@@ -115,13 +115,13 @@ class BufferServer:
         ns: str = "tf2_buffer_server",
         check_period: Any = None,
     ) -> None:
-        """Start to serve the action.
+        """Start the action server.
 
         Args:
             buffer: Buffer with the transforms.
             node: Node that serves the action.
             ns: Name of the action.
-            check_period: Unused: ROS 2 polls for transforms, tftool is notified of them.
+            check_period: Ignored, because tftool does not poll for transforms as ROS 2 does.
         """
         self.buffer = buffer
         self.node = node
@@ -153,7 +153,7 @@ class BufferServer:
         return result
 
     async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until the future `found` is done, at most for the duration `limit`."""
+        """Wait until the future `found` is done, at most `limit`."""
         if found.done() or limit.nanoseconds <= 0:
             return
         over = Future()
@@ -170,5 +170,5 @@ class BufferServer:
             self.node.destroy_timer(timer)
 
     def destroy(self) -> None:
-        """Stop serving the action."""
+        """Destroy the action server."""
         self._server.destroy()
