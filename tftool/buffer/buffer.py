@@ -325,8 +325,8 @@ class Buffer(Door):
     ) -> "Insertion | None":
         """Insert samples that are already in the buffer's own memory layout.
 
-        If possible the rows are not copied: the buffer reads them in place, and copies them before
-        it inserts or prunes samples.
+        If possible the buffer uses the array `records` itself, and copies the array only before an
+        insertion or pruning of samples.
 
         Args:
             parent: The frame in which the poses are expressed.
@@ -352,7 +352,7 @@ class Buffer(Door):
         )
 
     def shorten(self, limit: int) -> "list[Shortened]":
-        """Drop the oldest samples of the frames with most samples until all fit into `limit`.
+        """Drop old samples of the frames with most samples, until all samples fit into `limit`.
 
         The newest two samples of a frame always stay. If samples must be dropped, a quarter more
         than necessary is dropped, so that the next calls need not drop any.
@@ -668,7 +668,7 @@ class Buffer(Door):
         )
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
-        """Return tf2's reason why `can_transform` returns false; "" if it returns true."""
+        """Return tf2's reason why `can_transform` returns false; "" if the lookup would succeed."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         reason = self._solver.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
@@ -752,7 +752,7 @@ class Buffer(Door):
         return columns.samples(self._tree, self._tree.frames[number])
 
     def frames(self) -> list[str]:
-        """Return all frame names ever received, in order of arrival; a child before its parent."""
+        """Return all frame names ever received, in order of arrival."""
         return [frame.name for frame in self._tree.frames]
 
     def frame_exists(self, frame: str) -> bool:
@@ -801,7 +801,7 @@ class Buffer(Door):
         return tuple(self._tree.authorities[one] for one in dict.fromkeys(turns))
 
     def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
-        """Return the frame names from source to target, including both; [] if they are equal.
+        """Return the frame names from source to target, inclusive; [] if both names are equal.
 
         Raises:
             TransformException: As `lookup_transform`.

@@ -1,10 +1,10 @@
 """Frames by name and number, each with the link to its parent; the parent may change over time.
 
 This module finds the links between two frames at a time, and the latest time at which all of these
-links have data. It computes no poses; `solver` does.
+links have data. The module `solver` computes poses.
 
 As in tf2, an insertion removes one leading slash of a frame name, because old publishers still send
-the slash. A lookup refuses the slash, because it is a mistake in the program.
+the slash. A lookup refuses the slash as a mistake in the calling program.
 """
 
 from collections.abc import Iterable
@@ -46,8 +46,8 @@ def stripped(name: str) -> str:
 def plain(name: str) -> str:
     """Return a frame name as an object of exactly the class `str`.
 
-    A subclass of `str` may define its own `__eq__` and `__hash__`. If it were a dictionary key,
-    each lookup would run these methods, and they could change the data being read.
+    A subclass of `str` may define its own `__eq__` and `__hash__`. If a dictionary key were of this
+    subclass, each lookup would run these methods, which could change the data being read.
 
     Raises:
         TypeError: If the name is not a string.
@@ -161,7 +161,7 @@ class FrameTree:
         senders: Parent, sender and origin of the newest sample, and the history, by name of the
             moving child frame. Most insertions need no other data.
         authorities: Names of senders (authorities); the index of a name is its number.
-        limit: Age up to which samples are kept, relative to the newest one, nanoseconds.
+        limit: Age up to which samples are kept, relative to the newest sample, nanoseconds.
         max_name: Maximum length of a name, bytes.
     """
 
@@ -255,8 +255,9 @@ class FrameTree:
         """Find the path from source to target at one time; 0 uses the newest parent of each frame.
 
         As in tf2, the search first goes from the source up to the target, to the root, or to a
-        frame without data at that time. Then it goes from the target up to the end of the first
-        part, or to the source. Missing data above the common ancestor does not matter.
+        frame without data at that time. Then the search goes from the target up to the frame where
+        the first part ended, or to the source. Missing data above the common ancestor does not
+        matter.
         """
         walk = Walk(source, target)
         frames, up, down = self.frames, walk.up, walk.down
@@ -324,8 +325,8 @@ class FrameTree:
     def is_steady(self, walk: Walk) -> bool:
         """Whether the path that `walk` found is the path at every time with data.
 
-        Frames above the common ancestor may change their parents, if no path through them can form
-        a loop or become too long.
+        Frames above the common ancestor may change their parents, if no path through these frames
+        can form a loop or become too long.
         """
         frames = self.frames
         for number in (*walk.up, *walk.down):

@@ -631,7 +631,7 @@ class History(Fields):
         self.mixed = self._newest_parent_start > 0
 
     def borrow(self, records: "Words", origin: int) -> None:
-        """Use another owner's array as the samples; its stamps increase, and it has one origin.
+        """Use another owner's array as the samples, with increasing stamps and one origin.
 
         The array is copied only at the first insertion or pruning. Until then `records` is a
         read-only view of the array.
@@ -682,7 +682,7 @@ class History(Fields):
         self._newest = self._newest_pair = None
 
     def use_large_pages(self) -> None:
-        """Move many samples into large pages, if the system has them.
+        """Move many samples into large memory pages, if the system has large pages.
 
         Random lookups over five links of 100 000 samples take a quarter less time. When the memory
         is full, the array grows on ordinary pages; it moves to large pages again only at twice the

@@ -1,4 +1,4 @@
-"""The native kernel, if it was built: one C file that implements the most frequent cases."""
+"""Interface to the native kernel, an optional C module that implements the most frequent cases."""
 
 from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
 
@@ -60,7 +60,7 @@ def native_first(plain: _Method) -> _Method:
     """Decorate a method that the kernel implements for ordinary arguments.
 
     For all other cases (a new frame, a refusal, a long chain) the kernel calls the decorated method
-    under the name `_plain_` plus its own name. Without the kernel, the decorated method is used
+    by the name `_plain_<name of the method>`. Without the kernel, the decorated method is used
     directly.
     """
     return cast(_Method, _NativeFirst(plain)) if IS_NATIVE else plain

@@ -33,7 +33,7 @@ class FrameInfo(NamedTuple):
 
     Attributes:
         frame: Name of the frame.
-        parent: Parent at the shown time; None for a root.
+        parent: Parent at the snapshot's time; None for a root.
         is_static: Whether the transform from the parent is static.
         authority: Sender of the newest sample; None for a frame without samples.
         samples: Number of stored samples.
@@ -43,8 +43,8 @@ class FrameInfo(NamedTuple):
         newest: Stamp of the newest sample; 0 for a static frame.
         buffer_length: `newest` − `oldest`, nanoseconds.
         age: Nanoseconds from `newest` to the snapshot's `now`; 0 for static frames and roots.
-        transform: Pose in the parent at the shown time, identity for a root; None if there is no
-            data at that time.
+        transform: Pose in the parent at the snapshot's time, identity for a root; None if there is
+            no data at that time.
         root: Root of the frame's tree; None if the frame is in or below a loop.
         root_from_frame: Pose in the root; None if a frame on the way to the root has no data.
     """
@@ -69,7 +69,7 @@ class Snapshot:
     """State of all frames of a buffer at one time, immutable.
 
     Attributes:
-        now: The clock's time, nanoseconds; ages are relative to it.
+        now: The clock's time, from which ages are computed, nanoseconds.
         at: The time of the poses, nanoseconds; 0 for the latest time with data of each frame.
         frames: All frames including roots, in the order in which their names were first seen.
     """

@@ -1,4 +1,4 @@
-"""State of all frames of a buffer at one time; also as tf2's YAML, sentences and dot."""
+"""Snapshot of all frames of a buffer, and text of a snapshot as tf2's YAML, sentences or dot."""
 
 from collections.abc import Iterable
 from typing import TypeAlias

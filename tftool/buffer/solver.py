@@ -225,7 +225,7 @@ _HERE: Final = Path((), (), ())
 
 
 class Solver:
-    """Solver of lookups between two frames of one tree; it caches the paths it finds.
+    """Solver of lookups between two frames of one tree, with a cache of paths.
 
     Attributes:
         paths: Cached paths by target and then by source; cleared when a frame gets another parent.
@@ -310,7 +310,7 @@ class Solver:
         return self._refusal(walk, time, target, source)
 
     def chain(self, target: str, source: str, time: Stamp) -> list[str]:
-        """Return the names of the frames from source to target, both included; empty if equal."""
+        """Return the frame names from source to target, inclusive; [] if both names are equal."""
         if target == source:
             return []
         time, _, _ = self.way(target, source, time)
@@ -322,7 +322,7 @@ class Solver:
         return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
 
     def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
-        """Return the state of a lookup: AVAILABLE, EXPIRED or PENDING; and the frames to watch.
+        """Return the state of a lookup (AVAILABLE, EXPIRED or PENDING), and the frames to watch.
 
         Args:
             lookup: Target, source and time.

@@ -1,4 +1,4 @@
-"""Rates and delays of arriving transforms, by the formulas of `tf2_monitor` and exactly.
+"""Rates and delays of arriving transforms: exact values, and values as `tf2_monitor` computes them.
 
 Properties that begin with `tf2_` use the formulas of `tf2_monitor`, for comparison with the output
 of `tf2_monitor`. All other properties are exact. `tf2_monitor` has known errors: rates are too high
@@ -161,7 +161,7 @@ class Traffic:
         self.senders: dict[str, Series] = {}
 
     def link(self, frame: str) -> FrameTraffic:
-        """Return the recent messages about a frame; add the frame if it is new."""
+        """Return the recent messages about a frame, after adding an unknown frame."""
         return self.links.setdefault(frame, FrameTraffic(frame))
 
     def receive(

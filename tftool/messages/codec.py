@@ -37,7 +37,8 @@ _SMALLEST_TEXT: Final = 4
 class Codec:
     """Serialiser of one message type in one byte layout.
 
-    Any object with the fields as attributes can be written; reading returns a message of the class.
+    `encode` accepts any object with the fields as attributes; `decode` returns a message of the
+    class.
     """
 
     def __init__(self, kind: type[Message], layout: Layout = CDR) -> None:

@@ -142,7 +142,7 @@ def text_bytes(text: str) -> bytes:
     """Return a string's bytes in CDR, without the length: UTF-8 and a final zero byte.
 
     Raises:
-        ValueError: If the string contains a zero character, which would end it early.
+        ValueError: If the string contains a zero character, which would end the string early.
     """
     raw = text.encode()
     if b"\x00" in raw:
@@ -269,7 +269,7 @@ class Reader:
         return count
 
     def admit(self, items: int) -> None:
-        """Add to the number of list items of the message; raise an error above `MOST_ITEMS`."""
+        """Count further list items of the message; raise an error above `MOST_ITEMS` items."""
         self._items += items
         if self._items > MOST_ITEMS:
             raise MalformedMessage(

@@ -62,6 +62,6 @@ def planar_velocity(message: Any) -> Twist2D:
 
 
 def point_stamped(stamp: Stamp, frame_id: str, x: float, y: float, z: float) -> Any:
-    """Return the PointStamped message of a point at a time; metres in the frame."""
+    """Return the PointStamped message of a point in a frame, metres."""
     header = build(_Header, build(_Time, *divmod(stamp, NANOSECONDS)), frame_id)
     return build(PointStamped, header, build(_Point, x, y, z))

@@ -202,7 +202,7 @@ class RecordedWriter(ContainerWriter, Protocol):
         """Write buffered messages to the file."""
 
     def rescue(self) -> bool:
-        """Complete the file after a failed write; return False if it cannot be completed."""
+        """Complete the file after a failed write, and return whether the file is complete."""
 
 
 def offers_text(static: bool) -> str:

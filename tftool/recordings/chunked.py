@@ -131,7 +131,7 @@ class Chunk:
         return Piece(self.reader.fileno(), self.position, self.behind - self.position)
 
     def table(self) -> MessageTable:
-        """Return the messages of the chunk, or only the messages before any damage."""
+        """Return the chunk's messages; in a damaged chunk, only the messages before the damage."""
         # The index of a damaged chunk may point into the damage, so its records are read in order.
         by_index = self.whole and self.counts and self.sound()
         found = self.reader.indexed_table(self) if by_index else None
@@ -210,7 +210,7 @@ class ChunkedReader(File):
     # Channels
 
     def _learn(self, number: int, channel: Channel) -> None:
-        """Register a channel; only the first `MOST_STREAMS` channels have their messages read."""
+        """Register a channel; only messages of the first `MOST_STREAMS` channels are read."""
         self.channels[number] = channel
         if len(self.streams) < MOST_STREAMS:
             self._numbers[number] = len(self.streams)
@@ -318,7 +318,7 @@ class ChunkedReader(File):
         return data
 
     def check_crc(self, chunk: Chunk, crc: int) -> None:
-        """Compare a chunk's computed CRC with that in the file; report a difference as damage."""
+        """Compare a chunk's computed CRC with the recorded CRC; report a difference as damage."""
         if crc != chunk.crc:
             self.note(
                 f"The CRC of the chunk at byte {chunk.position} is wrong: its messages are "
@@ -374,7 +374,7 @@ class ChunkedReader(File):
             return None
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Yield the offsets of the messages in a chunk, as its indexes give them.
+        """Yield the offsets of the messages in a chunk, from the chunk's indexes.
 
         Yields:
             The number of a channel, and three arrays with one item per message, shape (n,): the
@@ -390,7 +390,7 @@ class ChunkedReader(File):
         raise NotImplementedError
 
     def known(self, messages: MessageTable) -> MessageTable:
-        """Return the messages whose channel the file describes; report others as damage."""
+        """Return the messages whose channel the file describes; report other messages as damage."""
         is_known = np.isin(messages.channels, list(self.channels))
         if is_known.all():
             return messages
@@ -462,7 +462,7 @@ class ChunkedReader(File):
                 yield chunk, batch if batch is not None and len(batch) else None
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Describe a chunk's compressed bytes for decompression ahead of reading.
+        """Return a chunk's compression, compressed bytes and size, for decompression in a thread.
 
         Return None if the chunk is cut off or not compressed.
         """

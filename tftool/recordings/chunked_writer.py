@@ -20,7 +20,8 @@ NOTHING_YET: Final = 2**64 - 1
 class ChunkedWriter:
     """Base class of writers of files with chunks; see `ContainerWriter`.
 
-    A chunk is written when it is full, or by `flush`. Up to the last written chunk, the file can be
+    A chunk is written when the chunk is full, and by `flush`. Up to the last written chunk, the
+    file can be
     read even if the program crashes.
 
     Attributes:
@@ -71,7 +72,7 @@ class ChunkedWriter:
         return self.position + self._length
 
     def copy_extras(self, extras: Extras, schemas: Mapping[int, tuple[str, str, bytes]]) -> None:
-        """Copy contents other than messages; do nothing, as only MCAP has such contents.
+        """Do nothing; only the writer of MCAP files copies attachments, metadata and schemas.
 
         Args:
             extras: Attachments and metadata of another file.
@@ -79,7 +80,7 @@ class ChunkedWriter:
         """
 
     def abandon(self) -> None:
-        """Close the file without its index; readers can still read it sequentially."""
+        """Close the file without an index; readers must then read the file sequentially."""
         self._file.close()
 
     def _keep(self, piece: bytes) -> None:

@@ -41,7 +41,7 @@ def check_told(count: int) -> None:
 
 
 class Taken(NamedTuple):
-    """One message with everything that its container stores about it.
+    """One message with all fields that the recording stores.
 
     Attributes:
         channel: Number of the channel in its file.
@@ -200,7 +200,7 @@ class Block(Protocol):
         """Whether the block's content is undamaged, as far as a checksum can show."""
 
     def table(self) -> MessageTable:
-        """Return the block's messages in order, or only the messages before any damage."""
+        """Return the block's messages; in a damaged block, only the messages before the damage."""
 
 
 _STEP: Final = 1 << 19
@@ -224,7 +224,7 @@ class Piece:
     length: int
 
     def copy_to(self, file: int, place: int, crc: int | None = None) -> int:
-        """Copy the bytes to another file, read them back, and compare.
+        """Copy the bytes to another file, and read the copy back to verify the bytes.
 
         Copying 2 GB in this way took 1.1 times the time of `copy_file_range`, which is slow if the
         two ranges have different offsets in their memory pages.
@@ -322,7 +322,7 @@ class Container(Protocol):
     """One recording file, or several recording files that are read as one.
 
     Attributes:
-        kind: Name of the file format, as messages to the user write it.
+        kind: Name of the file format in messages to the user.
         size: Size of the files, bytes.
         start: Log time of the first message; 0 without messages.
         end: Log time of the last message.
@@ -384,7 +384,7 @@ class ContainerReader(Container, Protocol):
 
 
 class File:
-    """A file read at given offsets, never beyond its size when it was opened.
+    """File that is read at given offsets, up to the size that the file had when opened.
 
     Attributes:
         path: Path of the file.

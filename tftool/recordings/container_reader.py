@@ -126,7 +126,7 @@ class Recorded:
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the names of all topics; faster than `topics`, which counts messages."""
+        """Return the names of all topics, without counting messages as `topics` does."""
         return frozenset(stream.topic for stream in self._container.streams)
 
     @property

@@ -56,7 +56,7 @@ class ContainerFormat:
 
         Args:
             path: Path of the file.
-            by_index: Whether the file is read by its index; otherwise from beginning to end.
+            by_index: True to read the file by its index, False to read from beginning to end.
 
         Raises:
             InputError: If the file cannot be read.

@@ -69,7 +69,7 @@ class Publisher:
 
     @property
     def authority(self) -> str:
-        """Return the name of the publisher for buffers: its node if recorded, else its topic."""
+        """Return the name of the publisher in a buffer: the node if recorded, else the topic."""
         return self.node or self.topic
 
 
@@ -152,7 +152,7 @@ class Transforms:
 
 
 def median(column: Stamps) -> float:
-    """Return the median of whole numbers; for short columns this is faster than `numpy.median`."""
+    """Return the median of whole numbers, faster than `numpy.median` for short columns."""
     half = len(column) // 2
     if len(column) % 2:
         return float(np.partition(column, half)[half])

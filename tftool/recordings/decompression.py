@@ -357,7 +357,7 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
     """Return a function that compresses bytes by a method: "", "none", "zstd", "lz4" or "bz2".
 
     Raises:
-        UsageError: If there is no such method, or its package is not installed.
+        UsageError: If the method is unknown, or the method's package is not installed.
     """
     if method in ("", "none"):
         return bytes

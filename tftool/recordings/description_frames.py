@@ -49,8 +49,8 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
         namespace: Namespace of the robot's description: `/arm` for `/arm/robot_description`.
 
     Returns:
-        The topic `joint_states` of that namespace; without it, the `joint_states` topics of all
-        namespaces.
+        The topic `joint_states` of that namespace if recorded, else the topics `joint_states` of
+        all namespaces.
     """
     named = [
         topic.name
@@ -190,7 +190,7 @@ class DescribedFrames:
     Attributes:
         still: Frames that were added with a static transform.
         moving: Frames that were added with poses from joint states.
-        gaps: Frames without a pose, because there are no joint states for them.
+        gaps: Frames without a pose, because joint states are missing.
         prefix: Prefix of the frame names, before the names of the robot's links.
     """
 
@@ -220,8 +220,8 @@ def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
 
     Raises:
         InputError: If the message is not a string.
-        DescriptionError: If all descriptions have mistakes; the error has the mistakes of the first
-            one.
+        DescriptionError: If all descriptions have mistakes; the error lists the mistakes of the
+            first description.
     """
     kind = INTERFACES.message("std_msgs/msg/String")
     codec = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR)

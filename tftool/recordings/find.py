@@ -39,7 +39,7 @@ def fetched(place: str) -> Iterator[str]:
         place: A local path, which is returned unchanged, or a URL.
 
     Raises:
-        InputError: If there is no such file, or it cannot be fetched.
+        InputError: If the file is missing, or cannot be fetched.
         UsageError: If fsspec is not installed.
     """
     if not is_url(place):
@@ -491,7 +491,7 @@ def refusal(path: Path, error: OSError) -> InputError:
     """Convert an error from opening one of several files to an `InputError`.
 
     Raises:
-        OSError: `error` itself, if its cause is not the file but too many open files.
+        OSError: `error` itself, if too many files are open.
     """
     if error.errno in (errno.EMFILE, errno.ENFILE):
         raise error

@@ -246,7 +246,7 @@ def as_ros1(channel: Channel) -> Conversion:
 
 
 def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
-    """Return the type of a channel, and a set of definitions by which its messages can be read."""
+    """Return the type of a channel, and definitions for decoding the channel's messages."""
     if channel.encoding != encoding:
         raise InputError(f"messages with the encoding '{channel.encoding}' cannot be converted")
     text = ""

@@ -132,7 +132,7 @@ class RecordingWriter:
         """Complete the recording, and give it its final name.
 
         Raises:
-            InputError: If the recording cannot be completed; the written data is then removed.
+            InputError: If the recording cannot be completed. The written data is removed.
         """
         try:
             self.container.finish()
@@ -145,7 +145,7 @@ class RecordingWriter:
         self._target.commit()
 
     def discard(self) -> None:
-        """Remove the written data; an existing file with that name stays."""
+        """Remove the written data, but not an existing file with the name of the recording."""
         self.container.abandon()
         self._target.discard()
 
@@ -168,8 +168,8 @@ def write_recording(
 
     Args:
         path: Path that ends in ".mcap", ".db3" or ".bag"; without a suffix, a rosbag2 folder.
-        compression: "zstd", "lz4" or "none" in MCAP (zstd if None, or none where its package is
-            missing), "bz2", "lz4" or "none" in ROS 1 bags (none if None).
+        compression: For MCAP "zstd", "lz4" or "none"; None means "zstd" if installed, else "none".
+            For ROS 1 bags "bz2", "lz4" or "none"; None means "none".
         storage: Storage of a folder: "mcap" or "sqlite3".
         profile: Profile of an MCAP file: "ros2", or "" for none.
         force: Whether an existing file may be replaced.

@@ -107,7 +107,7 @@ def joint_records(
 
 
 def _write_poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
-    """Write a joint child's poses at many positions into `poses`, shape (n, 7), and return it."""
+    """Write the poses of a joint's child into `poses`, shape (n, 7), and return `poses`."""
     poses[:, :3] = joint.origin.translation
     turn = np.array(joint.origin.rotation)
     if joint.type == "prismatic":

@@ -72,8 +72,8 @@ class MeshFolders:
         """Find the folders that may contain meshes.
 
         Args:
-            description: File of the robot's description, if any: its package and the packages
-                beside it are searched.
+            description: File of the robot's description, or None. The ROS package that contains the
+                file, and packages beside this package, are searched.
             given: Folders that contain ROS packages, or are packages themselves.
         """
         self.roots: list[Path] = []
@@ -88,7 +88,7 @@ class MeshFolders:
             name: File name in the description: `package://…`, or a relative path.
 
         Raises:
-            MeshRefused: If there is no such file in the folders, or it may not be served.
+            MeshRefused: If the file is missing in the folders, or must not be served.
         """
         root, path = self._place(name)
         found = self._inside(root, path)
@@ -101,7 +101,7 @@ class MeshFolders:
         """Return the mesh or texture at an address that the browser requests.
 
         Raises:
-            MeshRefused: If there is no such file, or it may not be served.
+            MeshRefused: If the file is missing, or must not be served.
         """
         match = re.fullmatch(r"/mesh/(\d{1,6})/(.+)", address)
         if match is None or int(match[1]) >= len(self.roots):

@@ -300,8 +300,8 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
 
     Raises:
         InputError: If the file cannot be read.
-        DescriptionError: If the description has mistakes; the error has all of them, with line and
-            column.
+        DescriptionError: If the description has mistakes; the error lists all mistakes with line
+            and column.
         UsageError: If the file contains xacro and the extra `xacro` is not installed.
     """
     return Robot(load_description(path, arguments))

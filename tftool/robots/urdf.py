@@ -61,8 +61,8 @@ def load_description(
 
     Raises:
         InputError: If the file cannot be read, or contains xacro and is not named .xacro.
-        DescriptionError: If the description has mistakes; the error has all of them, with line and
-            column.
+        DescriptionError: If the description has mistakes; the error lists all mistakes with line
+            and column.
         UsageError: If the file contains xacro and the extra `xacro` is not installed, or if
             arguments are given to a file without xacro.
     """
@@ -143,8 +143,8 @@ def parse_description(text: str, name: str = "robot_description") -> RobotDescri
         name: Name of the description in messages, usually its path.
 
     Raises:
-        DescriptionError: If the description has mistakes; the error has all of them, with line and
-            column.
+        DescriptionError: If the description has mistakes; the error lists all mistakes with line
+            and column.
         UnexpandedXacro: If the text has elements of xacro, which the publisher of the text must
             expand.
     """

@@ -36,7 +36,7 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
     """Return the text of a description with its xacro expanded in another process.
 
     Args:
-        path: The file; included files are relative to it.
+        path: Path of the file, to which paths of included files are relative.
         arguments: Values of xacro arguments.
 
     Raises:

@@ -361,7 +361,7 @@ class Changer:
             self.counts = before
 
     def row(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after the cut in time and all other changes; None if it is dropped."""
+        """Return a transform after all changes of the edit; None for a dropped transform."""
         edits = self._edits
         if self.window is not None:
             window = self.window
@@ -372,7 +372,7 @@ class Changer:
         return self.edited(old, log_time, static=static) if edits.links or self._replaced else old
 
     def edited(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """Return a transform after all changes except the cut in time; None if it is dropped."""
+        """Return a transform after all changes except --from and --to; None for a dropped one."""
         edits = self._edits
         link = stripped(old.parent), stripped(old.child)
         if any(fits(link, wanted) for wanted in edits.drop):

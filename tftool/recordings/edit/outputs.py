@@ -65,7 +65,8 @@ class EditedFile:
         Args:
             path: Path of the written file.
             container: "mcap", "db3" or "bag".
-            tape: Reader of the first input file, whose `style` is used if its format is the same.
+            tape: Reader of the first input file; its `style` is used if both files have the same
+                format.
             ros2: Whether ROS 1 messages are converted to ROS 2.
             packs: Whether each message is compressed separately, as in rosbag2's mode "message".
             latched: Topics that must offer their last message to late subscribers.
@@ -173,7 +174,7 @@ class EditedFile:
         return found
 
     def channel(self, channel: Channel) -> int:
-        """Register a channel that no input has; return its number."""
+        """Register a channel that no input has, and return the channel's number."""
         found = self._extra.get(channel)
         if found is None:
             found = self._extra[channel] = self.writer.channel(channel)

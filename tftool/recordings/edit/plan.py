@@ -41,7 +41,7 @@ class EditedInput:
         paths: Paths of the files.
         is_folder: Whether the input is a rosbag2 folder.
         metadata: Contents of the folder's metadata.yaml.
-        mode: "file" if rosbag2 compressed whole files, "message" for each message; else "".
+        mode: "file" or "message" if rosbag2 compressed whole files or single messages; else "".
         damage: Sentences about damage of the folder.
         notes: Other sentences about the folder.
     """
@@ -95,7 +95,7 @@ class EditedInput:
         self.paths.append(path)
 
     def add_poses(self, found: Found) -> None:
-        """Convert a pose file to a temporary MCAP file, and open it.
+        """Convert a pose file to a temporary MCAP file, and open the MCAP file.
 
         Raises:
             InputError: If the file cannot be read.
@@ -112,7 +112,7 @@ def open_input(name: str) -> EditedInput:
     """Open a recording to edit: a file, a rosbag2 folder, or a glob of files.
 
     Raises:
-        InputError: If there is no such recording, or it cannot be read.
+        InputError: If the recording is missing, or cannot be read.
         UsageError: If the name belongs to a file that is not a recording.
     """
     found = find(name)
@@ -353,7 +353,7 @@ def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Sta
 
 
 def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
-    """Return a frame, all parents that it ever has, all parents of these parents, and so on."""
+    """Return a frame and all ancestors that the frame has at any time."""
     found, waiting = {frame}, [frame]
     while waiting:
         for parent in parents.get(waiting.pop(), ()):

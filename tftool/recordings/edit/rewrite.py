@@ -216,7 +216,7 @@ class _Job:
         return self.report
 
     def done(self, *, force: bool) -> EditReport:
-        """Run the edit; return its report."""
+        """Run the edit, and return a report of the changes."""
         self._check_room()
         with Target(self._path, folder=self._is_folder, force=force) as target:
             try:
@@ -420,7 +420,7 @@ class _Job:
     # Comparison
 
     def _compare(self) -> None:
-        """Read the output back, and compare it with the intended content.
+        """Read the output back, and compare the output with the intended content.
 
         Raises:
             InputError: If the output differs from the intended content.

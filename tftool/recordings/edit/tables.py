@@ -30,7 +30,7 @@ class Result:
     Attributes:
         payload: New bytes of the message; None if the message is dropped.
         layout: Byte layout of the message.
-        kept: Indices of the transforms that are kept.
+        kept: Indices of the transforms that remain in the message.
         given: Indices of the kept transforms whose poses an option sets.
     """
 
@@ -113,8 +113,8 @@ class Kinds:
             which: Indices of the channel's messages.
 
         Returns:
-            A list of kinds, each with the indices of its messages and their bytes, one row per
-            message; and the indices of messages that must be changed one by one.
+            A list of kinds, each with the indices and the bytes (one row per message) of its
+            messages; and the indices of messages of no kind, which must be changed one by one.
         """
         found, rest = [], []
         for length in np.unique(table.lengths[which]).tolist():

@@ -289,7 +289,7 @@ def strings_at(body: bytes, place: int) -> dict[str, str]:
 
 
 def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]:
-    """Parse a string with its length; return the string and the offset of its end.
+    """Parse the length of a string, and then the string.
 
     Args:
         body: Body of the record.
@@ -297,7 +297,8 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
         last: Offset before which the string must end.
 
     Returns:
-        The string, in which bytes that are not UTF-8 become surrogates, and the offset after it.
+        The string, in which bytes that are not UTF-8 become surrogates, and the offset after the
+        string.
     """
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length

@@ -1,4 +1,4 @@
-"""Reader of MCAP files: by index if there is one, else sequentially up to any damage.
+"""Reader of MCAP files, by index or sequentially up to any damage.
 
 Source: the MCAP format specification, version 0.
 """
@@ -161,7 +161,7 @@ class Mcap(ChunkedReader):
             return
 
     def _read_summary(self) -> bool:
-        """Read the summary at the end of the file; return whether it is complete.
+        """Read the summary at the end of the file, and return whether the summary is complete.
 
         Raises:
             InputError: If the summary is damaged.
@@ -303,7 +303,7 @@ class Mcap(ChunkedReader):
                 self._loose.extend(block.found)
 
     def blocks(self) -> "Iterator[Chunk | Loose]":
-        """Yield chunks, and blocks of messages between them; store other records in `extras`."""
+        """Yield chunks, and blocks of messages between chunks; store other records in `extras`."""
         yield from self._pieces()
         if not self._ended:
             self.note(f"The recording breaks off at byte {self._ended_at}.")
@@ -419,7 +419,7 @@ class Mcap(ChunkedReader):
             chunk.counts = counts
 
     def _take_extra(self, code: int, position: int, length: int) -> None:
-        """Add the record to `extras` if it is an attachment or metadata."""
+        """Add an attachment or metadata record to `extras`; ignore other records."""
         if code == ATTACHMENT:
             self._take_attachment(position, length)
         elif code == METADATA:
@@ -594,7 +594,7 @@ class Loose:
         return True
 
     def table(self) -> MessageTable:
-        """Read the block's messages; return them as columns."""
+        """Read the block's messages, and return a table of the messages."""
         reader, found = self._reader, self.found
         begin = found.starts[0] - IN_CHUNK
         # One read for all messages, with the few small records between them.

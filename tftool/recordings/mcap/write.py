@@ -170,7 +170,7 @@ class McapWriter(ChunkedWriter):
         return number
 
     def schema(self, name: str, encoding: str, data: bytes, number: int | None = None) -> int:
-        """Register a schema (a message type's definition); return its number."""
+        """Register a schema (a message type's definition), and return the schema's number."""
         key = name, encoding, data
         if number is None and key in self._schemas:
             return self._schemas[key]
@@ -320,7 +320,7 @@ class McapWriter(ChunkedWriter):
         self._chunks.append(entry.record())
 
     def end_block(self, chunk: Chunk) -> None:
-        """Write the current chunk with the compression and CRC of `chunk`, which it replaces."""
+        """Write the current chunk, which replaces `chunk`, with the same compression and CRC."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
             if chunk.method != self.method:
@@ -427,7 +427,8 @@ class McapWriter(ChunkedWriter):
         self._put(end + summary + MCAP_MAGIC)
 
     def rescue(self) -> bool:
-        """On a full disk, end the file after its last complete chunk, and close it.
+        """Complete the file after the last whole chunk, for example on a full disk, and close the
+        file.
 
         Returns:
             Whether there was space for the summary.

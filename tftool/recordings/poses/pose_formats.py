@@ -25,7 +25,7 @@ class Head:
     """First bytes of a file, split into lines, words and numbers to recognise the format."""
 
     def __init__(self, data: bytes) -> None:
-        """Decode the first bytes of a file; omit the last line if it may be incomplete."""
+        """Decode the first bytes of a file; omit a last line that may be incomplete."""
         self.data = data
         self.text = data.decode("utf-8-sig", "replace")
         lines = self.text.splitlines()

@@ -194,7 +194,7 @@ class PoseFile:
             raise InputError(f"'{self.path}' has more than {MOST_POSES:,} poses: split it.")
 
     def name(self, word: str) -> str:
-        """Return a word of the file as a frame name, after checking it.
+        """Check that a word of the file is a valid frame name, and return the word.
 
         Raises:
             InputError: If the name is empty, too long, or contains a zero character.

@@ -21,7 +21,7 @@ class PoseOptions:
     Attributes:
         frames: Names of the frames, "PARENT:CHILD"; None for the format's names.
         pose_rate: Poses per second, for a file without stamps.
-        pose_format: Name of the format; None to recognise it from the content.
+        pose_format: Name of the format; None to detect the format from the content.
         inverted: Whether the file has the inverses of the poses that its format requires.
         axes: Axes of the file's cameras, one of `AXES`; None for the format's axes.
         prefix: Name to put before each frame name, followed by a slash.
@@ -60,7 +60,7 @@ class PoseOptions:
         return parent, child
 
     def refuse(self, what: str) -> None:
-        """Raise an error if any of these options was given, for a source that is not a pose file.
+        """Raise an error if any option was given for a source that is not a pose file.
 
         Args:
             what: Name of the source, as the beginning of a sentence.
@@ -98,7 +98,7 @@ _NONE: Final = ChosenOptions()
 def pose_options(chosen: ChosenOptions) -> Iterator[None]:
     """Apply options to all pose files that are read within this `with` block.
 
-    Code that opens recordings passes only their names, so the options are set once here.
+    Code that opens recordings passes only names of recordings, so the options are set once here.
     """
     token = _CHOSEN.set(chosen)
     try:

@@ -155,7 +155,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
 
     Args:
         data: Bytes of the records.
-        partial: Whether the last record may be cut off; it is then ignored.
+        partial: Whether to ignore a last record that is cut off.
 
     Raises:
         InputError: If a record extends beyond the data.

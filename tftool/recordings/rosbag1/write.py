@@ -92,7 +92,7 @@ class Rosbag1Writer(ChunkedWriter):
         self._put(ROS1_MAGIC + self._head(0))
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Register a connection, and return the number that identifies it in `write`."""
+        """Register a connection, and return the number that `write` needs."""
         known = self._known.get(channel)
         if known is not None and number in (None, known):
             return known
