@@ -186,7 +186,7 @@ def test_info_tells_what_is_odd(tftool, tmp_path):
 
     assert "'lidar' has 2 different static values" in odd
     assert "Two clocks" in odd
-    assert "2 trees" in odd
+    assert "2 separate trees" in odd
     with open_recording(run) as recording:
         for width in range(50, 65):
             narrow = as_text(recording, width).splitlines()
@@ -285,9 +285,9 @@ def test_files_of_a_folder_that_are_no_recordings_are_named_in_a_line(tftool, tm
     ):  # fmt: skip
         result = tftool(words[0], *words[1:], runs)
         assert result.status in (0, 1), result.err
-        (line,) = {line for line in result.err.splitlines() if "assed over" in line}
-        assert line == "Passed over, as no recordings: 'empty.bag' (empty), 'gone', 'junk.bin'."
-    assert "assed over" not in tftool("tree", whole).err
+        (line,) = {line for line in result.err.splitlines() if "Ignored" in line}
+        assert line == "Ignored, because not recordings: 'empty.bag' (empty), 'gone', 'junk.bin'."
+    assert "Ignored" not in tftool("tree", whole).err
     for number in range(9):
         (whole / f"{number}.txt").write_text("x", "utf-8")
     told = tftool("tree", f"{whole}/*").err

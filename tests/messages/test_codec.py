@@ -301,7 +301,7 @@ def test_a_type_that_unfolds_to_ever_more_fields_is_refused_and_not_planned():
     own = Interfaces()
     own.add("pkg", {**doubling, ("msg", "D30"): "int8 x"})
 
-    with pytest.raises(MalformedMessage, match="unfolds to more than 50000 fields"):
+    with pytest.raises(MalformedMessage, match="expands to more than 50000 fields"):
         Codec(own.message("pkg/D0"))
 
 

@@ -409,7 +409,7 @@ def test_a_file_that_is_written_over_while_it_is_read_is_said_to_have_changed(
 
     monkeypatch.setattr(Recording, "__init__", overwritten)
     with pytest.raises(
-        InputError, match="changed while it was read: try again when it is complete"
+        InputError, match="changed while it was read: try again when the recording is complete"
     ):
         open_recording(path)
 

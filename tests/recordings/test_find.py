@@ -51,7 +51,7 @@ def test_a_database_is_known_by_its_content(tmp_path):
     ("content", "told"),
     [
         (b"", "empty file"),
-        (b"\x89MCAP0\n" + bytes(40), r"line ends were converted .* fetch it again"),
+        (b"\x89MCAP0\n" + bytes(40), r"line ends were converted .* fetch the file again"),
         (b"#ROSRECORD V1.2\n" + bytes(40), r"ROSRECORD V1.2.*rosbag fix"),
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0", "git lfs pull"),
         (b"\x1f\x8b\x08" + bytes(40), "gunzip"),

@@ -134,7 +134,7 @@ def test_a_chunk_that_is_too_large_to_hold_is_left_out_and_told(tmp_path, monkey
         found = recording.transforms
         damage = " ".join(recording.damage)
 
-    assert "more than is read at once (262144)" in damage
+    assert "exceed the limit of one read (262144)" in damage
     assert len(found) == 0
 
 
@@ -152,7 +152,7 @@ def test_a_message_outside_of_chunks_that_is_too_large_is_left_out_and_told(tmp_
 
     with open_recording(path) as recording:
         assert len(recording.transforms) == whole
-        assert any("more than is read at once (262144)" in one for one in recording.damage)
+        assert any("exceed the limit of one read (262144)" in one for one in recording.damage)
 
 
 @pytest.mark.parametrize("write", [plain_mcap, write_bag], ids=["mcap", "rosbag1"])

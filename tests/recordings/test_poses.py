@@ -165,7 +165,7 @@ def test_odd_rows_are_counted(tmp_path):
     assert edge.stamps.tolist() == [1_000_000_000, 1_000_000_000, 2_000_000_000]
     for told in ("1 row with NaN", "1 row with a zero quaternion", "1 row out of order"):
         assert told in notes
-    assert "1 row with the stamp of another" in notes
+    assert "1 row with the stamp of another row" in notes
 
 
 @pytest.mark.parametrize(

@@ -109,7 +109,7 @@ def test_what_tf2_refuses_is_left_out_and_told(tmp_path):
     with opened(tmp_path, sent) as recording:
         assert recording.buffer.samples("odom").stamps.tolist() == [start, start + 9]
         assert recording.oddities == {
-            "'odom' moves, but has stamp 0: left out, as tf2 takes 0 for the latest": 1,
+            "'odom' moves, but has stamp 0: left out, as 0 means the latest in tf2": 1,
             "not a number ('odom' in 'map')": 2,
             "a zero quaternion ('odom' in 'map')": 1,
         }

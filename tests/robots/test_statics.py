@@ -78,7 +78,7 @@ def test_what_is_computed_is_passed_over_and_said(tmp_path):
     found = load_statics(path)
 
     assert len(found.links) == 1
-    assert "some.launch.py:5: a static_transform_publisher was passed over" in found.notes[0]
+    assert "some.launch.py:5: a static_transform_publisher was ignored" in found.notes[0]
 
 
 @pytest.mark.parametrize(
@@ -91,7 +91,7 @@ def test_what_is_computed_is_passed_over_and_said(tmp_path):
         ("a.launch.py", "def generate_launch_description():\n    (", "not Python"),
         ("a.sh", "static_transform_publisher 1 2 3\n", "8 words"),
         ("a.launch.xml", '<launch><node exec="static_transform_publisher" args="$(v)"/></launch>',
-         "computed when it runs"),
+         "computed at run time"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_read_is_said(tmp_path, name, text, told):

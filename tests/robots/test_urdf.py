@@ -96,7 +96,7 @@ def test_what_a_link_looks_like_is_read():
     ("before", "after", "marked", "told"),
     [
         ('<child link="upper"/>', '<child link="uper"/>', 'link="uper"', "did you mean 'upper'?"),
-        ('<axis xyz="0 0 2"/>', '<axis xyz="0 0 0.0"/>', 'xyz="0 0 0.0"', "must have a length"),
+        ('<axis xyz="0 0 2"/>', '<axis xyz="0 0 0.0"/>', 'xyz="0 0 0.0"', "must not be zero"),
         ('type="revolute"', 'type="revolut"', 'type="revolut"', "did you mean 'revolute'?"),
         ('xyz="0 0 1"', 'xyz="0 0 1e999"', 'xyz="0 0 1e999"', "'1e999' is not a finite number"),
         ('xyz="0 0 1"', 'xyz="0 1"', 'xyz="0 1"', "xyz is 3 numbers, not 2"),
@@ -200,7 +200,7 @@ def test_several_roots_are_named_with_the_remedy():
     (mistake,) = refused(text).mistakes
 
     assert "'base', 'loose'" in mistake.text
-    assert "join them by fixed joints" in mistake.text
+    assert "connect these links by fixed joints" in mistake.text
 
 
 @pytest.mark.parametrize(
@@ -229,13 +229,13 @@ def test_a_mimic_of_nothing_is_noted_and_read():
     arm = parse(text)
 
     assert arm.joints["shoulder"].mimic.joint == "elbow"
-    assert "'elbow', which is not a joint here" in arm.notes[0]
+    assert "'elbow', but there is no such joint" in arm.notes[0]
 
 
 def test_limits_that_leave_no_room_are_noted_and_read():
     arm = parse(ARM.replace('lower="-1', 'lower="9'))
 
-    assert "'shoulder' can be nowhere: its lower limit" in arm.notes[0]
+    assert "'shoulder' has no valid position: its lower limit" in arm.notes[0]
     assert parse(ARM).notes == ()
 
 

@@ -215,7 +215,7 @@ def and_more(child: str, count: int, authority: str) -> str:
     samples, were = ("sample", "was") if count == 1 else ("samples", "were")
     return (
         f"and {count} more {samples} for frame {child} according to authority {authority} {were} "
-        "refused; the result of set_transforms says which"
+        "refused; the result of set_transforms lists all refused samples"
     )
 
 
@@ -231,8 +231,8 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
     """Return the log line for a frame name that would exceed the buffer's maximum number."""
     return (
         f'TF_TOO_MANY_FRAMES: Ignoring transform for child_frame_id "{child}" from authority '
-        f'"{authority}" because the buffer holds {limit} frame names, its maximum; '
-        "Buffer(max_frames=…) raises it"
+        f'"{authority}" because the buffer already has {limit} frame names; '
+        "Buffer(max_frames=…) raises this limit"
     )
 
 
@@ -246,8 +246,8 @@ def long_name(child: str, parent: str, authority: str, limit: int) -> str:
         if size > limit:
             return (
                 f'TF_LONG_NAME: Ignoring transform from authority "{authority}" because its '
-                f'{field} "{name[:_NAME_SHOWN]}…" has {size} bytes, and a name may have {limit}; '
-                "Buffer(max_name=…) raises that"
+                f'{field} "{name[:_NAME_SHOWN]}…" has {size} bytes, but the limit is {limit}; '
+                "Buffer(max_name=…) raises this limit"
             )
     return ""
 

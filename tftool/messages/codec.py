@@ -367,7 +367,7 @@ class _Planner:
         self._fields += 1
         if self._fields > MOST_FIELDS:
             raise MalformedMessage(
-                self._name, f"the definition unfolds to more than {MOST_FIELDS} fields"
+                self._name, f"the definition expands to more than {MOST_FIELDS} fields"
             )
 
 

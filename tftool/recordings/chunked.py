@@ -253,7 +253,7 @@ class ChunkedReader(File):
         found = sum(self.counts)
         self.damage.append(
             f"The recording breaks off at byte {position} of {self.size}: "
-            f"{found} messages were read up to there."
+            f"{found} messages were read before this byte."
         )
         if not found and not self.streams:
             raise InputError(

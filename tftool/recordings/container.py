@@ -253,8 +253,7 @@ class Piece:
             again = os.preadv(file, [memoryview(_other)[:count]], place + done)
             if again != count or not _begin_alike(count):
                 raise InputError(
-                    f"the disk did not keep the copy: its bytes from byte {place + done} on differ "
-                    "from the original"
+                    f"the copy on the disk differs from the original from byte {place + done} on"
                 )
             if crc is not None:
                 crc = zlib.crc32(read[:count], crc)
@@ -279,7 +278,7 @@ class Piece:
     def _shortened(self, done: int) -> InputError:
         return InputError(
             f"a recording was shortened to {self.place + done} bytes while it was read: "
-            "edit it when no program writes to it"
+            "try again when no other program writes to this recording"
         )
 
 
@@ -415,7 +414,7 @@ class File:
             )
         if count > LARGEST:
             raise InputError(
-                f"{count} bytes at byte {place} are more than is read at once ({LARGEST})"
+                f"{count} bytes at byte {place} exceed the limit of one read ({LARGEST})"
             )
         found = os.pread(self._file.fileno(), count, place)
         while len(found) < count:

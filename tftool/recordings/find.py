@@ -134,7 +134,7 @@ _OTHERS = {
     b"\x04\x22\x4d\x18": "an lz4 archive: unpack it first (lz4 -d)",
     b"PK\x03\x04": "a zip archive: unpack it first (unzip)",
     b"\xfd7zXZ\x00": "an xz archive: unpack it first (unxz)",
-    b"RRF2": "a recording of Rerun, which is not read here",
+    b"RRF2": "a recording of Rerun, which tftool cannot read",
     b"\x7fELF": "a program",
     b"%PDF": "a PDF",
     b"\x89PNG": "a picture",
@@ -205,7 +205,7 @@ class Found:
         names = ", ".join(map(_said, self.passed_over[:_MOST_NAMES]))
         more = len(self.passed_over) - _MOST_NAMES
         beside = f" and {more} more" if more > 0 else ""
-        return [f"Passed over, as no recordings: {names}{beside}."]
+        return [f"Ignored, because not recordings: {names}{beside}."]
 
 
 def _said(path: Path) -> str:
@@ -265,8 +265,8 @@ def find(word: str) -> Found:
             active = Path(f"{word}{ACTIVE}")
             if active.exists():
                 raise InputError(
-                    f"There is no '{word}', only '{active}': a recorder still writes it, or was "
-                    f"killed. 'tftool edit {active} -o {word}' repairs it."
+                    f"There is no '{word}', only '{active}': a recorder still writes this file, or "
+                    f"was killed. 'tftool edit {active} -o {word}' repairs the recording."
                 )
             raise InputError(f"There is no file or folder '{word}'.{_meant(path)}")
         if path.is_dir():
@@ -305,8 +305,8 @@ def _prefixed(word: str, path: Path) -> Found:
     kind = _kind_with_options(word, path)
     if kind is not Kind.POSES:
         raise InputError(
-            f"'{word}' has a prefix, but is a {kind.value}: leave the prefix out, which only pose "
-            "files can have."
+            f"'{word}' is a {kind.value}, but only pose files can have a prefix (NAME=FILE): leave "
+            "out the prefix."
         )
     return Found(word, kind, (path,))
 
@@ -340,13 +340,13 @@ def kind_of_file(path: Path) -> Kind:
     if head.startswith(_MCAP_MANGLED):
         raise InputError(
             f"'{path}' is an MCAP file whose line ends were converted (git without "
-            "'*.mcap binary' in .gitattributes?): it cannot be repaired, fetch it again."
+            "'*.mcap binary' in .gitattributes?) and cannot be restored: fetch the file again."
         )
     if head.startswith(_OLD_BAG):
         version = head[1:16].split(b"\n")[0].decode("ascii", "replace")
         raise InputError(
             f"'{path}' is a bag of an early version ({version}): 'rosbag fix' of ROS 1 "
-            "turns it into one of version 2.0."
+            "converts the bag to version 2.0."
         )
     if head.startswith(_LFS):
         raise InputError(
@@ -457,7 +457,7 @@ def _recordings(
     """
     if len(entries) > MOST_FILES:
         raise InputError(
-            f"{len(entries)} files are too many to open at once (at most {MOST_FILES}): name fewer."
+            f"{len(entries)} files are too many to open at once: name at most {MOST_FILES} files."
         )
     found, kinds, others = [], set(), []
     refused: PermissionError | None = None

@@ -258,7 +258,7 @@ class Recording:
         for child in {**moving, **static}:
             kinds = [kind[child] for kind in (moving, static) if child in kind]
             if len(kinds) > 1:
-                oddities[f"'{child}' is sent as static and as moving: what came last counts"] += 1
+                oddities[f"'{child}' is sent as static and as moving: the last kind counts"] += 1
                 # In tf2 a frame is static or moving: the kind received last removes the other.
                 kinds.sort(key=lambda edges: max(map(_last, edges)))
             for edges in kinds:
@@ -450,7 +450,7 @@ def _set_moving(
     if later and adopt_records(buffer, edge.parent, edge.child, records, authority, edge.kept):
         return
     if not stamps.all():
-        text = f"'{edge.child}' moves, but has stamp 0: left out, as tf2 takes 0 for the latest"
+        text = f"'{edge.child}' moves, but has stamp 0: left out, as 0 means the latest in tf2"
         oddities[text] += len(edge) - int(np.count_nonzero(stamps))
         records = records[stamps != 0]
     report = buffer.set_records(edge.parent, edge.child, records, authority)
@@ -545,7 +545,7 @@ def open_recording(
         if before is None or before == _facts(found):
             raise
         raise InputError(
-            f"'{name}' changed while it was read: try again when it is complete."
+            f"'{name}' changed while it was read: try again when the recording is complete."
         ) from error
 
 

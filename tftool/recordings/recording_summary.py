@@ -142,18 +142,20 @@ def oddities(
         names = ", ".join(f"{one.child} in {one.parent}" for one in odd[:4])
         found.append(
             f"Two clocks: the stamps of {names}{' …' if len(odd) > 4 else ''} count from "
-            f"{'the start of a simulation' if odd[0].simulated else '1970'}, those of other edges "
-            "do not. The node that sends them lacks use_sim_time, or should not have it."
+            f"{'the start of a simulation' if odd[0].simulated else '1970'}, but the stamps of "
+            "other edges do not. Set the parameter use_sim_time to the same value in all nodes."
         )
     elif simulated and recording.source.start >= SIMULATED_BELOW:
         found.append("Stamps count from the start of a simulation; log times from 1970.")
     if len(forest) > 1:
         roots = ", ".join(tree.root for tree in forest[:4])
         found.append(
-            f"{len(forest)} trees that nothing joins, with the roots {roots}"
+            f"{len(forest)} separate trees, with the roots {roots}"
             f"{' …' if len(forest) > 4 else ''}."
         )
     slashed = sum(edge.slashed for edge in recording.edges)
     if slashed:
-        found.append(f"{slashed} transforms have frame names with a leading slash, left out here.")
+        found.append(
+            f"{slashed} transforms have frame names with a leading slash, which is removed."
+        )
     return found

@@ -98,7 +98,8 @@ class RollingRecording:
         self._is_folder = not path.suffix
         if path.suffix not in ("", RECORDED.suffix):
             raise UsageError(
-                f"'{path.name}' has a suffix that cannot be recorded to: use '{RECORDED.suffix}'."
+                f"'{path.name}' has an unsupported suffix: use '{RECORDED.suffix}', or none for a "
+                "folder."
             )
         if self._limits.splits and not self._is_folder:
             raise UsageError(
@@ -129,8 +130,8 @@ class RollingRecording:
         active = self._place(0).with_name(self._place(0).name + ACTIVE)
         if active.exists() and not force:
             raise UsageError(
-                f"'{active}' was left by a recorder that was killed: 'tftool edit {active} -o "
-                "FILE.mcap' repairs it. --force replaces it."
+                f"'{active}' was left by a recorder that was killed: repair the file with 'tftool "
+                f"edit {active} -o FILE.mcap', or replace the file with --force."
             )
         if self._is_folder and os.path.lexists(self.path):
             # Replacing a folder would remove its files before there are new ones.
@@ -388,4 +389,4 @@ class RollingRecording:
             elif self.files or not self._is_folder:
                 where = place.with_name(place.name + ACTIVE)
         refusal = failed(self.path, error)
-        return InputError(f"{refusal} {kept} messages up to there can be read in '{where}'.")
+        return InputError(f"{refusal} {kept} earlier messages can be read in '{where}'.")

@@ -96,7 +96,7 @@ def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Rem
     for line, words in _publishers(start if start.startswith("<") else text, name):
         try:
             if words is None:
-                computed.append(_remark(name, line, "its words are computed when it runs"))
+                computed.append(_remark(name, line, "its arguments are computed at run time"))
             elif (said := of_line(words)) is not None:
                 links.append(said)
         except UsageError as error:
@@ -105,7 +105,7 @@ def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Rem
 
 
 def _remark(name: str, line: int, why: str) -> Remark:
-    return line, f"{name}:{line}: a {PUBLISHER} was passed over: {why}"
+    return line, f"{name}:{line}: a {PUBLISHER} was ignored: {why}"
 
 
 Publisher = tuple[int, str | None]

@@ -508,7 +508,7 @@ class _Reader:
         x, y, z = self._numbers(element, "xyz", 3, "1 0 0")
         length = math.hypot(x, y, z)
         if length == 0.0:
-            self._note(element, "the axis of a joint that moves must have a length", "xyz")
+            self._note(element, "the axis of a movable joint must not be zero", "xyz")
             raise _Unreadable
         return Vector3(x / length, y / length, z / length)
 
@@ -521,8 +521,8 @@ class _Reader:
         lower, upper = self._number(element, "lower", "0"), self._number(element, "upper", "0")
         if kind in LIMITED_TYPES and lower > upper:
             self.notes.append(
-                f"joint '{name}' can be nowhere: its lower limit, {lower:g}, is above its upper "
-                f"one, {upper:g}"
+                f"joint '{name}' has no valid position: its lower limit, {lower:g}, is above its "
+                f"upper limit, {upper:g}"
             )
         return JointLimit(
             lower,
@@ -577,8 +577,8 @@ class _Reader:
             more = f" and {len(roots) - 10} more" if len(roots) > 10 else ""
             self._note(
                 robot,
-                f"{len(roots)} links have no parent, and a robot has one root: {shown}{more}; "
-                "join them by fixed joints",
+                f"{len(roots)} links have no parent, but a robot has one root: {shown}{more}; "
+                "connect these links by fixed joints",
             )
         elif not roots and links and not self.mistakes:
             self._note(robot, "every link has a parent, so there is no root")
@@ -590,7 +590,7 @@ class _Reader:
         hint = did_you_mean(link, links)
         self._note(
             _end(place, tag),
-            f"joint '{joint.name}' names the {tag} '{link[:100]}', which is not a link here{hint}",
+            f"joint '{joint.name}' has the {tag} '{link[:100]}', but there is no such link{hint}",
             "link",
         )
 
@@ -603,15 +603,15 @@ class _Reader:
                 if name not in joints:
                     if leader is joint:
                         self.notes.append(
-                            f"joint '{joint.name}' mimics '{name}', which is not a joint here: "
-                            "it is treated as a joint of its own"
+                            f"joint '{joint.name}' mimics '{name}', but there is no such joint: "
+                            f"'{joint.name}' is treated as an independent joint"
                         )
                     break
                 if name in seen:
                     if name == joint.name:
                         self.notes.append(
                             f"joint '{joint.name}' mimics itself by way of {_list(seen)}: "
-                            "it is treated as a joint of its own"
+                            f"'{joint.name}' is treated as an independent joint"
                         )
                     break
                 seen.append(name)

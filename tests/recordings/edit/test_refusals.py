@@ -52,7 +52,10 @@ def test_a_folder_is_replaced_only_if_it_holds_nothing_but_a_recording(tmp_path,
     ("edits", "told"),
     [
         (Edits(drop=(("base_link", "lasr"),)), r"; did you mean base_link:laser.*\?$"),
-        (Edits(poses={("map", "laser"): NEW_POSE}), r"hangs from 'base_link': base_link:laser\.$"),
+        (
+            Edits(poses={("map", "laser"): NEW_POSE}),
+            r"'laser' is 'base_link': name base_link:laser\.$",
+        ),
         (Edits(rename={"lasr": "x"}), "No frame 'lasr'"),
         (Edits(rename={"laser": "camera"}), "Two frames would have the name 'camera'"),
         (Edits(reparent={("base_link", "laser"): "moon"}), "No frame 'moon'"),
@@ -70,7 +73,9 @@ def test_of_a_recording_without_transforms_it_is_said_that_there_are_none(tmp_pa
     plain = write_mcap(tmp_path / "a.mcap", [one for one in SENT if "/tf" not in one.topic])
 
     for edits in (Edits(rename={"laser": "x"}), Edits(drop=(("a", "b"),))):
-        with pytest.raises(UsageError, match=r"was recorded; there are no transforms in it\.$"):
+        with pytest.raises(
+            UsageError, match=r"was recorded; the recording contains no transforms\.$"
+        ):
             edit([str(plain)], tmp_path / "out.mcap", edits)
 
 

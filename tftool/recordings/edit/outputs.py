@@ -32,7 +32,7 @@ from tftool.recordings.message_conversion import (
 
 _HEADS = np.dtype([("log_time", "<i8"), ("publish_time", "<u8"), ("sequence", "<u8")])
 
-_UNREAD: Final = "is left out where it cannot be read"
+_UNREAD: Final = "is left out where a message cannot be read"
 
 
 class EditedFile:

@@ -307,8 +307,8 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
         return None
     if len(recordings) > 1:
         raise UsageError(
-            "--reparent works on one recording only: join the recordings first, then use it on "
-            "the result."
+            "--reparent needs a single recording: join the recordings first, then edit the result "
+            "with --reparent."
         )
     recording = recordings[0]
     static = {edge.child: edge.parent for edge in recording.edges if edge.static}
@@ -321,14 +321,14 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
             raise UsageError(_no_such_frame(new, frames))
         if child in _above(new, parents):
             raise UsageError(
-                f"'{new}' is below '{child}' in the tree, so it cannot become its parent: choose "
-                "another frame."
+                f"'{new}' is below '{child}' in the tree, so '{new}' cannot become the parent of "
+                f"'{child}': choose another frame."
             )
         is_static = static.get(child) == parent
         if is_static and not _joined_by_statics(parent, new, static):
             raise UsageError(
-                f"'{child}' is static, but '{new}' moves relative to '{parent}': '{child}' cannot "
-                "become its child without moving."
+                f"'{child}' is static, but '{new}' moves relative to '{parent}': a static "
+                f"'{child}' cannot become the child of '{new}'."
             )
     buffer = recording.buffer
 
@@ -380,7 +380,7 @@ def _no_such_link(link: LinkName, links: "set[LinkName]") -> str:
     parent, child = link
     others = sorted(p for p, c in links if c == child)
     if others:
-        hint = f"'{child}' hangs from '{others[0]}': {others[0]}:{child}."
+        hint = f"the parent of '{child}' is '{others[0]}': name {others[0]}:{child}."
     else:
         hint = _near(f"{parent}:{child}", {f"{one}:{below}" for one, below in links})
     return f"No link {parent}:{child} was recorded; {hint}"
@@ -395,6 +395,6 @@ def _near(name: str, names: "set[str]") -> str:
     if near:
         return f"did you mean {' or '.join(near)}?"
     if not names:
-        return "there are no transforms in it."
+        return "the recording contains no transforms."
     shown = ", ".join(sorted(names)[:8])
     return f"there are {shown}{' ...' if len(names) > 8 else '.'}"

@@ -158,8 +158,8 @@ class _Job:
         encoding = container_named(container).encoding if container else ""
         if ros2 and encoding == "ros1":
             raise UsageError(
-                f"A {output.suffix} file contains messages of ROS 1, but --ros2 makes those of "
-                f"ROS 2: write '{output.stem}.mcap' or .db3."
+                f"A {output.suffix} file contains messages of ROS 1, but --ros2 converts messages "
+                f"to ROS 2: write '{output.stem}.mcap' or '{output.stem}.db3'."
             )
         self._ros2 = ros2 or encoding == "cdr"
         if edits.split_every and container:
@@ -463,8 +463,8 @@ class _Job:
             channel = output.channels[number]
             wanted[channel.topic, channel.type] += count
         if tape.damage or counts != wanted or found != output.digests:
-            what = tape.damage[0] if tape.damage else "some messages differ from those written"
-            raise InputError(f"'{self._path}' was read again to check it: {what}.")
+            what = tape.damage[0] if tape.damage else "messages differ from the written messages"
+            raise InputError(f"'{self._path}' failed the check after writing: {what}.")
         self.report.messages += sum(counts.values())
         self.report.copied += len(output.copied)
 
@@ -505,13 +505,15 @@ class _Job:
                 if text not in report.notes:
                     report.notes.append(text)
         for topic, reason in self._changer.passed_over.items():
-            report.notes.append(f"'{topic}' keeps its names: {reason.rstrip('.')}.")
+            report.notes.append(
+                f"The frame names on '{topic}' are unchanged: {reason.rstrip('.')}."
+            )
         if self._edits.names and not self._edits.everywhere:
             report.notes += self._old_names()
         ros1 = any(one.encoding == "ros1" for tape in self._tapes for one in tape.channels.values())
         if ros1 and not container_named(self._container).encoding and not self._ros2:
             report.notes.append(
-                "Messages keep ROS 1's encoding (profile ros1): --ros2 converts them to ROS 2's."
+                "Messages keep the encoding of ROS 1 (profile ros1): --ros2 converts to ROS 2."
             )
         if not report.files:
             report.files = [self._path.name]
@@ -524,8 +526,8 @@ class _Job:
                 count = int(np.count_nonzero(np.array(old, dtype=bool)[headers.frames]))
                 if count:
                     yield (
-                        f"{count} messages on '{topic}' still use old names: --everywhere "
-                        "changes them as well."
+                        f"{count} messages on '{topic}' still use old frame names: "
+                        "--everywhere changes these names as well."
                     )
 
     def _tell(self, done: int, total: int = 0) -> None:

@@ -141,7 +141,7 @@ def _solved(
         _note(file, "out of order, sorted", int((np.diff(stamps) < 0).sum()))
         order = np.argsort(stamps, kind="stable")
         stamps, shifts, turns = stamps[order], shifts[order], turns[order]
-        _note(file, "with the stamp of another", int((np.diff(stamps) == 0).sum()))
+        _note(file, "with the stamp of another row", int((np.diff(stamps) == 0).sum()))
     return stamps, np.hstack([shifts, turns])
 
 

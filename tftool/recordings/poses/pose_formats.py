@@ -262,7 +262,8 @@ def convention_of(word: str, path: Path) -> str:
         said += f", --axes {options.axes}"
     frames = ":".join(options.pair()) if options.frames else f"{form.parent}:{form.child}"
     return (
-        f"Reading '{path.name}' as {form.name} ({said}); frames {frames} unless it names its own."
+        f"Reading '{path.name}' as {form.name} ({said}); "
+        f"the frames are {frames} unless the file names frames."
     )
 
 

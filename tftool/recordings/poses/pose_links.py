@@ -216,8 +216,8 @@ class PoseFile:
         if self.options.frames is not None:
             if len(links) > 1:
                 raise UsageError(
-                    f"'{self.path}' has {len(links)} {what} with their own names, so --frames is "
-                    "not allowed: leave it out."
+                    f"'{self.path}' has {len(links)} {what} with different names, so --frames "
+                    "is not allowed: leave out --frames."
                 )
             for link in links:
                 link.parent, link.child = self.frames

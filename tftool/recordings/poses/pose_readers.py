@@ -275,7 +275,9 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
         try:
             file.at_rate(link)
         except InputError as error:
-            raise InputError(f"{error} Or put stamps into '{beside[0].name}' beside it.") from None
+            raise InputError(
+                f"{error} Or put stamps into '{beside[0].name}' in the same folder."
+            ) from None
         return [link]
     for words in file.rows(path=times):
         link.stamps.append(file.seconds(words[0], "a stamp in seconds", times))
@@ -284,8 +286,8 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
     if len(link.stamps) != count:
         more = "more" if len(link.stamps) > count else f"{len(link.stamps)}"
         raise InputError(
-            f"'{path}' has {count} poses, and '{times}' has {more} stamps: they do not belong "
-            "together. To ignore the stamps, give --pose-rate HZ."
+            f"'{path}' has {count} poses, and '{times}' has {more} stamps: the two files do "
+            "not belong together. To ignore the stamps, give --pose-rate HZ."
         )
     return [link]
 

@@ -295,8 +295,8 @@ class Sqlite:
                 self.damage.append("The recording was not closed: its write-ahead log is read too.")
                 return _connected(f"file:{quote(str(copied))}?mode=rw")
             self.damage.append(
-                "The recording was not closed, and its end, in a write-ahead log, is left out: "
-                f"'sqlite3 {path.name} .recover' on a copy brings it in."
+                "The recording was not closed: its last messages are in a write-ahead log, and are "
+                f"left out. 'sqlite3 {path.name} .recover' on a copy restores these messages."
             )
         # With immutable, sqlite creates no lock or journal beside the file.
         return _connected(f"file:{quote(str(path))}?mode=ro&immutable=1")
