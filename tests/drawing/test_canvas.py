@@ -6,11 +6,12 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from rich.cells import cell_len
+from rich.style import Style
 
 from tftool.base.color import Color
 from tftool.drawing import sprites, theme
 from tftool.drawing.canvas import Canvas
-from tftool.drawing.cells import Dots, merged, packed
+from tftool.drawing.cells import NONE, CellSheet, Dots, merged, packed, runs
 from tftool.drawing.line_plot import draw_curve
 from tftool.drawing.plane import (
     ColoredLines,
@@ -593,3 +594,35 @@ def test_a_line_in_ascii_is_a_row_of_strokes_in_its_direction(start, end, sign):
     assert drawn.count(sign) >= 7
     # Where the line only touches a cell, the cell has a single dot.
     assert set(drawn) <= {sign, "'", "."}
+
+
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(" ab"), st.sampled_from([0x112233, 0xFFFFFF]), st.booleans()),
+        min_size=1,
+        max_size=12,
+    )
+)
+def test_joined_cells_keep_the_look_of_each_cell(cells):
+    sheet = CellSheet(len(cells), 1)
+    for column, (sign, ink, has_ground) in enumerate(cells):
+        sheet.texts[0, column], sheet.inks[0, column] = sign, ink
+        sheet.grounds[0, column] = 0x445566 if has_ground else NONE
+    (line,) = sheet.lines()
+    drawn = [(sign, one.style) for one in line for sign in one.text]
+    assert [sign for sign, _ in drawn] == [sign for sign, _, _ in cells]
+    for (sign, style), (_, ink, has_ground) in zip(drawn, cells, strict=True):
+        assert style.bgcolor == (Style(bgcolor="#445566").bgcolor if has_ground else None)
+        assert sign == " " or style.color == Style(color=f"#{ink:06x}").color
+
+
+def test_blanks_between_cells_of_one_colour_begin_no_segment():
+    sheet = CellSheet(7, 1)
+    sheet.write(1, 0, "a", packed(PEN))
+    sheet.write(5, 0, "b", packed(PEN))
+    (line,) = sheet.lines()
+    assert [one.text for one in line] == [" ", "a   b "]
+    assert runs([(" ", ""), ("a", "red"), (" ", ""), ("b", "red"), ("c", "blue")]) == [
+        (" a b", "red"),
+        ("c", "blue"),
+    ]

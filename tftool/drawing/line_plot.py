@@ -13,7 +13,7 @@ from tftool.base.plain_text import visible
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme
-from tftool.drawing.cells import Dots, merged, owners_of, packed
+from tftool.drawing.cells import Dots, merged, owners_of, packed, runs
 from tftool.drawing.table_columns import fitted
 from tftool.frames.pair_samples import Trajectory, trajectory_of
 from tftool.frames.pair_series import (
@@ -332,7 +332,7 @@ def _ticks(limits: tuple[float, float], rows: int) -> list[float]:
 
 
 def _row(label: str, cells: Iterable[tuple[str, str]], look: PlotLook) -> Text:
-    text = Text.assemble(f"{label:>{LABELS}}{look.bar}", *cells, no_wrap=True)
+    text = Text.assemble(f"{label:>{LABELS}}{look.bar}", *runs(cells), no_wrap=True)
     text.rstrip()
     return text.append("\n")
 
@@ -514,7 +514,7 @@ def _curve(
             cells[marked] = cursor, f"bold {theme.hexadecimal(palette.warning)}"
         shown = f"{label[:PAIR_LABELS]:>{PAIR_LABELS}}"
         style = dim if lines else strong
-        lines.append(Text.assemble((shown, style), (bar, dim), *cells, no_wrap=True))
+        lines.append(Text.assemble((shown, style), (bar, dim), *runs(cells), no_wrap=True))
     return lines
 
 
